@@ -1,0 +1,18 @@
+#pragma once
+
+#include <pharos/config/registry.h>
+#include <pharos/core/export.h>
+
+namespace pharos {
+
+/// Changes whenever a contract's binary interface does; modules built for another one are refused.
+inline constexpr int kAbiVersion = 1;
+
+}  // namespace pharos
+
+/// Opens the one registration function of a module's shared library:
+///
+///     PHAROS_MODULE(registry) { registry.add<MySampler>("mine", "What it does in one line"); }
+#define PHAROS_MODULE(registry)                                                              \
+  extern "C" PHAROS_EXPORT int pharos_module_abi_version() { return ::pharos::kAbiVersion; } \
+  extern "C" PHAROS_EXPORT void pharos_module_register(::pharos::Registry& registry)

@@ -1,0 +1,112 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <pharos/config/component.h>
+#include <pharos/config/node.h>
+#include <pharos/config/schema.h>
+
+namespace pharos {
+
+/// What is known of one plugin.
+struct PluginInfo {
+  std::string contract;
+  std::string name;
+  std::string summary;                     ///< one line of text
+  std::string module;                      ///< name of the library that registered it
+  std::vector<ParameterInfo> parameters;   ///< in the order of declaration
+  /// Parses and checks `node`, builds the component, and writes the resolved mapping.
+  std::function<std::shared_ptr<const Component>(const ConfigNode& node, BuildContext& context,
+                                                 ConfigNode& resolved)>
+      build;
+};
+
+/// All plugins by (contract, name). Filled by ModuleLoader; constant afterwards.
+class Registry {
+ public:
+  /// Registers the class P under its contract. P names its settings `P::Settings`, a struct with
+  /// `static void describe(Schema<Settings>&)`, and has a constructor from Settings. Throws
+  /// InputError naming both modules when the name is taken.
+  template <class P>
+  void add(std::string name, std::string summary);
+
+  /// Makes `name` the plugin that a bare scalar or list stands for where contract C is expected:
+  /// `reflectance: 0.5` then reads as `{ type: name, key: 0.5 }`.
+  template <class C>
+  void set_shorthand(std::string name, std::string key) {
+    shorthands_[std::string(C::contract_name)] = {std::move(name), std::move(key)};
+  }
+
+  /// Builds the component of contract C that `node` describes: a mapping with `type`, the name of
+  /// a plugin without further settings, the name of an entry of the scene's dictionaries, or the
+  /// contract's shorthand. Throws InputError with location and nearest name. Never null.
+  template <class C>
+  Ref<C> build(const ConfigNode& node, BuildContext& context, ConfigNode& resolved) const {
+    return std::static_pointer_cast<const C>(
+        build_component(std::string(C::contract_name), node, context, resolved));
+  }
+
+  /// Names of all contracts that have plugins, and of all plugins of a contract, sorted.
+  std::vector<std::string> contracts() const;
+  std::vector<std::string> names(std::string_view contract) const;
+  /// Null when there is no such plugin.
+  const PluginInfo* find(std::string_view contract, std::string_view name) const;
+
+  /// Set by the loader while a module registers its plugins.
+  void set_current_module(std::string module) { current_module_ = std::move(module); }
+  /// Where plugins were looked for; named in errors.
+  void add_searched_folder(std::string folder) { searched_.push_back(std::move(folder)); }
+
+ private:
+  struct Shorthand {
+    std::string plugin, key;
+  };
+
+  void add_info(PluginInfo info);
+  std::shared_ptr<const Component> build_component(const std::string& contract,
+                                                   const ConfigNode& node, BuildContext& context,
+                                                   ConfigNode& resolved) const;
+  const PluginInfo& require(const std::string& contract, const ConfigNode& name) const;
+
+  std::map<std::string, std::map<std::string, PluginInfo, std::less<>>, std::less<>> plugins_;
+  std::map<std::string, Shorthand, std::less<>> shorthands_;
+  std::vector<std::string> searched_;
+  std::string current_module_ = "program";
+};
+
+template <class P>
+void Registry::add(std::string name, std::string summary) {
+  using Settings = typename P::Settings;
+  Schema<Settings> schema;
+  Settings::describe(schema);
+  PluginInfo info{.contract = std::string(P::contract_name),
+                  .name = std::move(name),
+                  .summary = std::move(summary),
+                  .module = current_module_,
+                  .parameters = schema.parameters(),
+                  .build = {}};
+  info.build = [schema = std::move(schema)](const ConfigNode& node, BuildContext& context,
+                                            ConfigNode& resolved) {
+    return std::make_shared<const P>(schema.read(node, context, resolved));
+  };
+  add_info(std::move(info));
+}
+
+template <class C>
+std::shared_ptr<const C> Value<std::shared_ptr<const C>>::read(const ConfigNode& node,
+                                                               BuildContext& context,
+                                                               ConfigNode& resolved) {
+  return context.registry.template build<C>(node, context, resolved);
+}
+
+/// Settings of plugins that have none.
+struct NoSettings {
+  static void describe(Schema<NoSettings>&) {}
+};
+
+}  // namespace pharos

@@ -1,0 +1,141 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <pharos/config/node.h>
+#include <pharos/config/values.h>
+
+namespace pharos {
+
+/// One declared parameter, as shown by `pharos plugins` and in the documentation's tables.
+struct ParameterInfo {
+  std::string key;
+  std::string type;
+  std::string unit;           ///< empty when there is none to state
+  std::string default_value;  ///< YAML text; empty for "none"
+  std::string range;          ///< such as ">= 0" or "one | all"; empty for "any"
+  std::string help;           ///< one line
+  bool required = false;
+};
+
+/// The parameters of a settings struct, each declared once:
+///
+///     struct Settings {
+///       float radius = 1;
+///       static void describe(Schema<Settings>& s) {
+///         s.field("radius", &Settings::radius, "Radius").unit("scene units").above(0);
+///       }
+///     };
+///
+/// Parsing, range checks, listings, documentation and the resolved config all follow from it.
+/// Defaults are those of the member initialisers.
+template <class Settings>
+class Schema {
+ public:
+  /// Refines the field just declared.
+  template <class T>
+  class FieldOptions {
+   public:
+    FieldOptions(ParameterInfo& info, std::vector<std::pair<std::string, Check<T>>>& checks)
+        : info_(info), checks_(checks) {}
+
+    FieldOptions& unit(std::string text) {
+      info_.unit = std::move(text);
+      return *this;
+    }
+    /// The key must be given.
+    FieldOptions& required() {
+      info_.required = true;
+      info_.default_value.clear();
+      return *this;
+    }
+    /// Default for fields whose C++ initialiser cannot say it, as YAML text.
+    FieldOptions& otherwise(std::string yaml) {
+      info_.default_value = std::move(yaml);
+      return *this;
+    }
+    FieldOptions& at_least(double low) {
+      return check(">= " + number_text(low), [low](const T& v) { return all_at_least(v, low); });
+    }
+    FieldOptions& above(double low) {
+      return check("> " + number_text(low), [low](const T& v) { return all_above(v, low); });
+    }
+    FieldOptions& at_most(double high) {
+      return check("<= " + number_text(high), [high](const T& v) { return all_at_most(v, high); });
+    }
+    FieldOptions& below(double high) {
+      return check("< " + number_text(high), [high](const T& v) { return all_below(v, high); });
+    }
+    /// Any other condition, worded as what is expected.
+    FieldOptions& check(std::string expected, Check<T> holds) {
+      info_.range += (info_.range.empty() ? "" : " and ") + expected;
+      checks_.emplace_back(std::move(expected), std::move(holds));
+      return *this;
+    }
+
+   private:
+    ParameterInfo& info_;
+    std::vector<std::pair<std::string, Check<T>>>& checks_;
+  };
+
+  /// Declares the parameter `key`, stored in `member`.
+  template <class T>
+  FieldOptions<T> field(std::string key, T Settings::*member, std::string help) {
+    auto info = std::make_shared<ParameterInfo>();
+    auto checks = std::make_shared<std::vector<std::pair<std::string, Check<T>>>>();
+    info->key = std::move(key);
+    info->type = Value<T>::type_name();
+    info->default_value = Value<T>::default_text(Settings{}.*member);
+    info->range = Value<T>::range();
+    info->help = std::move(help);
+    fields_.push_back({info, [=](Settings& settings, const ConfigNode& node, BuildContext& context,
+                                 ConfigNode& resolved) {
+                         T value = Value<T>::read(node, context, resolved);
+                         for (const auto& [expected, holds] : *checks) {
+                           if (!holds(value)) fail_range(node, info->key, expected);
+                         }
+                         settings.*member = std::move(value);
+                       }});
+    return FieldOptions<T>(*info, *checks);
+  }
+
+  std::vector<ParameterInfo> parameters() const {
+    std::vector<ParameterInfo> all;
+    for (const Field& f : fields_) all.push_back(*f.info);
+    return all;
+  }
+
+  /// Reads the mapping `node` (the key `type` is the registry's and skipped). Throws InputError
+  /// for unknown keys, missing required keys, wrong types and values out of range. `resolved`
+  /// receives every parameter with the value in force.
+  Settings read(const ConfigNode& node, BuildContext& context, ConfigNode& resolved) const {
+    check_keys(node, parameters());
+    Settings settings;
+    for (const Field& f : fields_) {
+      const ConfigNode* given = node.find(f.info->key);
+      ConfigNode value;
+      if (given != nullptr) {
+        f.read(settings, *given, context, value);
+      } else if (f.info->required) {
+        fail_missing(node, *f.info);
+      } else if (!f.info->default_value.empty()) {
+        f.read(settings, default_node(*f.info, node), context, value);
+      }
+      if (!value.is_null()) resolved.set(f.info->key, std::move(value));
+    }
+    return settings;
+  }
+
+ private:
+  struct Field {
+    std::shared_ptr<ParameterInfo> info;
+    std::function<void(Settings&, const ConfigNode&, BuildContext&, ConfigNode&)> read;
+  };
+  std::vector<Field> fields_;
+};
+
+}  // namespace pharos

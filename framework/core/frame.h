@@ -1,0 +1,29 @@
+#pragma once
+
+#include <pharos/core/vec.h>
+
+namespace pharos {
+
+/// An orthonormal right-handed frame; local z is the normal.
+struct Frame {
+  Vec3 s{1, 0, 0}, t{0, 1, 0}, n{0, 0, 1};
+
+  /// A frame around the unit normal `n`, continuous but for one pole
+  /// (Duff et al. 2017, "Building an Orthonormal Basis, Revisited").
+  static Frame from_normal(Vec3 n) {
+    const float sign = std::copysign(1.0f, n.z);
+    const float a = -1 / (sign + n.z);
+    const float b = n.x * n.y * a;
+    return {{1 + sign * n.x * n.x * a, sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}, n};
+  }
+
+  Vec3 to_local(Vec3 v) const { return {dot(v, s), dot(v, t), dot(v, n)}; }
+  Vec3 to_world(Vec3 v) const { return v.x * s + v.y * t + v.z * n; }
+};
+
+/// Signed cosine between a local direction and the normal.
+constexpr float cos_theta(Vec3 local) {
+  return local.z;
+}
+
+}  // namespace pharos

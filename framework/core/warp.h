@@ -1,0 +1,47 @@
+#pragma once
+
+#include <pharos/core/frame.h>
+#include <pharos/core/vec.h>
+
+/// Maps from primary numbers u in [0,1)^2 to the domains of rendering, each with its density.
+/// `X_from_square` warps; `X_pdf` is the density of its result; where there is an inverse,
+/// `square_from_X` undoes the warp.
+namespace pharos::warp {
+
+/// Unit disk, area-preserving concentric map (Shirley and Chiu 1997). Density 1/pi [1/m^2].
+Vec2 disk_from_square(Vec2 u);
+/// Inverse of disk_from_square.
+Vec2 square_from_disk(Vec2 p);
+constexpr float disk_pdf() {
+  return 1 / kPi;
+}
+
+/// Cosine-weighted direction about +z. Density cosine_hemisphere_pdf [1/sr].
+Vec3 cosine_hemisphere_from_square(Vec2 u);
+Vec2 square_from_cosine_hemisphere(Vec3 direction);
+constexpr float cosine_hemisphere_pdf(float cos_theta) {
+  return cos_theta > 0 ? cos_theta / kPi : 0.0f;
+}
+
+/// Uniform direction. Density 1/(4 pi) [1/sr].
+Vec3 sphere_from_square(Vec2 u);
+Vec2 square_from_sphere(Vec3 direction);
+constexpr float sphere_pdf() {
+  return 1 / (4 * kPi);
+}
+
+/// Uniform direction in the cone about +z whose half-angle has `one_minus_cos` = 1 - cos(angle);
+/// given that way so that narrow cones keep their digits. Density cone_pdf [1/sr].
+Vec3 cone_from_square(Vec2 u, float one_minus_cos);
+constexpr float cone_pdf(float one_minus_cos) {
+  return 1 / (2 * kPi * one_minus_cos);
+}
+
+/// Barycentric weights (b1, b2) of vertices 1 and 2, uniform over a triangle's area
+/// (Heitz 2019, "A Low-Distortion Map Between Triangle and Square").
+Vec2 triangle_from_square(Vec2 u);
+
+/// Standard normal quantile, the map from (0,1) to a unit Gaussian. Double, about 1e-15 accurate.
+double normal_from_unit(double u);
+
+}  // namespace pharos::warp

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include <pharos/config/component.h>
+#include <pharos/core/arena.h>
+#include <pharos/guiding/distribution.h>
+#include <pharos/guiding/model.h>
+#include <pharos/scene/local_scattering.h>
+#include <pharos/scene/sensor.h>
+
+namespace pharos {
+
+/// What a guide may know of a path vertex.
+struct GuidingVertex {
+  Point3 position;
+  Vec3 normal;          ///< geometric, unit; zero in media
+  Vec3 shading_normal;  ///< unit; zero in media
+  VertexKind kind = VertexKind::surface;
+  Event event = Event::none;  ///< what happened here; none at the current vertex
+  float roughness = 1;
+};
+
+/// The question a guide is asked: where from here? Everything in it is a function of the path's
+/// prefix.
+struct GuidingQuery {
+  const GuidingVertex* previous = nullptr;  ///< null only at a path's very first vertex
+  GuidingVertex current;
+  Vec3 towards_previous;               ///< unit
+  Transport transport = Transport::radiance;
+  std::uint16_t bounce = 1;            ///< number of the current vertex; the first after the lens is 1
+  const LocalScattering& scattering;   ///< BSDF or phase function here
+  const Medium* exterior = nullptr;    ///< on the side of the normal, or around a volume vertex
+  const Medium* interior = nullptr;    ///< on the other side
+};
+
+/// What a guider offers and needs; checked before rendering starts.
+struct GuiderTraits {
+  std::string model;              ///< neutral name of the model contract it binds to
+  bool steers_distance = false;   ///< decides how far paths go in media
+  bool steers_events = false;     ///< proposes discrete events
+  bool guides_camera = false;     ///< offers the first vertex
+};
+
+/// Proposes the first vertex, and so chooses the pixel.
+class CameraGuider {
+ public:
+  virtual ~CameraGuider() = default;
+  /// The distribution of directions from `lens`, or null when nothing is known. Proposals off the
+  /// film are zero samples. Made in `arena`.
+  virtual const GuidingDistribution* query_camera(const PreparedSensor& sensor,
+                                                  const LensPoint& lens, Arena& arena) const = 0;
+};
+
+/// A guider bound to one model: constant, thread-safe, asked at every vertex.
+class BoundGuider {
+ public:
+  virtual ~BoundGuider() = default;
+
+  /// The distribution to propose from, made in `arena`; null when nothing is known here. Whether it
+  /// is null depends on the query alone, and so on the path's prefix alone. No heap, no lock.
+  /// Guides that do not steer events must decline purely discrete vertices.
+  virtual const GuidingDistribution* query(const GuidingQuery& query, Arena& arena) const = 0;
+
+  /// Null unless the traits say guides_camera.
+  virtual const CameraGuider* camera() const { return nullptr; }
+};
+
+/// Contract: how a learned model is sampled.
+class Guider : public Component {
+ public:
+  static constexpr std::string_view contract_name = "guider";
+
+  virtual GuiderTraits traits() const = 0;
+  /// Binds to a model; shares its ownership. Throws InputError naming both when the model is none
+  /// that this guider can sample.
+  virtual std::unique_ptr<const BoundGuider> bind(
+      std::shared_ptr<const GuidingModel> model) const = 0;
+};
+
+}  // namespace pharos

@@ -1,0 +1,104 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <pharos/config/component.h>
+#include <pharos/config/schema.h>
+#include <pharos/guiding/guider.h>
+#include <pharos/guiding/learner.h>
+#include <pharos/guiding/mixing.h>
+#include <pharos/guiding/schedule.h>
+
+namespace pharos {
+
+/// One guiding method of a render.
+struct GuidingMethod {
+  Ref<Learner> learner;
+  Ref<Guider> guider;
+  float weight = 1;  ///< relative share among the methods that know something at a vertex
+
+  static void describe(Schema<GuidingMethod>& schema);
+};
+
+/// The `guiding:` part of an integrator's settings. One method is given in place, several as a
+/// list under `methods`.
+struct GuidingSettings {
+  Ref<Learner> learner;
+  Ref<Guider> guider;
+  std::vector<GuidingMethod> methods;
+  Ref<MixingPolicy> mixing;
+  TrainingSchedule training;
+
+  static void describe(Schema<GuidingSettings>& schema);
+
+  /// The methods, however they were given. Throws InputError when none or both ways were used, or
+  /// when a learner's model is not what its guider samples, naming both.
+  std::vector<GuidingMethod> resolved_methods() const;
+  /// Union of what all learners and the mixing policy need recorded.
+  RecordNeeds record_needs() const;
+};
+
+/// What is known about where to go from a vertex.
+struct Guidance {
+  const GuidingDistribution* distribution = nullptr;  ///< null: sample unguided
+  float unguided_fraction = 1;
+  std::uint32_t region = 0;  ///< of the mixing policy
+};
+
+/// All methods of a render with their models, frozen for one iteration: constant, thread-safe.
+class GuidingFrame {
+ public:
+  struct Method {
+    std::shared_ptr<const BoundGuider> guider;  ///< null while its learner knows nothing
+    float weight = 1;
+    bool steers_distance = false;
+    bool steers_events = false;
+    std::uint32_t first_region = 0;  ///< regions of all methods are numbered through
+  };
+
+  GuidingFrame(std::vector<Method> methods, std::shared_ptr<const MixingFractions> fractions)
+      : methods_(std::move(methods)), fractions_(std::move(fractions)) {}
+
+  /// Guidance at a vertex: the weighted mixture of all methods that know something there.
+  /// Densities of its distribution include `medium_density` where methods leave distances to the
+  /// medium, so they are complete for every method alike.
+  Guidance query(const GuidingQuery& query, Arena& arena) const;
+  /// Guidance of the first vertex.
+  Guidance query_camera(const PreparedSensor& sensor, const LensPoint& lens, Arena& arena) const;
+  bool guides_camera() const;
+
+ private:
+  std::vector<Method> methods_;
+  std::shared_ptr<const MixingFractions> fractions_;
+};
+
+/// The learning side of a render: every method's state, its newest model, and the mixing policy's.
+class GuidingState {
+ public:
+  GuidingState(const GuidingSettings& settings, const LearningContext& context);
+  ~GuidingState();
+
+  /// What guides the coming iteration; null before anything is known.
+  std::shared_ptr<const GuidingFrame> frame() const { return frame_; }
+  void absorb(const PathLog& log);
+  void update(std::uint32_t iteration, bool last);
+
+  /// The newest model of method `i`; null before the first.
+  std::shared_ptr<const GuidingModel> model(std::size_t i) const;
+  std::size_t method_count() const;
+  /// Of all models [bytes].
+  std::size_t model_bytes() const;
+
+ private:
+  struct Method;
+  void rebuild_frame();
+
+  std::vector<Method> methods_;
+  std::unique_ptr<MixingState> mixing_;
+  std::shared_ptr<const MixingFractions> fractions_;
+  std::shared_ptr<const GuidingFrame> frame_;
+};
+
+}  // namespace pharos

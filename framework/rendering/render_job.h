@@ -1,0 +1,78 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include <pharos/core/image.h>
+#include <pharos/guiding/guiding.h>
+#include <pharos/rendering/film.h>
+#include <pharos/rendering/integrator.h>
+#include <pharos/rendering/render_config.h>
+
+namespace pharos {
+
+/// How far a render has come.
+struct Progress {
+  std::uint32_t iteration = 0, iteration_count = 1;
+  bool training = false;
+  double fraction = 0;  ///< of the whole budget, in [0, 1]
+  double seconds = 0;   ///< since the start
+  double samples_per_pixel = 0;
+  std::uint64_t rays = 0;
+};
+
+/// How a render is watched and stopped.
+struct RenderControl {
+  /// Called between work units, by one thread at a time; may be empty.
+  std::function<void(const Progress&)> on_progress;
+  /// Set by anyone to end the render early; what was rendered is kept.
+  const std::atomic<bool>* stop = nullptr;
+};
+
+/// Seconds of wall-clock time by what they were spent on.
+struct RenderTimes {
+  double preparation = 0;  ///< acceleration structure, sampler
+  double training = 0;     ///< rendering of training iterations
+  double update = 0;       ///< learners' updates
+  double rendering = 0;    ///< of the final image
+};
+
+/// What a render has made.
+struct RenderResult {
+  Film film;
+  RenderCounters counters;
+  RenderTimes times;
+  bool stopped = false;          ///< ended early through RenderControl::stop
+  std::size_t model_bytes = 0;   ///< of the learned models
+  std::shared_ptr<const GuidingModel> model;  ///< of the first method; null: none
+  std::optional<PathKey> first_invalid;       ///< a path of NaN or infinite value
+};
+
+/// Runs a config: divides the budget into iterations and passes, runs their work units on TBB,
+/// merges in order, trains between iterations. With a sample budget the result is the same to
+/// the bit for any number of threads.
+class RenderJob {
+ public:
+  explicit RenderJob(const RenderConfig& config);
+  ~RenderJob();
+
+  RenderResult run(const RenderControl& control = {});
+
+  /// Runs one path of iteration 0 again.
+  PathTrace replay(int x, int y, std::uint32_t sample) const;
+
+  const Scene& scene() const;
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+/// Writes the image, with `resolved` and what `result` tells in its metadata, its PNG, and the
+/// model. Files appear whole or not at all.
+void write_outputs(const RenderResult& result, const LoadedConfig& loaded);
+
+}  // namespace pharos

@@ -1,0 +1,115 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string_view>
+
+#include <pharos/config/component.h>
+#include <pharos/core/vec.h>
+#include <pharos/sampling/dimension.h>
+
+namespace pharos {
+
+class IntegrandProbe;
+class PreparedSampler;
+
+/// Names a path. Every number that a path sees is a function of this key and a Dimension.
+struct PathKey {
+  std::uint64_t seed = 0;
+  std::uint32_t iteration = 0;  ///< of training; each is an independent image
+  std::uint64_t index = 0;      ///< pixel (y * width + x) or path number
+  std::uint32_t sample = 0;     ///< of this pixel within the iteration, from 0 on
+};
+
+/// The primary numbers of one path: a small value, free to copy. Asking twice for the same
+/// dimension gives the same number; the order of asking does not matter.
+class SampleStream {
+ public:
+  SampleStream(const PreparedSampler& sampler, const PathKey& key);
+
+  /// In [0, 1).
+  float get_1d(Dimension dimension) const;
+  /// In [0, 1)^2.
+  Vec2 get_2d(Dimension dimension) const;
+
+  const PathKey& key() const { return key_; }
+  /// What PreparedSampler::begin() derived from the key.
+  std::uint64_t state() const { return state_; }
+
+ private:
+  const PreparedSampler* sampler_;
+  PathKey key_;
+  std::uint64_t state_;
+};
+
+/// A stream seen from one path vertex.
+class VertexStream {
+ public:
+  VertexStream(const SampleStream& stream, std::uint16_t bounce)
+      : stream_(&stream), bounce_(bounce) {}
+
+  float get_1d(Purpose purpose, std::uint16_t branch = 0) const {
+    return stream_->get_1d({purpose, bounce_, branch});
+  }
+  Vec2 get_2d(Purpose purpose, std::uint16_t branch = 0) const {
+    return stream_->get_2d({purpose, bounce_, branch});
+  }
+
+ private:
+  const SampleStream* stream_;
+  std::uint16_t bounce_;
+};
+
+/// A sampler made ready for one render: constant, thread-safe, without memory of what was asked.
+class PreparedSampler {
+ public:
+  virtual ~PreparedSampler() = default;
+
+  /// Work that all numbers of a path share, such as hashing its key.
+  virtual std::uint64_t begin(const PathKey& key) const = 0;
+  /// In [0, 1).
+  virtual float value_1d(const SampleStream& stream, Dimension dimension) const = 0;
+  /// In [0, 1)^2.
+  virtual Vec2 value_2d(const SampleStream& stream, Dimension dimension) const = 0;
+};
+
+/// The pixels that will be rendered.
+struct PixelGrid {
+  int width = 0, height = 0;
+};
+
+/// How many samples will be taken.
+struct SamplePlan {
+  std::uint64_t seed = 0;
+  std::uint32_t samples_per_pixel = 0;  ///< of the longest iteration; 0: unknown (time budget)
+};
+
+/// Contract: where primary numbers come from. Samplers differ in how the numbers of different
+/// samples of a pixel, and of different pixels, are arranged; each number alone is uniform.
+class Sampler : public Component {
+ public:
+  static constexpr std::string_view contract_name = "sampler";
+
+  /// Makes the sampler ready for a render. `probe` evaluates the integrand before rendering; it
+  /// lives for this call only, and is null for integrators that offer none.
+  virtual std::unique_ptr<const PreparedSampler> prepare(const PixelGrid& grid,
+                                                         const SamplePlan& plan,
+                                                         const IntegrandProbe* probe) const = 0;
+
+  /// Size of the finite sets that a sampler works with: renders run whole sets, in passes of this
+  /// many samples a pixel. 1: any count is as good.
+  virtual std::uint32_t preferred_samples() const { return 1; }
+  /// Whether prepare() needs a probe.
+  virtual bool needs_probe() const { return false; }
+};
+
+inline SampleStream::SampleStream(const PreparedSampler& sampler, const PathKey& key)
+    : sampler_(&sampler), key_(key), state_(sampler.begin(key)) {}
+inline float SampleStream::get_1d(Dimension dimension) const {
+  return sampler_->value_1d(*this, dimension);
+}
+inline Vec2 SampleStream::get_2d(Dimension dimension) const {
+  return sampler_->value_2d(*this, dimension);
+}
+
+}  // namespace pharos

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstdint>
+
+namespace pharos {
+
+/// What a path vertex lies on.
+enum class VertexKind : std::uint8_t {
+  sensor,       ///< on the lens
+  surface,      ///< on a shape
+  volume,       ///< in a medium
+  environment,  ///< infinitely far away; `position` is a stand-in outside the scene
+  light,        ///< on an emitter without extent (point, spot)
+};
+
+/// What happened to a path at a vertex. Bits, so that sets of events are masks.
+enum class Event : std::uint8_t {
+  none = 0,
+  smooth_reflect = 1,     ///< has a density over directions [1/sr]
+  smooth_transmit = 2,    ///< has a density over directions [1/sr]
+  discrete_reflect = 4,   ///< one direction with a probability
+  discrete_transmit = 8,  ///< one direction with a probability
+  pass_through = 16,      ///< straight through an index-matched or masked surface; discrete
+  scatter = 32,           ///< in a medium; has a density over directions [1/sr]
+};
+
+/// A set of events.
+enum class EventMask : std::uint8_t {
+  nothing = 0,
+  smooth = 1 | 2 | 32,
+  discrete = 4 | 8 | 16,
+  reflect = 1 | 4,
+  transmit = 2 | 8 | 16,
+  all = 63,
+};
+
+constexpr EventMask mask_of(Event e) {
+  return static_cast<EventMask>(e);
+}
+constexpr EventMask operator|(EventMask a, EventMask b) {
+  return static_cast<EventMask>(static_cast<std::uint8_t>(a) | static_cast<std::uint8_t>(b));
+}
+constexpr EventMask operator&(EventMask a, EventMask b) {
+  return static_cast<EventMask>(static_cast<std::uint8_t>(a) & static_cast<std::uint8_t>(b));
+}
+constexpr bool contains(EventMask set, Event e) {
+  return (static_cast<std::uint8_t>(set) & static_cast<std::uint8_t>(e)) != 0;
+}
+constexpr bool is_empty(EventMask set) {
+  return set == EventMask::nothing;
+}
+constexpr bool is_discrete(Event e) {
+  return contains(EventMask::discrete, e);
+}
+
+/// What is carried along the path, and so which way light runs. Paths from the sensor carry
+/// importance backwards along radiance: they *estimate radiance*.
+enum class Transport : std::uint8_t {
+  radiance,    ///< the path was begun at the sensor
+  importance,  ///< the path was begun at a light
+};
+
+/// The measure a density refers to. Densities of different measures never mix.
+enum class Measure : std::uint8_t {
+  solid_angle,         ///< [1/sr]: a direction, with the surface or environment met along it
+  solid_angle_length,  ///< [1/(sr m)]: a direction and a distance, a vertex in a medium
+  discrete,            ///< [1]: the probability of a discrete event
+};
+
+}  // namespace pharos

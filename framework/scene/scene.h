@@ -1,0 +1,89 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <pharos/core/bounds.h>
+#include <pharos/core/ray.h>
+#include <pharos/scene/bsdf.h>
+#include <pharos/scene/emitter.h>
+#include <pharos/scene/medium.h>
+#include <pharos/scene/sensor.h>
+#include <pharos/scene/shape.h>
+
+namespace pharos {
+
+/// A shape with what it is made of. `emitter`, `interior` and `exterior` may be null.
+struct SceneObject {
+  Ref<Shape> shape;
+  Ref<Bsdf> bsdf;
+  Ref<Emitter> emitter;
+  Ref<Medium> interior;  ///< on the side away from the normal; null: empty
+  Ref<Medium> exterior;  ///< on the side of the normal; null: empty
+};
+
+/// The parts of a scene.
+struct SceneParts {
+  std::vector<SceneObject> objects;
+  std::vector<Ref<Emitter>> emitters;  ///< those that stand alone
+  Ref<Sensor> sensor;
+  Ref<Medium> medium;  ///< around the sensor; null: empty
+};
+
+/// Geometry, materials and lights, ready for rays. Immutable and thread-safe.
+class Scene {
+ public:
+  /// Builds the acceleration structure; the result does not depend on the number of threads.
+  explicit Scene(SceneParts parts);
+  ~Scene();
+  Scene(const Scene&) = delete;
+  Scene& operator=(const Scene&) = delete;
+
+  /// The nearest surface with 0 < t < ray.t_max. On success fills `point` and returns the
+  /// distance; otherwise returns infinity.
+  float intersect(const Ray& ray, SurfacePoint& point) const;
+  /// Whether anything lies on the ray before ray.t_max.
+  bool occluded(const Ray& ray) const;
+
+  const std::vector<SceneObject>& objects() const { return parts_.objects; }
+  const Bsdf& bsdf(const SurfacePoint& point) const { return *parts_.objects[point.object].bsdf; }
+  /// The light on the object that `point` lies on; null when it has none.
+  const Light* light_at(const SurfacePoint& point) const { return object_lights_[point.object]; }
+  /// Index into lights() of the light of an object; -1 when it has none.
+  int light_index(const SurfacePoint& point) const { return object_light_index_[point.object]; }
+  /// The medium that a ray leaving `point` towards `direction` is in; null: empty.
+  const Medium* medium_towards(const SurfacePoint& point, Vec3 direction) const {
+    const SceneObject& o = parts_.objects[point.object];
+    return dot(direction, point.normal) >= 0 ? o.exterior.get() : o.interior.get();
+  }
+
+  std::span<const std::unique_ptr<const Light>> lights() const { return lights_; }
+  /// Indices into lights() of those that rays leaving the scene meet.
+  std::span<const int> environment_lights() const { return environment_lights_; }
+  const Sensor& sensor() const { return *parts_.sensor; }
+  /// The medium around the sensor; null: empty.
+  const Medium* sensor_medium() const { return parts_.medium.get(); }
+  bool has_media() const { return has_media_; }
+
+  /// Box of all geometry and the sensor [scene units].
+  const Bounds3& bounds() const { return bounds_; }
+  /// Triangles and analytic primitives together.
+  std::size_t primitive_count() const;
+
+ private:
+  class Accelerator;
+
+  void place_lights();
+
+  SceneParts parts_;
+  Bounds3 bounds_;
+  std::unique_ptr<const Accelerator> accelerator_;
+  std::vector<std::unique_ptr<const Light>> lights_;
+  std::vector<const Light*> object_lights_;
+  std::vector<int> object_light_index_;
+  std::vector<int> environment_lights_;
+  bool has_media_ = false;
+};
+
+}  // namespace pharos

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <pharos/config/registry.h>
+#include <pharos/scene/scene.h>
+
+namespace pharos {
+
+/// Scenes in configs: a path to a scene file, or the same mapping in place.
+///
+///     textures:  { name: texture, … }          # named parts, used by name below
+///     materials: { name: bsdf, … }
+///     media:     { name: medium, … }
+///     shapes:    [ { type: …, material: …, emitter: …, interior: …, exterior: … }, … ]
+///     emitters:  [ emitter, … ]                # those without shape
+///     sensor:    sensor
+///     medium:    medium                        # around the sensor
+///
+/// Reading throws InputError with the location for everything that does not fit together.
+template <>
+struct Value<SceneParts> : PlainValue {
+  static std::string type_name() { return "scene"; }
+  static std::string default_text(const SceneParts&) { return {}; }
+  static SceneParts read(const ConfigNode& node, BuildContext& context, ConfigNode& resolved);
+};
+
+}  // namespace pharos

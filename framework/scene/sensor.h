@@ -1,0 +1,50 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string_view>
+
+#include <pharos/config/component.h>
+#include <pharos/core/ray.h>
+
+namespace pharos {
+
+/// A point on the lens, the first vertex of every path from the sensor.
+struct LensPoint {
+  Point3 position;
+  Vec3 normal;  ///< unit, along the view direction
+};
+
+/// How the sensor sees a direction from a lens point.
+struct SensorResponse {
+  Vec2 film;                ///< normalised film position in [0,1)^2, y downwards
+  float direction_pdf = 0;  ///< density of directions when film positions are uniform [1/sr]
+};
+
+/// A sensor for a film of given size: constant, thread-safe. Film positions are normalised to
+/// [0,1)^2 with the origin at the top left. The measurement of a pixel is the mean of radiance
+/// over its film positions and the lens, so a ray of uniform film and lens position has weight 1.
+class PreparedSensor {
+ public:
+  virtual ~PreparedSensor() = default;
+
+  /// Uniform on the lens.
+  virtual LensPoint sample_lens(Vec2 u) const = 0;
+  /// The ray from `lens` that belongs to a film position.
+  virtual Ray ray(const LensPoint& lens, Vec2 film) const = 0;
+  /// The film position that a direction from `lens` belongs to; empty off the film.
+  virtual std::optional<SensorResponse> response(const LensPoint& lens, Vec3 direction) const = 0;
+};
+
+/// Contract: a camera.
+class Sensor : public Component {
+ public:
+  static constexpr std::string_view contract_name = "sensor";
+
+  /// For a film of `width` x `height` pixels, both > 0.
+  virtual std::unique_ptr<const PreparedSensor> prepare(int width, int height) const = 0;
+  /// A point of the lens; part of the scene's bounds.
+  virtual Point3 position() const = 0;
+};
+
+}  // namespace pharos

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include <pharos/config/component.h>
+#include <pharos/core/bounds.h>
+#include <pharos/core/ray.h>
+#include <pharos/scene/surface_point.h>
+
+namespace pharos {
+
+/// Indexed triangles in world space. `normals` and `uvs` are empty or one per position.
+struct TriangleMesh {
+  std::vector<Point3> positions;
+  std::vector<Vec3> normals;
+  std::vector<Vec2> uvs;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+
+  /// The surface at barycentric weights (b1, b2) of `triangle`'s vertices 1 and 2.
+  SurfacePoint surface_point(std::uint32_t triangle, float b1, float b2) const;
+  /// [scene units^2]
+  float area(std::uint32_t triangle) const;
+  Bounds3 bounds() const;
+};
+
+/// Where a ray met a primitive, in the primitive's own terms.
+struct PrimitiveHit {
+  float t = kInfinity;       ///< distance [scene units]
+  Vec2 coordinates;          ///< meaning is the shape's own; barycentric (b1, b2) for meshes
+  std::uint32_t primitive = 0;
+};
+
+/// A point drawn from a shape's surface.
+struct ShapeSample {
+  SurfacePoint point;
+  float pdf = 0;  ///< [1/m^2] from sample(), [1/sr] from sample_from()
+};
+
+/// Contract: a surface in world space. Thread-safe. A shape is either a triangle mesh (mesh()
+/// not null; Embree intersects it) or analytic (intersect() is called).
+class Shape : public Component {
+ public:
+  static constexpr std::string_view contract_name = "shape";
+
+  virtual Bounds3 bounds() const = 0;
+  /// Of all primitives [scene units^2], > 0.
+  virtual float area() const = 0;
+
+  /// The triangles, or null for an analytic shape. Lives as long as the shape.
+  virtual const TriangleMesh* mesh() const { return nullptr; }
+
+  /// Analytic shapes: bounds of a primitive.
+  virtual std::uint32_t primitive_count() const { return 1; }
+  virtual Bounds3 primitive_bounds(std::uint32_t) const { return bounds(); }
+  /// Analytic shapes: the nearest hit with 0 < t < ray.t_max; false when there is none.
+  virtual bool intersect(const Ray& ray, std::uint32_t primitive, PrimitiveHit& hit) const;
+  /// The surface at a hit that intersect() or Embree reported; `object` is filled in by Scene.
+  virtual SurfacePoint surface_point(const Ray& ray, const PrimitiveHit& hit) const;
+
+  /// Uniform over the area; pdf 1 / area() [1/m^2].
+  virtual ShapeSample sample(Vec2 u) const = 0;
+
+  /// A point as seen from `from`, pdf in solid angle there [1/sr]; pdf 0 when nothing can be seen.
+  /// By default sample() converted by distance^2 / |cos|.
+  virtual ShapeSample sample_from(Point3 from, Vec2 u) const;
+  /// The density [1/sr] with which sample_from(from) yields `point`.
+  virtual float pdf_from(Point3 from, const SurfacePoint& point) const;
+};
+
+/// Converts a density over area [1/m^2] at `point` into one over solid angle [1/sr] at `from`;
+/// 0 when the surface is seen edge-on.
+float solid_angle_pdf_from_area(float area_pdf, Point3 from, Point3 point, Vec3 normal);
+/// The inverse conversion: [1/sr] at `from` into [1/m^2] at `point`.
+float area_pdf_from_solid_angle(float solid_angle_pdf, Point3 from, Point3 point, Vec3 normal);
+
+}  // namespace pharos
