@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 namespace pharos {
 
@@ -14,8 +15,15 @@ class Component {
   Component(const Component&) = delete;
   Component& operator=(const Component&) = delete;
 
+  /// The name it was registered and built under; empty when it was not made by a Registry.
+  const std::string& plugin_name() const { return plugin_name_; }
+
  protected:
   Component() = default;
+
+ private:
+  friend class Registry;
+  std::string plugin_name_;
 };
 
 /// How components are held: shared and immutable. Null only where a docstring says so.

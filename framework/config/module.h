@@ -13,6 +13,8 @@ inline constexpr int kAbiVersion = 1;
 /// Opens the one registration function of a module's shared library:
 ///
 ///     PHAROS_MODULE(registry) { registry.add<MySampler>("mine", "What it does in one line"); }
-#define PHAROS_MODULE(registry)                                                              \
-  extern "C" PHAROS_EXPORT int pharos_module_abi_version() { return ::pharos::kAbiVersion; } \
+#define PHAROS_MODULE(registry)                              \
+  extern "C" PHAROS_EXPORT int pharos_module_abi_version() { \
+    return ::pharos::kAbiVersion;                            \
+  }                                                          \
   extern "C" PHAROS_EXPORT void pharos_module_register(::pharos::Registry& registry)

@@ -14,10 +14,12 @@ namespace pharos {
 void load_modules(Registry& registry, const std::filesystem::path& folder, bool required = false);
 
 /// The folders that every program loads from: beside the program (build tree) or in the install
-/// prefix's `lib/pharos/plugins`, then those of the colon-separated PHAROS_MODULE_PATH.
+/// prefix's `lib/pharos/plugins`, then those of the colon-separated PHAROS_MODULE_PATH. Each folder
+/// stands once.
 std::vector<std::filesystem::path> default_module_folders();
 
-/// A registry with the modules of all default folders.
+/// A registry with the modules of all default folders. Those that PHAROS_MODULE_PATH names must
+/// exist.
 Registry load_default_modules();
 
 }  // namespace pharos

@@ -25,6 +25,7 @@ class ConfigNode {
   ConfigNode& operator=(const ConfigNode&);
   ConfigNode& operator=(ConfigNode&&) noexcept;
 
+  static ConfigNode null(Location where = {});
   static ConfigNode scalar(std::string text, Location where = {});
   static ConfigNode sequence(Location where = {});
   static ConfigNode mapping(Location where = {});
@@ -34,7 +35,8 @@ class ConfigNode {
   bool is_scalar() const { return kind_ == Kind::scalar; }
   bool is_sequence() const { return kind_ == Kind::sequence; }
   bool is_mapping() const { return kind_ == Kind::mapping; }
-  /// "a mapping", "the scalar 'x'", … for error messages.
+  /// What an error message says was found, on one line and shortened: "nothing", "the scalar 'x'",
+  /// "the list [1, 2]", "the mapping { type: sobol, … }".
   std::string describe() const;
 
   const Location& where() const { return where_; }
@@ -42,17 +44,20 @@ class ConfigNode {
   const std::vector<ConfigNode>& items() const { return items_; }
   std::vector<ConfigNode>& items() { return items_; }
   const std::vector<Entry>& entries() const { return entries_; }
+  /// For changing values in place; keys are unique, see set().
+  std::vector<Entry>& entries() { return entries_; }
 
-  /// The value under `key`; null when this is no mapping or has no such key.
+  /// The value under `key`; a null pointer when this is no mapping or has no such key.
   const ConfigNode* find(std::string_view key) const;
+  ConfigNode* find(std::string_view key);
   /// Where `key` itself was written; this node's own place when there is no such key.
   const Location& where_key(std::string_view key) const;
-  /// Adds or replaces an entry.
+  /// Adds an entry at the end, or replaces the one with this key where it stands.
   void set(std::string key, ConfigNode value, Location key_where = {});
   /// Takes an entry out and returns its value, or a null node.
   ConfigNode take(std::string_view key);
 
-  /// Throws InputError at this node's location.
+  /// Throws InputError at this node's location; unlocated when that is unknown.
   [[noreturn]] void fail(const std::string& message) const;
 
  private:
@@ -69,20 +74,31 @@ struct ConfigNode::Entry {
   ConfigNode value;
 };
 
-/// Reads one YAML document. Throws InputError (file:line:column) for bad syntax, duplicate keys,
-/// keys that are not scalars, or nesting deeper than 64.
+/// Reads one YAML document. Throws InputError (file:line:column, the file as it was given) for a
+/// file that is missing, a folder, no UTF-8 text, empty or over 32 MiB; for bad syntax, several
+/// documents, tags, duplicate keys, keys that are not scalars, nesting deeper than 64 and documents
+/// of more than a million nodes once aliases are copied out.
 ConfigNode read_yaml(const std::filesystem::path& path);
+/// The same for text that came from elsewhere; `name` stands for the file.
 ConfigNode parse_yaml(std::string_view text, const std::string& name);
+/// The same; every node, and every error, is located at `where`, not at its place in the text.
+ConfigNode parse_yaml_at(std::string_view text, const Location& where);
 
 /// Reads a config and follows `extends: other.yaml` (relative to the file that says so; a path or
-/// a list of paths, later ones win). Mappings merge key by key, but for a mapping with another
-/// `type`, which replaces; everything else replaces. Cycles are an InputError.
+/// a list of paths, later ones win, the file itself wins over all). Mappings merge key by key, but
+/// for a mapping with another `type`, which replaces; everything else replaces, so that `key: null`
+/// takes an inherited value back. Throws InputError also for cycles, for more than 256 files and
+/// for a document that is not a mapping.
 ConfigNode read_config(const std::filesystem::path& path);
 
-/// Applies one `a.b.c=value` override; the value is YAML. An index steps into a sequence.
+/// Applies one `a.b.c=value` override; the value is YAML and replaces what was there. An index
+/// steps into a sequence; mappings that are missing are made. Throws InputError located at
+/// "--set a.b.c=value".
 void apply_override(ConfigNode& root, const std::string& assignment);
 
-/// Writes YAML that parses to an equal node. Sequences of scalars stand on one line.
+/// Writes block-style YAML that parses to an equal node. Sequences of scalars stand on one line.
 std::string to_yaml(const ConfigNode& node);
+/// The same in flow style, on one line without line break.
+std::string to_flow_yaml(const ConfigNode& node);
 
 }  // namespace pharos

@@ -17,12 +17,12 @@ namespace pharos {
 struct PluginInfo {
   std::string contract;
   std::string name;
-  std::string summary;                     ///< one line of text
-  std::string module;                      ///< name of the library that registered it
-  std::vector<ParameterInfo> parameters;   ///< in the order of declaration
+  std::string summary;                    ///< one line of text
+  std::string module;                     ///< name of the library that registered it
+  std::vector<ParameterInfo> parameters;  ///< in the order of declaration
   /// Parses and checks `node`, builds the component, and writes the resolved mapping.
-  std::function<std::shared_ptr<const Component>(const ConfigNode& node, BuildContext& context,
-                                                 ConfigNode& resolved)>
+  std::function<std::shared_ptr<Component>(const ConfigNode& node, BuildContext& context,
+                                           ConfigNode& resolved)>
       build;
 };
 
@@ -42,9 +42,18 @@ class Registry {
     shorthands_[std::string(C::contract_name)] = {std::move(name), std::move(key)};
   }
 
+  /// Makes `name` the plugin that the word `default` stands for where contract C is expected.
+  template <class C>
+  void set_default(std::string name) {
+    defaults_[std::string(C::contract_name)] = std::move(name);
+  }
+
   /// Builds the component of contract C that `node` describes: a mapping with `type`, the name of
-  /// a plugin without further settings, the name of an entry of the scene's dictionaries, or the
-  /// contract's shorthand. Throws InputError with location and nearest name. Never null.
+  /// a plugin without further settings, `default`, the name of an entry of the scene's
+  /// dictionaries, or the contract's shorthand. An entry of the dictionaries wins over a plugin of the same name.
+  /// `resolved` receives what was built with all values in force; for an entry its name. Throws
+  /// InputError with location and nearest name; errors of a constructor that name no location get
+  /// that of `node`. Never null.
   template <class C>
   Ref<C> build(const ConfigNode& node, BuildContext& context, ConfigNode& resolved) const {
     return std::static_pointer_cast<const C>(
@@ -71,10 +80,16 @@ class Registry {
   std::shared_ptr<const Component> build_component(const std::string& contract,
                                                    const ConfigNode& node, BuildContext& context,
                                                    ConfigNode& resolved) const;
-  const PluginInfo& require(const std::string& contract, const ConfigNode& name) const;
+  /// The plugin that `name` names, given the mapping of its settings, which may hold `type`.
+  std::shared_ptr<const Component> build_plugin(const std::string& contract, const ConfigNode& name,
+                                                const ConfigNode& settings, BuildContext& context,
+                                                ConfigNode& resolved) const;
+  const PluginInfo& require(const std::string& contract, const ConfigNode& name,
+                            const BuildContext& context) const;
 
   std::map<std::string, std::map<std::string, PluginInfo, std::less<>>, std::less<>> plugins_;
   std::map<std::string, Shorthand, std::less<>> shorthands_;
+  std::map<std::string, std::string, std::less<>> defaults_;
   std::vector<std::string> searched_;
   std::string current_module_ = "program";
 };
@@ -92,7 +107,7 @@ void Registry::add(std::string name, std::string summary) {
                   .build = {}};
   info.build = [schema = std::move(schema)](const ConfigNode& node, BuildContext& context,
                                             ConfigNode& resolved) {
-    return std::make_shared<const P>(schema.read(node, context, resolved));
+    return std::make_shared<P>(schema.read(node, context, resolved, "type"));
   };
   add_info(std::move(info));
 }

@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -32,7 +33,8 @@ struct ParameterInfo {
 ///     };
 ///
 /// Parsing, range checks, listings, documentation and the resolved config all follow from it.
-/// Defaults are those of the member initialisers.
+/// Defaults are those of the member initialisers. One without a YAML text, such as infinity or a
+/// null component, shows as "none" and is in force when the key is left out.
 template <class Settings>
 class Schema {
  public:
@@ -92,14 +94,16 @@ class Schema {
     info->default_value = Value<T>::default_text(Settings{}.*member);
     info->range = Value<T>::range();
     info->help = std::move(help);
-    fields_.push_back({info, [=](Settings& settings, const ConfigNode& node, BuildContext& context,
-                                 ConfigNode& resolved) {
-                         T value = Value<T>::read(node, context, resolved);
-                         for (const auto& [expected, holds] : *checks) {
-                           if (!holds(value)) fail_range(node, info->key, expected);
-                         }
-                         settings.*member = std::move(value);
-                       }});
+    const auto text = [member](const Settings& s) { return Value<T>::default_text(s.*member); };
+    const auto read = [info, checks, member](Settings& settings, const ConfigNode& node,
+                                             BuildContext& context, ConfigNode& resolved) {
+      T value = Value<T>::read(node, context, resolved);
+      for (const auto& [expected, holds] : *checks) {
+        if (!holds(value)) fail_range(node, info->key, expected);
+      }
+      settings.*member = std::move(value);
+    };
+    fields_.push_back({info, text, read});
     return FieldOptions<T>(*info, *checks);
   }
 
@@ -109,23 +113,34 @@ class Schema {
     return all;
   }
 
-  /// Reads the mapping `node` (the key `type` is the registry's and skipped). Throws InputError
-  /// for unknown keys, missing required keys, wrong types and values out of range. `resolved`
-  /// receives every parameter with the value in force.
-  Settings read(const ConfigNode& node, BuildContext& context, ConfigNode& resolved) const {
-    check_keys(node, parameters());
+  /// The parameters in which `settings` differs from Settings{}, as a YAML mapping on one line:
+  /// the default of a field that holds this struct.
+  std::string changed_text(const Settings& settings) const {
+    std::string text;
+    for (const Field& f : fields_) {
+      const std::string value = f.text(settings);
+      if (value == f.text(Settings{})) continue;
+      text += (text.empty() ? " " : ", ") + f.info->key + ": " + value;
+    }
+    return text.empty() ? "{}" : "{" + text + " }";
+  }
+
+  /// Reads the mapping `node`; its key `skipped_key` is someone else's. Throws InputError for
+  /// unknown keys, missing required keys, wrong types and values out of range. `resolved` receives
+  /// every parameter with the value in force. A parameter that is not required and has no default
+  /// may also be given as null, and then keeps its C++ initialiser.
+  Settings read(const ConfigNode& node, BuildContext& context, ConfigNode& resolved,
+                std::string_view skipped_key = {}) const {
+    check_keys(node, parameters(), skipped_key);
     Settings settings;
     for (const Field& f : fields_) {
       const ConfigNode* given = node.find(f.info->key);
+      if (given == nullptr && f.info->required) fail_missing(node, *f.info);
+      const bool may_stay = !f.info->required && f.info->default_value.empty();
+      if (may_stay && (given == nullptr || given->is_null())) continue;
       ConfigNode value;
-      if (given != nullptr) {
-        f.read(settings, *given, context, value);
-      } else if (f.info->required) {
-        fail_missing(node, *f.info);
-      } else if (!f.info->default_value.empty()) {
-        f.read(settings, default_node(*f.info, node), context, value);
-      }
-      if (!value.is_null()) resolved.set(f.info->key, std::move(value));
+      f.read(settings, given ? *given : default_node(*f.info, node), context, value);
+      resolved.set(f.info->key, std::move(value));
     }
     return settings;
   }
@@ -133,8 +148,10 @@ class Schema {
  private:
   struct Field {
     std::shared_ptr<ParameterInfo> info;
+    std::function<std::string(const Settings&)> text;  ///< the member as YAML
     std::function<void(Settings&, const ConfigNode&, BuildContext&, ConfigNode&)> read;
   };
+
   std::vector<Field> fields_;
 };
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -41,63 +42,88 @@ struct Value;
 
 /// A settings struct: it describes its own parameters.
 template <class T>
-concept DescribedStruct = requires(Schema<T>& schema) { T::describe(schema); };
+concept DescribedStruct = requires(Schema<T>& schema) {
+  T::describe(schema);
+};
 
+/// The shortest decimal text that reads back as the same value; "" when it is not finite, which
+/// no config can say.
 std::string number_text(double value);
+std::string number_text(float value);
+
+/// Throws InputError at `node`: "KEY must be EXPECTED, got VALUE".
 [[noreturn]] void fail_range(const ConfigNode& node, const std::string& key,
                              const std::string& expected);
+/// Throws InputError at `mapping`: the key of `parameter` is missing.
 [[noreturn]] void fail_missing(const ConfigNode& mapping, const ParameterInfo& parameter);
+/// Throws InputError at `node`: "expected EXPECTED, found WHAT IT IS".
 [[noreturn]] void fail_type(const ConfigNode& node, const std::string& expected);
-/// Throws unless `node` is a mapping whose keys are all parameters (or `type`).
-void check_keys(const ConfigNode& node, const std::vector<ParameterInfo>& parameters);
+/// Throws unless `node` is a mapping whose keys are all parameters (or `skipped_key`).
+void check_keys(const ConfigNode& node, const std::vector<ParameterInfo>& parameters,
+                std::string_view skipped_key = {});
 /// The default's text as a node located at the mapping that lacks the key.
 ConfigNode default_node(const ParameterInfo& parameter, const ConfigNode& mapping);
 
-double read_number(const ConfigNode& node);
+/// True when the text is a number of YAML 1.2's core schema, infinity and NaN left out.
+bool is_number(std::string_view text);
+/// A finite number of at most `largest` in magnitude; throws InputError otherwise.
+double read_number(const ConfigNode& node, double largest = std::numeric_limits<double>::max());
+/// An integer in decimal, 0x or 0o notation in [low, high]; throws InputError otherwise.
 std::int64_t read_integer(const ConfigNode& node, std::int64_t low, std::int64_t high);
+/// A list of `count` numbers; throws InputError, "expected EXPECTED, …", otherwise.
 std::vector<float> read_floats(const ConfigNode& node, std::size_t count,
                                const std::string& expected);
 ConfigNode float_list(const std::vector<float>& values);
+/// The index of the name that `node` gives; throws InputError with the nearest name otherwise.
 std::size_t read_choice(const ConfigNode& node, const std::vector<std::string>& names);
 
+/// True when `holds` is true of every number in `v`: a number, a vector or colour by component, an
+/// optional if there is one, a list by item.
+template <class T, class Holds>
+bool all_numbers(const T& v, const Holds& holds) {
+  if constexpr (std::is_arithmetic_v<T>) {
+    return holds(v);
+  } else if constexpr (std::is_same_v<T, Rgb>) {
+    return holds(v.r) && holds(v.g) && holds(v.b);
+  } else if constexpr (std::is_same_v<T, Vec2>) {
+    return holds(v.x) && holds(v.y);
+  } else if constexpr (std::is_same_v<T, Vec3>) {
+    return holds(v.x) && holds(v.y) && holds(v.z);
+  } else if constexpr (requires { v.has_value(); }) {
+    return !v || all_numbers(*v, holds);
+  } else {
+    return std::all_of(v.begin(), v.end(),
+                       [&](const auto& item) { return all_numbers(item, holds); });
+  }
+}
+/// A bound as a number like `like`: 0.1 as a bound of floats is the float 0.1.
+template <class Number>
+auto bound_for(Number, double bound) {
+  if constexpr (std::is_floating_point_v<Number>) {
+    return static_cast<Number>(bound);
+  } else {
+    return bound;
+  }
+}
 template <class T>
 bool all_at_least(const T& v, double low) {
-  if constexpr (std::is_arithmetic_v<T>) {
-    return static_cast<double>(v) >= low;
-  } else if constexpr (std::is_same_v<T, Rgb>) {
-    return v.r >= low && v.g >= low && v.b >= low;
-  } else if constexpr (std::is_same_v<T, Vec2>) {
-    return v.x >= low && v.y >= low;
-  } else if constexpr (std::is_same_v<T, Vec3>) {
-    return v.x >= low && v.y >= low && v.z >= low;
-  } else {
-    return !v || all_at_least(*v, low);  // optional
-  }
+  return all_numbers(v, [low](auto x) { return x >= bound_for(x, low); });
 }
 template <class T>
 bool all_above(const T& v, double low) {
-  return all_at_least(v, std::nextafter(static_cast<float>(low), kInfinity));
+  return all_numbers(v, [low](auto x) { return x > bound_for(x, low); });
 }
 template <class T>
 bool all_at_most(const T& v, double high) {
-  if constexpr (std::is_arithmetic_v<T>) {
-    return static_cast<double>(v) <= high;
-  } else if constexpr (std::is_same_v<T, Rgb>) {
-    return v.r <= high && v.g <= high && v.b <= high;
-  } else if constexpr (std::is_same_v<T, Vec2>) {
-    return v.x <= high && v.y <= high;
-  } else if constexpr (std::is_same_v<T, Vec3>) {
-    return v.x <= high && v.y <= high && v.z <= high;
-  } else {
-    return !v || all_at_most(*v, high);  // optional
-  }
+  return all_numbers(v, [high](auto x) { return x <= bound_for(x, high); });
 }
 template <class T>
 bool all_below(const T& v, double high) {
-  return all_at_most(v, std::nextafter(static_cast<float>(high), -kInfinity));
+  return all_numbers(v, [high](auto x) { return x < bound_for(x, high); });
 }
 
-/// Types whose default is stated by their value.
+/// Types without a range of their own. `default_text` is YAML text that reads as the given value;
+/// "" when there is none, and then the field keeps its C++ initialiser.
 struct PlainValue {
   static std::string range() { return {}; }
 };
@@ -107,7 +133,7 @@ struct Value<T> : PlainValue {
   static std::string type_name() { return "number"; }
   static std::string default_text(T v) { return number_text(v); }
   static T read(const ConfigNode& node, BuildContext&, ConfigNode& resolved) {
-    const T v = static_cast<T>(read_number(node));
+    const T v = static_cast<T>(read_number(node, std::numeric_limits<T>::max()));
     resolved = ConfigNode::scalar(number_text(v));
     return v;
   }
@@ -137,15 +163,20 @@ struct Value<bool> : PlainValue {
 template <>
 struct Value<std::string> : PlainValue {
   static std::string type_name() { return "string"; }
-  static std::string default_text(const std::string& v) { return v; }
+  static std::string default_text(const std::string& v) {
+    return to_flow_yaml(ConfigNode::scalar(v));
+  }
   static std::string read(const ConfigNode& node, BuildContext&, ConfigNode& resolved);
 };
 
-/// Paths are relative to the file that states them; read as absolute.
+/// Paths are relative to the file that states them (on the command line, to the working directory)
+/// and are read as absolute.
 template <>
 struct Value<std::filesystem::path> : PlainValue {
   static std::string type_name() { return "path"; }
-  static std::string default_text(const std::filesystem::path& v) { return v.string(); }
+  static std::string default_text(const std::filesystem::path& v) {
+    return v.empty() ? std::string{} : to_flow_yaml(ConfigNode::scalar(v.string()));
+  }
   static std::filesystem::path read(const ConfigNode& node, BuildContext&, ConfigNode& resolved);
 };
 
@@ -173,16 +204,17 @@ struct Value<Rgb> : PlainValue {
 
 /// One step or a list of steps, the first applied first: `translate: [x, y, z]`,
 /// `scale: s | [x, y, z]`, `rotate: { axis: [x, y, z], degrees: a }`,
-/// `look_at: { origin: …, target: …, up: … }`, `matrix: [12 or 16 numbers, row-major]`.
+/// `look_at: { origin: …, target: …, up: … }`, `matrix: [12 or 16 numbers, row-major]`. The value
+/// in force is written as `matrix`, which reads back as the same transform in every bit.
 template <>
 struct Value<Transform> : PlainValue {
   static std::string type_name() { return "transform"; }
-  static std::string default_text(const Transform&) { return "[]"; }
+  static std::string default_text(const Transform& v);
   static Transform read(const ConfigNode& node, BuildContext&, ConfigNode& resolved);
 };
 
 template <class E>
-  requires std::is_enum_v<E>
+requires std::is_enum_v<E>
 struct Value<E> {
   static std::vector<std::string> names() {
     std::vector<std::string> all;
@@ -225,7 +257,11 @@ struct Value<std::optional<T>> {
 template <class T>
 struct Value<std::vector<T>> : PlainValue {
   static std::string type_name() { return "list of " + Value<T>::type_name(); }
-  static std::string default_text(const std::vector<T>&) { return "[]"; }
+  static std::string default_text(const std::vector<T>& v) {
+    std::string text;
+    for (const T& item : v) text += (text.empty() ? "" : ", ") + Value<T>::default_text(item);
+    return "[" + text + "]";
+  }
   static std::vector<T> read(const ConfigNode& node, BuildContext& context, ConfigNode& resolved) {
     if (!node.is_sequence()) fail_type(node, "a " + type_name());
     std::vector<T> all;
@@ -242,15 +278,20 @@ struct Value<std::vector<T>> : PlainValue {
 template <DescribedStruct T>
 struct Value<T> : PlainValue {
   static std::string type_name() { return "mapping"; }
-  static std::string default_text(const T&) { return "{}"; }
+  static std::string default_text(const T& v) { return schema().changed_text(v); }
   static T read(const ConfigNode& node, BuildContext& context, ConfigNode& resolved) {
-    static const Schema<T> schema = [] {
+    resolved = ConfigNode::mapping();
+    return schema().read(node, context, resolved);
+  }
+
+ private:
+  static const Schema<T>& schema() {
+    static const Schema<T> described = [] {
       Schema<T> s;
       T::describe(s);
       return s;
     }();
-    resolved = ConfigNode::mapping();
-    return schema.read(node, context, resolved);
+    return described;
   }
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -24,12 +25,21 @@ class Error : public std::runtime_error {
 };
 
 /// The input is wrong: config, scene, mesh, image, model file or command line. The program exits
-/// with code 2. The message starts with the location where there is one.
+/// with code 2. The message is one line and starts with the location where there is one.
 class InputError : public Error {
  public:
   explicit InputError(const std::string& message) : Error(message) {}
+  /// "file:line:column: error: message"; an unlocated error when nothing of `where` is known.
   InputError(const Location& where, const std::string& message)
-      : Error(where.to_string() + ": error: " + message) {}
+      : Error(where.to_string().empty() ? message : where.to_string() + ": error: " + message),
+        located_(!where.to_string().empty()) {}
+
+  /// False when the message says what is wrong but not where: code that knows the place may catch
+  /// the error and throw it again with the location.
+  bool located() const { return located_; }
+
+ private:
+  bool located_ = false;
 };
 
 /// The input was fine, yet the work could not be done (disk full, lost file). Exit code 3.
@@ -38,8 +48,17 @@ class RunError : public Error {
   using Error::Error;
 };
 
-/// " (did you mean 'x'?)" when one of `known` is near `wrong`, else "".
+/// " (did you mean 'x'?)" when one of `known` is near `wrong`, else "". Near means at most a third
+/// of `wrong`'s letters inserted, left out, replaced or swapped with their neighbour, and always
+/// one; the nearest wins, then the first.
 std::string suggestion(std::string_view wrong, std::span<const std::string> known);
+
+/// The suggestion for a path that does not exist: the nearest name in its folder.
+std::string file_suggestion(const std::filesystem::path& missing);
+
+/// `text` on one line: line breaks become spaces, other control characters '?', and what exceeds
+/// `max_length` bytes an ellipsis.
+std::string one_line(std::string_view text, std::size_t max_length = 400);
 
 /// "'a', 'b', 'c'" in the given order; "none" when empty.
 std::string quoted_list(std::span<const std::string> names);

@@ -57,7 +57,9 @@ enum class ColorSpace { linear, srgb };
 
 /// Reads any format OpenImageIO knows, all channels, as float. Eight- and sixteen-bit formats are
 /// taken as `srgb` unless told `linear`; float formats are linear. Throws InputError with the path
-/// when the file is missing, unreadable, cut off or over 65,536 pixels wide or high.
+/// when the file is missing, unreadable, cut off, over 65,536 pixels wide or high or of more than
+/// 2^30 values, deep, or cropped (OpenEXR's data window is not its display window). Channels keep
+/// their names, not always their order: look them up by channel_index().
 Image read_image(const std::filesystem::path& path, ColorSpace integer_formats = ColorSpace::srgb);
 
 /// The text entries of an image file's header. Throws as read_image does.
@@ -67,8 +69,9 @@ Metadata read_metadata(const std::filesystem::path& path);
 void write_exr(const Image& image, const std::filesystem::path& path,
                const Metadata& metadata = {});
 
-/// Writes an 8-bit sRGB PNG of channels 0-2 after scaling by 2^exposure and a filmic curve
-/// (Narkowicz 2015) when `filmic`, else plain clipping. The file appears whole or not at all.
+/// Writes an 8-bit sRGB PNG of channels 0-2 (of channel 0 when there are fewer) after scaling by
+/// 2^exposure and a filmic curve (Narkowicz 2015) when `filmic`, else plain clipping. NaN shows as
+/// black. The file appears whole or not at all; throws RunError.
 void write_png(const Image& image, const std::filesystem::path& path, float exposure = 0,
                bool filmic = true);
 

@@ -33,10 +33,9 @@ void parallel_ordered(std::size_t count, Produce&& produce, Consume&& consume,
   const auto work = [&](std::size_t i) { return ItemPtr(new Item{i, produce(i)}); };
   const auto fold = [&](const ItemPtr& item) { consume(item->index, item->result); };
   tbb::parallel_pipeline(
-      tokens,
-      tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order, number) &
-          tbb::make_filter<std::size_t, ItemPtr>(tbb::filter_mode::parallel, work) &
-          tbb::make_filter<ItemPtr, void>(tbb::filter_mode::serial_in_order, fold));
+      tokens, tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order, number) &
+                  tbb::make_filter<std::size_t, ItemPtr>(tbb::filter_mode::parallel, work) &
+                  tbb::make_filter<ItemPtr, void>(tbb::filter_mode::serial_in_order, fold));
 }
 
 /// As above, always to the end.

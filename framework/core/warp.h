@@ -8,7 +8,7 @@
 /// `square_from_X` undoes the warp.
 namespace pharos::warp {
 
-/// Unit disk, area-preserving concentric map (Shirley and Chiu 1997). Density 1/pi [1/m^2].
+/// Unit disk, area-preserving concentric map (Shirley and Chiu 1997). Density 1/pi [1/unit area].
 Vec2 disk_from_square(Vec2 u);
 /// Inverse of disk_from_square.
 Vec2 square_from_disk(Vec2 p);
@@ -18,6 +18,7 @@ constexpr float disk_pdf() {
 
 /// Cosine-weighted direction about +z. Density cosine_hemisphere_pdf [1/sr].
 Vec3 cosine_hemisphere_from_square(Vec2 u);
+/// Inverse of cosine_hemisphere_from_square for unit directions with z >= 0.
 Vec2 square_from_cosine_hemisphere(Vec3 direction);
 constexpr float cosine_hemisphere_pdf(float cos_theta) {
   return cos_theta > 0 ? cos_theta / kPi : 0.0f;
@@ -25,6 +26,7 @@ constexpr float cosine_hemisphere_pdf(float cos_theta) {
 
 /// Uniform direction. Density 1/(4 pi) [1/sr].
 Vec3 sphere_from_square(Vec2 u);
+/// Inverse of sphere_from_square for unit directions.
 Vec2 square_from_sphere(Vec3 direction);
 constexpr float sphere_pdf() {
   return 1 / (4 * kPi);
@@ -38,10 +40,11 @@ constexpr float cone_pdf(float one_minus_cos) {
 }
 
 /// Barycentric weights (b1, b2) of vertices 1 and 2, uniform over a triangle's area
-/// (Heitz 2019, "A Low-Distortion Map Between Triangle and Square").
+/// (Heitz 2019, "A Low-Distortion Map Between Triangle and Square"). Density 1/area [1/m^2].
 Vec2 triangle_from_square(Vec2 u);
 
-/// Standard normal quantile, the map from (0,1) to a unit Gaussian. Double, about 1e-15 accurate.
+/// Standard normal quantile, the map from (0,1) to a unit Gaussian. Double, about 1e-15 accurate;
+/// 0 and 1 are taken as the nearest doubles inside, so that the result is always finite.
 double normal_from_unit(double u);
 
 }  // namespace pharos::warp

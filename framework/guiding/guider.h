@@ -6,6 +6,7 @@
 
 #include <pharos/config/component.h>
 #include <pharos/core/arena.h>
+#include <pharos/core/error.h>
 #include <pharos/guiding/distribution.h>
 #include <pharos/guiding/model.h>
 #include <pharos/scene/local_scattering.h>
@@ -32,8 +33,7 @@ struct GuidingQuery {
   Transport transport = Transport::radiance;
   std::uint16_t bounce = 1;            ///< number of the current vertex; the first after the lens is 1
   const LocalScattering& scattering;   ///< BSDF or phase function here
-  const Medium* exterior = nullptr;    ///< on the side of the normal, or around a volume vertex
-  const Medium* interior = nullptr;    ///< on the other side
+  const Medium* medium = nullptr;      ///< that the path came through; null: empty space
 };
 
 /// What a guider offers and needs; checked before rendering starts.
@@ -79,5 +79,14 @@ class Guider : public Component {
   virtual std::unique_ptr<const BoundGuider> bind(
       std::shared_ptr<const GuidingModel> model) const = 0;
 };
+
+/// The model as a Model, for Guider::bind(). Throws InputError naming both when it is none.
+template <class Model>
+std::shared_ptr<const Model> bind_model(const std::shared_ptr<const GuidingModel>& model,
+                                        const Guider& guider) {
+  if (auto bound = std::dynamic_pointer_cast<const Model>(model)) return bound;
+  throw InputError("the guider '" + guider.plugin_name() + "' cannot sample the model '" +
+                   model->name() + "'");
+}
 
 }  // namespace pharos

@@ -12,7 +12,8 @@ namespace pharos {
 
 inline constexpr std::uint32_t kNoVertex = ~std::uint32_t{0};
 
-/// One vertex of a recorded path: how it was reached and how the path went on from it.
+/// One vertex of a recorded path: how it was reached and how the path went on from it. Where a path
+/// branches, the vertex is recorded once for each step taken from it, all with the same parent.
 struct RecordedVertex {
   Point3 position;  ///< for the environment a stand-in outside the scene, along the ray
   Vec3 normal;      ///< geometric; zero in media and for the environment
@@ -100,10 +101,8 @@ class PathLog {
 
 /// For each vertex i of a path an estimate of the radiance that arrives there along the step the
 /// path took: the emission met (MIS-weighted), next event estimates at later vertices, and all
-/// that follows. Next event estimates at i itself are not part of it. Black for the last vertex;
-/// where a path branches, `out[i]` sums the steps' radiances each times its own local weight
-/// divided by vertex i's. The full-path contribution through the step is
-/// throughput * local_weight * incident radiance.
+/// that follows. Next event estimates at i itself are not part of it. Black where no step was
+/// taken. The full-path contribution through the step is throughput * local_weight * this.
 void estimate_incident_radiance(const PathView& path, std::vector<Rgb>& out);
 
 }  // namespace pharos

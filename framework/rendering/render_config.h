@@ -21,12 +21,12 @@ struct FilmSettings {
 };
 
 struct OutputSettings {
-  std::filesystem::path image;    ///< EXR; the PNG stands beside it
-  std::vector<std::string> aovs;  ///< names of Film layers
-  std::filesystem::path model;    ///< learned model; empty: not written
+  std::string image;          ///< EXR, relative to the current folder; the PNG stands beside it
+  std::vector<Layer> aovs;
+  std::string model;          ///< learned model of the first method; empty: not written
   bool png = true;
-  float exposure = 0;             ///< of the PNG [stops]
-  bool filmic = true;             ///< of the PNG
+  float exposure = 0;         ///< of the PNG [stops]
+  bool filmic = true;         ///< of the PNG
 
   static void describe(Schema<OutputSettings>& schema);
 };

@@ -42,11 +42,12 @@ struct RenderTimes {
 
 /// What a render has made.
 struct RenderResult {
-  Film film;
+  Image image;  ///< colour and all layers, see Film::layers()
+  double samples_per_pixel = 0;
   RenderCounters counters;
   RenderTimes times;
-  bool stopped = false;          ///< ended early through RenderControl::stop
-  std::size_t model_bytes = 0;   ///< of the learned models
+  bool stopped = false;         ///< ended early through RenderControl::stop
+  std::size_t model_bytes = 0;  ///< of the learned models
   std::shared_ptr<const GuidingModel> model;  ///< of the first method; null: none
   std::optional<PathKey> first_invalid;       ///< a path of NaN or infinite value
 };
@@ -61,8 +62,9 @@ class RenderJob {
 
   RenderResult run(const RenderControl& control = {});
 
-  /// Runs one path of iteration 0 again.
-  PathTrace replay(int x, int y, std::uint32_t sample) const;
+  /// Runs one path of `iteration` again, after training up to there. `iteration` counts training
+  /// iterations too; unguided renders have only iteration 0.
+  PathTrace replay(int x, int y, std::uint32_t sample, std::uint32_t iteration);
 
   const Scene& scene() const;
 

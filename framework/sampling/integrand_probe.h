@@ -29,8 +29,9 @@ class IntegrandProbe {
 
   /// The part of pixel (x, y)'s integrand that depends on `dimension`, as a function of the very
   /// primary numbers that a sampler would deliver for it, before any warp; all other numbers of the
-  /// path are held at the values of `others`. For light_position the contribution of that light
-  /// sample alone; for other dimensions that of the whole path. values[i] belongs to points[i].
+  /// path are held at keyed_numbers() of the key `others` at this pixel. For light_position the
+  /// contribution of that light sample alone; for other dimensions that of the whole path.
+  /// values[i] belongs to points[i].
   virtual void evaluate(int x, int y, Dimension dimension, const PathKey& others,
                         std::span<const Vec2> points, std::span<Rgb> values) const = 0;
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -53,8 +54,9 @@ class Light {
 /// Where an emitter stands.
 struct EmitterSite {
   const Shape* shape = nullptr;  ///< the shape it was given to; null when it stands alone
+  std::uint32_t object = 0;      ///< index into Scene::objects() of that shape
   Point3 scene_center;           ///< bounding sphere of the scene's geometry [scene units]
-  float scene_radius = 1;
+  float scene_radius = 1;        ///< > 0, even in an empty scene [scene units]
 };
 
 /// Contract: a source of light.

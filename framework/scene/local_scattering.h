@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <optional>
 
 #include <pharos/scene/bsdf.h>
@@ -8,9 +9,9 @@
 namespace pharos {
 
 /// The scattering at one path vertex, BSDF or phase function alike, in world space. Directions
-/// point away from the vertex. Surfaces scatter nothing into directions that lie on different sides
-/// of the geometric and the shading normal; importance transport carries Veach's correction for
-/// shading normals (1997, eq. 5.19).
+/// point away from the vertex. Surfaces scatter nothing from or into directions that lie on
+/// different sides of the geometric and the shading normal, but for events that pass straight
+/// through; importance transport carries Veach's correction for shading normals (1997, eq. 5.19).
 class LocalScattering {
  public:
   /// At a surface point; `towards_previous` is the unit direction to where the path came from.
@@ -42,12 +43,13 @@ class LocalScattering {
     return is_surface() ? bsdf_->roughness(*point_) : 1 - std::abs(phase_->mean_cosine());
   }
 
-  /// Value and density [1/sr] of the smooth events among `allowed`.
+  /// Value and density [1/sr] of the smooth events among `allowed`; both are zero for directions
+  /// into which nothing is scattered.
   ScatterValue evaluate(Vec3 direction, EventMask allowed = EventMask::all) const;
   /// Draws an event among `allowed`; empty for a valid sample of value zero.
   std::optional<ScatterSample> sample(float u_choice, Vec2 u,
                                       EventMask allowed = EventMask::all) const;
-  /// The discrete events among `allowed`.
+  /// The discrete events among `allowed` that scatter anything.
   DiscreteOutcomes discrete(EventMask allowed = EventMask::all) const;
   /// The event that scattering into `direction` is: by side at surfaces.
   Event smooth_event(Vec3 direction) const;
@@ -56,8 +58,9 @@ class LocalScattering {
   bool sides_agree(Vec3 direction, Vec3 local) const {
     return dot(direction, point_->normal) * local.z > 0;
   }
-  /// 1 for radiance; the non-symmetry of shading normals for importance.
-  float shading_correction(Vec3 direction, Vec3 local) const;
+  /// What shading normals make of light scattered into `direction`, at surfaces: 0 where sides
+  /// disagree, else 1 for radiance and the correction for importance.
+  float normal_factor(Vec3 direction, Vec3 local) const;
 
   const SurfacePoint* point_ = nullptr;
   const Bsdf* bsdf_ = nullptr;

@@ -27,8 +27,8 @@ struct SceneObject {
 struct SceneParts {
   std::vector<SceneObject> objects;
   std::vector<Ref<Emitter>> emitters;  ///< those that stand alone
-  Ref<Sensor> sensor;
-  Ref<Medium> medium;  ///< around the sensor; null: empty
+  Ref<Sensor> sensor;                  ///< null: none; Scene::sensor() must not be called
+  Ref<Medium> medium;                  ///< around the sensor; null: empty
 };
 
 /// Geometry, materials and lights, ready for rays. Immutable and thread-safe.
@@ -52,9 +52,14 @@ class Scene {
   const Light* light_at(const SurfacePoint& point) const { return object_lights_[point.object]; }
   /// Index into lights() of the light of an object; -1 when it has none.
   int light_index(const SurfacePoint& point) const { return object_light_index_[point.object]; }
-  /// The medium that a ray leaving `point` towards `direction` is in; null: empty.
-  const Medium* medium_towards(const SurfacePoint& point, Vec3 direction) const {
+  /// The medium that a ray leaving `point` towards `direction` is in (null: empty space) when the
+  /// ray that arrived there came through `current`. Only objects with an interior or exterior
+  /// bound media.
+  const Medium* medium_after(const SurfacePoint& point, Vec3 direction,
+                             const Medium* current) const {
+    if (!has_media_) return nullptr;
     const SceneObject& o = parts_.objects[point.object];
+    if (o.interior == nullptr && o.exterior == nullptr) return current;
     return dot(direction, point.normal) >= 0 ? o.exterior.get() : o.interior.get();
   }
 

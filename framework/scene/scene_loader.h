@@ -15,7 +15,9 @@ namespace pharos {
 ///     sensor:    sensor
 ///     medium:    medium                        # around the sensor
 ///
-/// Reading throws InputError with the location for everything that does not fit together.
+/// Shapes without `material` get the default bsdf. Names are known within their scene only; a later
+/// part may use an earlier one's. Reading throws InputError with the location for everything that
+/// does not fit together.
 template <>
 struct Value<SceneParts> : PlainValue {
   static std::string type_name() { return "scene"; }

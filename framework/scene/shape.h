@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <string_view>
 #include <vector>
@@ -12,14 +13,19 @@
 
 namespace pharos {
 
-/// Indexed triangles in world space. `normals` and `uvs` are empty or one per position.
+/// Indexed triangles in world space, counter-clockwise as seen from the outer side. `normals` and
+/// `uvs` are empty or one per position. Who fills it in sees to it that positions are finite,
+/// indices valid and areas positive.
 struct TriangleMesh {
   std::vector<Point3> positions;
   std::vector<Vec3> normals;
   std::vector<Vec2> uvs;
   std::vector<std::array<std::uint32_t, 3>> triangles;
 
-  /// The surface at barycentric weights (b1, b2) of `triangle`'s vertices 1 and 2.
+  /// The surface at barycentric weights (b1, b2) of `triangle`'s vertices 1 and 2. Where there are
+  /// no `uvs`, texture coordinates are those weights; where there are no `normals`, or they cancel
+  /// out, the shading normal is the geometric one. The position keeps `error` away from the edges,
+  /// so that origin_towards() does not slip past the neighbour at a concave edge.
   SurfacePoint surface_point(std::uint32_t triangle, float b1, float b2) const;
   /// [scene units^2]
   float area(std::uint32_t triangle) const;
@@ -28,12 +34,12 @@ struct TriangleMesh {
 
 /// Where a ray met a primitive, in the primitive's own terms.
 struct PrimitiveHit {
-  float t = kInfinity;       ///< distance [scene units]
-  Vec2 coordinates;          ///< meaning is the shape's own; barycentric (b1, b2) for meshes
+  float t = kInfinity;  ///< distance [scene units]
+  Vec2 coordinates;     ///< meaning is the shape's own; barycentric (b1, b2) for meshes
   std::uint32_t primitive = 0;
 };
 
-/// A point drawn from a shape's surface.
+/// A point drawn from a shape's surface; a shape leaves `point.object` to the scene.
 struct ShapeSample {
   SurfacePoint point;
   float pdf = 0;  ///< [1/m^2] from sample(), [1/sr] from sample_from()
@@ -56,7 +62,7 @@ class Shape : public Component {
   virtual std::uint32_t primitive_count() const { return 1; }
   virtual Bounds3 primitive_bounds(std::uint32_t) const { return bounds(); }
   /// Analytic shapes: the nearest hit with 0 < t < ray.t_max; false when there is none.
-  virtual bool intersect(const Ray& ray, std::uint32_t primitive, PrimitiveHit& hit) const;
+  virtual bool intersect(const Ray&, std::uint32_t, PrimitiveHit&) const { return false; }
   /// The surface at a hit that intersect() or Embree reported; `object` is filled in by Scene.
   virtual SurfacePoint surface_point(const Ray& ray, const PrimitiveHit& hit) const;
 
@@ -72,8 +78,20 @@ class Shape : public Component {
 
 /// Converts a density over area [1/m^2] at `point` into one over solid angle [1/sr] at `from`;
 /// 0 when the surface is seen edge-on.
-float solid_angle_pdf_from_area(float area_pdf, Point3 from, Point3 point, Vec3 normal);
-/// The inverse conversion: [1/sr] at `from` into [1/m^2] at `point`.
-float area_pdf_from_solid_angle(float solid_angle_pdf, Point3 from, Point3 point, Vec3 normal);
+inline float solid_angle_pdf_from_area(float area_pdf, Point3 from, Point3 point, Vec3 normal) {
+  const Vec3 d = point - from;
+  const float distance_squared = length_squared(d);
+  const float projected = abs_dot(d, normal);  // distance times |cos|
+  return projected > 0 ? area_pdf * distance_squared * std::sqrt(distance_squared) / projected : 0;
+}
+
+/// The inverse conversion: [1/sr] at `from` into [1/m^2] at `point`; 0 where the two coincide.
+inline float area_pdf_from_solid_angle(float solid_angle_pdf, Point3 from, Point3 point,
+                                       Vec3 normal) {
+  const Vec3 d = point - from;
+  const float distance_squared = length_squared(d);
+  if (distance_squared == 0) return 0;
+  return solid_angle_pdf * abs_dot(d, normal) / (distance_squared * std::sqrt(distance_squared));
+}
 
 }  // namespace pharos

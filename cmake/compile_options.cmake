@@ -1,0 +1,27 @@
+# How everything in this project is compiled. `pharos_options` travels with the library, because
+# modules must agree with it on the instruction set; `pharos_warnings` stays at home.
+add_library(pharos_options INTERFACE)
+target_compile_features(pharos_options INTERFACE cxx_std_20)
+target_compile_options(pharos_options INTERFACE -fno-math-errno -fno-trapping-math)
+if(PHAROS_NATIVE)
+  target_compile_options(pharos_options INTERFACE -march=native)
+endif()
+if(PHAROS_SANITIZE)
+  target_compile_options(pharos_options INTERFACE
+    -fsanitize=${PHAROS_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  target_link_options(pharos_options INTERFACE -fsanitize=${PHAROS_SANITIZE})
+endif()
+
+add_library(pharos_warnings INTERFACE)
+# Designated initialisers leave members out on purpose; their defaults are part of the type.
+target_compile_options(pharos_warnings INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual
+  -Wno-missing-field-initializers)
+if(PHAROS_WERROR)
+  target_compile_options(pharos_warnings INTERFACE -Werror)
+endif()
+
+find_program(PHAROS_CCACHE ccache)
+if(PHAROS_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${PHAROS_CCACHE})
+endif()

@@ -1,0 +1,21 @@
+# A usable prefix: program, library, headers, plugins and the CMake package.
+include(CMakePackageConfigHelpers)
+install(TARGETS pharos pharos_options EXPORT pharos-targets
+        LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS pharos-program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(DIRECTORY framework/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pharos
+        FILES_MATCHING PATTERN "*.h" PATTERN "tests" EXCLUDE)
+if(PHAROS_TESTS)
+  install(TARGETS pharos-test-main EXPORT pharos-targets
+          ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+endif()
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/pharos)
+install(EXPORT pharos-targets NAMESPACE pharos:: DESTINATION ${package_dir})
+configure_package_config_file(cmake/pharos-config.cmake.in
+  ${CMAKE_BINARY_DIR}/pharos-config.cmake INSTALL_DESTINATION ${package_dir})
+write_basic_package_version_file(${CMAKE_BINARY_DIR}/pharos-config-version.cmake
+  COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_BINARY_DIR}/pharos-config.cmake
+              ${CMAKE_BINARY_DIR}/pharos-config-version.cmake
+              cmake/pharos_add_module.cmake
+        DESTINATION ${package_dir})

@@ -1,0 +1,46 @@
+# pharos_add_module(NAME SOURCES file... [TESTS file...] [LIBRARIES target...] [TEST_ONLY])
+#
+# Builds the shared library NAME.pharos.so, which the loader finds in the plugin folder (in the build
+# tree: build/plugins; elsewhere through PHAROS_MODULE_PATH), and the doctest suite test-NAME, which
+# ctest runs under the label NAME. TEST_ONLY modules stand in build/test-plugins and are not
+# installed. The same function serves modules outside this project after find_package(pharos).
+include_guard(GLOBAL)
+
+function(pharos_add_module name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "TEST_ONLY" "" "SOURCES;TESTS;LIBRARIES")
+  if(NOT arg_SOURCES)
+    message(FATAL_ERROR "pharos_add_module(${name}): SOURCES is missing")
+  endif()
+  if(arg_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "pharos_add_module(${name}): unknown '${arg_UNPARSED_ARGUMENTS}'")
+  endif()
+  set(folder plugins)
+  if(arg_TEST_ONLY)
+    set(folder test-plugins)
+  endif()
+  set(warnings $<TARGET_NAME_IF_EXISTS:pharos_warnings>)
+
+  add_library(${name}-objects OBJECT ${arg_SOURCES})
+  target_link_libraries(${name}-objects PUBLIC pharos::pharos ${arg_LIBRARIES} PRIVATE ${warnings})
+  set_target_properties(${name}-objects PROPERTIES
+    POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden)
+
+  add_library(${name} MODULE)
+  target_link_libraries(${name} PRIVATE ${name}-objects)
+  set_target_properties(${name} PROPERTIES
+    PREFIX "" SUFFIX ".pharos.so"
+    LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/${folder})
+  if(NOT arg_TEST_ONLY)
+    set_property(GLOBAL APPEND PROPERTY PHAROS_MODULES ${name})
+    include(GNUInstallDirs)
+    install(TARGETS ${name} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/pharos/plugins)
+  endif()
+
+  if(arg_TESTS AND (PHAROS_TESTS OR NOT DEFINED PHAROS_TESTS))
+    find_package(doctest REQUIRED)
+    add_executable(test-${name} ${arg_TESTS})
+    target_link_libraries(test-${name} PRIVATE ${name}-objects pharos::test_main ${warnings})
+    add_test(NAME ${name} COMMAND test-${name})
+    set_tests_properties(${name} PROPERTIES LABELS ${name})
+  endif()
+endfunction()

@@ -1,0 +1,17 @@
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace pharos {
+
+/// What the program returns to the shell.
+enum ExitCode { kDone = 0, kBadInput = 2, kFailed = 3, kInterrupted = 130 };
+
+/// Each adds one subcommand to the program; its callback stores the exit code in `exit_code`.
+void add_render_command(CLI::App& app, int& exit_code);
+void add_plugins_command(CLI::App& app, int& exit_code);
+void add_validate_command(CLI::App& app, int& exit_code);
+
+}  // namespace pharos

@@ -1,0 +1,49 @@
+#include "progress_bar.h"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <string>
+
+#include <fmt/format.h>
+
+namespace pharos {
+namespace {
+
+constexpr int kBarWidth = 30;
+constexpr double kRedrawSeconds = 0.1;
+
+std::string clock_text(double seconds) {
+  const auto whole = static_cast<long>(seconds + 0.5);
+  if (whole >= 3600) {
+    return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
+  }
+  return fmt::format("{}:{:02}", whole / 60, whole % 60);
+}
+
+}  // namespace
+
+ProgressBar::ProgressBar() : on_terminal_(isatty(fileno(stderr)) != 0) {}
+
+ProgressBar::~ProgressBar() {
+  if (drawn_) fmt::print(stderr, "\r\x1b[K");
+}
+
+void ProgressBar::show(const Progress& p) {
+  if (!on_terminal_ || p.seconds - last_drawn_ < kRedrawSeconds) return;
+  last_drawn_ = p.seconds;
+  drawn_ = true;
+  const int filled = static_cast<int>(p.fraction * kBarWidth);
+  const std::string iteration =
+      p.iteration_count > 1
+          ? fmt::format("{} {}/{}  ", p.training ? "training" : "rendering", p.iteration + 1,
+                        p.iteration_count)
+          : "";
+  const double left = p.fraction > 0 ? p.seconds * (1 / p.fraction - 1) : 0;
+  fmt::print(stderr, "\r\x1b[K{}[{:=<{}}{: <{}}] {:3.0f}%  {:.1f} spp  {:.2f} Mrays/s  {} left",
+             iteration, "", filled, "", kBarWidth - filled, 100 * p.fraction, p.samples_per_pixel,
+             static_cast<double>(p.rays) / p.seconds * 1e-6, clock_text(left));
+  std::fflush(stderr);
+}
+
+}  // namespace pharos

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <pharos/rendering/render_job.h>
+
+namespace pharos {
+
+/// A line on the terminal that follows a render: iteration, bar, samples, rays a second and time
+/// left. Silent where standard error is no terminal.
+class ProgressBar {
+ public:
+  ProgressBar();
+  ~ProgressBar();
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+
+  void show(const Progress& progress);
+
+ private:
+  bool on_terminal_;
+  bool drawn_ = false;
+  double last_drawn_ = -1;  ///< seconds since the render's start
+};
+
+}  // namespace pharos

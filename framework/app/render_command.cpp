@@ -1,0 +1,123 @@
+#include <unistd.h>
+
+#include <filesystem>
+#include <optional>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <pharos/config/module_loader.h>
+#include <pharos/core/error.h>
+#include <pharos/core/log.h>
+#include <pharos/rendering/render_config.h>
+#include <pharos/rendering/render_job.h>
+
+#include "commands.h"
+#include "config_options.h"
+#include "interrupt.h"
+#include "progress_bar.h"
+#include "threads.h"
+
+namespace pharos {
+namespace {
+
+struct RenderOptions {
+  ConfigOptions config;
+  std::string output;
+  int threads = 0;
+  bool quiet = false;
+  std::vector<std::uint32_t> replay;
+};
+
+/// Fails before the render, not after it, where the result could not be written.
+void check_writable(const std::filesystem::path& file) {
+  if (file.empty()) return;
+  const std::filesystem::path folder =
+      file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+  if (!std::filesystem::is_directory(folder)) {
+    throw InputError(fmt::format("{}: error: the folder '{}' does not exist", file.string(),
+                                 folder.string()));
+  }
+  if (std::filesystem::is_directory(file)) {
+    throw InputError(fmt::format("{}: error: is a folder, not a file", file.string()));
+  }
+  if (access(folder.c_str(), W_OK) != 0) {
+    throw InputError(fmt::format("{}: error: the folder '{}' is not writable", file.string(),
+                                 folder.string()));
+  }
+}
+
+void replay_path(RenderJob& job, const RenderConfig& config,
+                 const std::vector<std::uint32_t>& numbers) {
+  const int x = static_cast<int>(numbers[0]), y = static_cast<int>(numbers[1]);
+  if (x < 0 || y < 0 || x >= config.film.width || y >= config.film.height) {
+    throw InputError(fmt::format("--replay: error: pixel ({}, {}) is not on the film of {} x {}",
+                                 numbers[0], numbers[1], config.film.width, config.film.height));
+  }
+  fmt::print("{}", job.replay(x, y, numbers[2], numbers.size() > 3 ? numbers[3] : 0).text);
+}
+
+void report(const RenderResult& result, const RenderConfig& config) {
+  const double seconds = result.times.training + result.times.update + result.times.rendering;
+  log_info(fmt::format("{}: {} x {}, {:.6g} samples a pixel, {:.1f} s, {:.2f} Mrays/s{}",
+                       config.output.image, config.film.width, config.film.height,
+                       result.samples_per_pixel, seconds,
+                       static_cast<double>(result.counters.rays) / seconds * 1e-6,
+                       result.stopped ? " (interrupted)" : ""));
+  if (result.first_invalid) {
+    const PathKey& key = *result.first_invalid;
+    const auto width = static_cast<std::uint64_t>(config.film.width);
+    log_warning(fmt::format(
+        "{} paths had NaN or infinite values and count as black; see one with --replay {},{},{},{}",
+        result.counters.invalid_paths, key.index % width, key.index / width, key.sample,
+        key.iteration));
+  }
+}
+
+int render(const RenderOptions& options) {
+  set_log_quiet(options.quiet);
+  const Registry registry = load_default_modules();
+  LoadedConfig loaded =
+      load_render_config(options.config.path, options.config.overrides, registry);
+  if (!options.output.empty()) loaded.config.output.image = options.output;
+  check_writable(loaded.config.output.image);
+  check_writable(loaded.config.output.model);
+
+  const InterruptGuard interrupt;
+  RenderJob job(loaded.config);
+  if (!options.replay.empty()) {
+    replay_path(job, loaded.config, options.replay);
+    return kDone;
+  }
+  RenderResult result = [&] {
+    ProgressBar bar;
+    RenderControl control{.on_progress = {}, .stop = &interrupt.flag()};
+    if (!options.quiet) control.on_progress = [&bar](const Progress& p) { bar.show(p); };
+    return job.run(control);
+  }();
+  write_outputs(result, loaded);
+  report(result, loaded.config);
+  return result.stopped ? kInterrupted : kDone;
+}
+
+}  // namespace
+
+void add_render_command(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand("render", "Render an image");
+  const auto options = std::make_shared<RenderOptions>();
+  options->config.add_to(*command);
+  command->add_option("-o,--output", options->output, "Image file (.exr) instead of the config's");
+  command->add_option("--threads", options->threads, "Number of threads; 0: all cores")
+      ->check(CLI::Range(0, 1024));
+  command->add_flag("-q,--quiet", options->quiet, "Only warnings and errors");
+  command
+      ->add_option("--replay", options->replay,
+                   "Run one path again and print it: x,y,sample[,iteration]")
+      ->delimiter(',')
+      ->expected(3, 4);
+  command->callback([options, &exit_code] {
+    with_threads(options->threads, [&] { exit_code = render(*options); });
+  });
+}
+
+}  // namespace pharos

@@ -1,0 +1,15 @@
+#include "threads.h"
+
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+namespace pharos {
+
+void with_threads(int threads, const std::function<void()>& work) {
+  if (threads <= 0) return work();
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                  static_cast<std::size_t>(threads));
+  tbb::task_arena(threads).execute(work);
+}
+
+}  // namespace pharos

@@ -1,0 +1,24 @@
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <pharos/config/module_loader.h>
+#include <pharos/rendering/render_config.h>
+
+#include "commands.h"
+#include "config_options.h"
+
+namespace pharos {
+
+void add_validate_command(CLI::App& app, int&) {
+  CLI::App* command =
+      app.add_subcommand("validate", "Check a config and print it with every value in force");
+  const auto options = std::make_shared<ConfigOptions>();
+  options->add_to(*command);
+  command->callback([options] {
+    const Registry registry = load_default_modules();
+    const LoadedConfig loaded = load_render_config(options->path, options->overrides, registry);
+    fmt::print("{}", to_yaml(loaded.resolved));
+  });
+}
+
+}  // namespace pharos

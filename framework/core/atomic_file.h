@@ -1,0 +1,44 @@
+#pragma once
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include <pharos/core/error.h>
+
+namespace pharos {
+
+/// Makes the file `path` appear whole or not at all: `write(temporary)` writes a file beside it,
+/// which then takes its name. When write() throws or the renaming fails, the temporary is removed,
+/// an older `path` stays as it was, and the error goes on. Throws RunError when the folder does not
+/// exist or `path` is there and not a regular file: a device or folder is never replaced. A
+/// symbolic link stays one; the file it points to is replaced.
+template <class Write>
+void write_atomically(const std::filesystem::path& path, Write&& write) {
+  namespace fs = std::filesystem;
+  const auto fail = [&](const std::string& why) {
+    throw RunError("cannot write '" + path.string() + "': " + why);
+  };
+  std::error_code failed;
+  const fs::path target = fs::is_symlink(path, failed) ? fs::weakly_canonical(path, failed) : path;
+  if (fs::exists(target, failed) && !fs::is_regular_file(target, failed)) {
+    fail("it is not a regular file");
+  }
+  if (target.has_parent_path() && !fs::is_directory(target.parent_path(), failed)) {
+    fail("there is no folder '" + target.parent_path().string() + "'");
+  }
+  const fs::path temporary = target.string() + "." + std::to_string(getpid()) + ".tmp";
+  try {
+    std::forward<Write>(write)(temporary);
+    fs::rename(temporary, target, failed);
+    if (failed) fail(failed.message());
+  } catch (...) {
+    fs::remove(temporary, failed);
+    throw;
+  }
+}
+
+}  // namespace pharos

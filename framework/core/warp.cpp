@@ -1,0 +1,100 @@
+#include <cmath>
+
+#include <boost/math/special_functions/erf.hpp>
+
+#include <pharos/core/warp.h>
+
+namespace pharos::warp {
+namespace {
+
+/// Keeps what rounding pushed out of [0, 1) inside.
+float primary(float u) {
+  return std::clamp(u, 0.0f, kOneMinusEpsilon);
+}
+
+/// The azimuth of (x, y) as a fraction of the full turn, in [0, 1).
+float turn(float x, float y) {
+  const float fraction = std::atan2(y, x) / (2 * kPi);
+  return primary(fraction < 0 ? fraction + 1 : fraction);
+}
+
+Vec3 from_cylinder(float z, float sin_theta, float u) {
+  const float phi = 2 * kPi * u;
+  return {sin_theta * std::cos(phi), sin_theta * std::sin(phi), z};
+}
+
+/// Concentric squares become circles: the signed radius and the angle.
+struct Polar {
+  float radius, angle;
+};
+Polar polar_from_square(Vec2 u) {
+  const float x = 2 * u.x - 1, y = 2 * u.y - 1;
+  if (x == 0 && y == 0) return {0, 0};
+  if (std::abs(x) > std::abs(y)) return {x, kPi / 4 * (y / x)};
+  return {y, kPi / 2 - kPi / 4 * (x / y)};
+}
+Vec2 disk_from_polar(Polar p) {
+  return {p.radius * std::cos(p.angle), p.radius * std::sin(p.angle)};
+}
+
+}  // namespace
+
+Vec2 disk_from_square(Vec2 u) {
+  return disk_from_polar(polar_from_square(u));
+}
+
+Vec2 square_from_disk(Vec2 p) {
+  const float radius = std::sqrt(p.x * p.x + p.y * p.y);
+  if (radius == 0) return {0.5f, 0.5f};
+  float x, y;
+  if (std::abs(p.x) > std::abs(p.y)) {
+    x = std::copysign(radius, p.x);
+    y = x * std::atan(p.y / p.x) * (4 / kPi);
+  } else {
+    y = std::copysign(radius, p.y);
+    x = y * std::atan(p.x / p.y) * (4 / kPi);
+  }
+  return {primary(0.5f * (x + 1)), primary(0.5f * (y + 1))};
+}
+
+Vec3 cosine_hemisphere_from_square(Vec2 u) {
+  const Polar polar = polar_from_square(u);
+  const Vec2 p = disk_from_polar(polar);
+  // (1 - r)(1 + r) rather than 1 - r^2 keeps the digits of grazing directions.
+  const float r = std::abs(polar.radius);
+  return {p.x, p.y, safe_sqrt((1 - r) * (1 + r))};
+}
+
+Vec2 square_from_cosine_hemisphere(Vec3 direction) {
+  return square_from_disk({direction.x, direction.y});
+}
+
+Vec3 sphere_from_square(Vec2 u) {
+  return from_cylinder(1 - 2 * u.x, 2 * safe_sqrt(u.x * (1 - u.x)), u.y);
+}
+
+Vec2 square_from_sphere(Vec3 direction) {
+  return {primary(0.5f * (1 - direction.z)), turn(direction.x, direction.y)};
+}
+
+Vec3 cone_from_square(Vec2 u, float one_minus_cos) {
+  const float height = u.x * one_minus_cos;
+  return from_cylinder(1 - height, safe_sqrt(height * (2 - height)), u.y);
+}
+
+Vec2 triangle_from_square(Vec2 u) {
+  if (u.y > u.x) return {0.5f * u.x, u.y - 0.5f * u.x};
+  return {u.x - 0.5f * u.y, 0.5f * u.y};
+}
+
+double normal_from_unit(double u) {
+  using boost::math::policies::policy;
+  using boost::math::policies::promote_double;
+  constexpr double lowest = std::numeric_limits<double>::min();
+  constexpr double highest = 1 - 0x1p-53;
+  // The complement's inverse has full relative accuracy in the lower tail, where u has it too.
+  const double complement = 2 * std::clamp(u, lowest, highest);
+  return -std::sqrt(2.0) * boost::math::erfc_inv(complement, policy<promote_double<false>>());
+}
+
+}  // namespace pharos::warp

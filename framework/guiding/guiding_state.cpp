@@ -1,0 +1,103 @@
+#include <numeric>
+
+#include <pharos/core/error.h>
+#include <pharos/core/random.h>
+#include <pharos/guiding/guiding.h>
+
+namespace pharos {
+
+struct GuidingState::Method {
+  GuidingMethod settings;
+  std::unique_ptr<LearningState> state;
+  std::shared_ptr<const GuidingModel> model;
+  std::shared_ptr<const BoundGuider> bound;
+
+  std::uint32_t region_count() const { return model == nullptr ? 1 : model->region_count(); }
+
+  void take(std::shared_ptr<const GuidingModel> next) {
+    model = std::move(next);
+    bound = model == nullptr ? nullptr : settings.guider->bind(model);
+  }
+
+  /// Appends where each of this model's regions came from, numbered from `first` on.
+  void append_origins(std::uint32_t first, std::vector<std::uint32_t>& origins) const {
+    std::vector<std::uint32_t> own =
+        model == nullptr ? std::vector<std::uint32_t>{} : model->region_origins();
+    if (own.empty()) {
+      own.resize(region_count());
+      std::iota(own.begin(), own.end(), 0u);
+    }
+    for (const std::uint32_t origin : own) origins.push_back(first + origin);
+  }
+};
+
+GuidingState::GuidingState(const GuidingSettings& settings, const LearningContext& context)
+    : mixing_(settings.mixing->begin()) {
+  std::uint64_t index = 0;
+  for (GuidingMethod& method : settings.resolved_methods()) {
+    const LearningContext own{context.region, hash_combine(context.seed, index++)};
+    Method& added = methods_.emplace_back();
+    added.settings = std::move(method);
+    added.state = added.settings.learner->begin(own);
+    added.take(added.state->initial_model());
+  }
+  std::uint32_t regions = 0;
+  for (const Method& method : methods_) regions += method.region_count();
+  fractions_ = mixing_->update(regions, {});
+  rebuild_frame();
+}
+
+GuidingState::~GuidingState() = default;
+
+void GuidingState::absorb(const PathLog& log) {
+  for (Method& method : methods_) method.state->absorb(log);
+  mixing_->absorb(log);
+}
+
+void GuidingState::update(std::uint32_t iteration, bool last) {
+  std::vector<std::uint32_t> origins;
+  std::uint32_t first_old_region = 0;
+  for (Method& method : methods_) {
+    const std::uint32_t old_regions = method.region_count();
+    method.take(method.state->update(iteration, last));
+    method.append_origins(first_old_region, origins);
+    first_old_region += old_regions;
+  }
+  fractions_ = mixing_->update(static_cast<std::uint32_t>(origins.size()), origins);
+  rebuild_frame();
+}
+
+void GuidingState::rebuild_frame() {
+  std::vector<GuidingFrame::Method> frame;
+  std::uint32_t first_region = 0;
+  bool anything_known = false;
+  for (const Method& method : methods_) {
+    const GuiderTraits traits = method.settings.guider->traits();
+    frame.push_back({.guider = method.bound,
+                     .weight = method.settings.weight,
+                     .steers_distance = traits.steers_distance,
+                     .steers_events = traits.steers_events,
+                     .first_region = first_region});
+    first_region += method.region_count();
+    anything_known |= method.bound != nullptr;
+  }
+  frame_ = anything_known ? std::make_shared<GuidingFrame>(std::move(frame), fractions_) : nullptr;
+}
+
+std::shared_ptr<const GuidingModel> GuidingState::model(std::size_t i) const {
+  return methods_[i].model;
+}
+
+std::size_t GuidingState::method_count() const {
+  return methods_.size();
+}
+
+std::size_t GuidingState::model_bytes() const {
+  std::size_t bytes = 0;
+  for (const Method& method : methods_) {
+    if (method.model != nullptr) bytes += method.model->size_bytes();
+  }
+  return bytes;
+}
+
+}  // namespace pharos

@@ -1,0 +1,54 @@
+#include <fmt/format.h>
+
+#include <pharos/core/error.h>
+#include <pharos/rendering/integrator.h>
+
+namespace pharos {
+namespace {
+
+void check_records(const RecordNeeds& offered, const GuidingMethod& method) {
+  const LearnerTraits traits = method.learner->traits();
+  const auto check = [&](bool needed, bool has, const char* what) {
+    if (!needed || has) return;
+    throw InputError(fmt::format("the learner '{}' needs {}, which the integrator does not record",
+                                 method.learner->plugin_name(), what));
+  };
+  check(traits.records.light_samples, offered.light_samples, "light samples");
+  check(traits.records.reverse_pdfs, offered.reverse_pdfs, "reverse densities");
+  check(traits.records.light_paths, offered.light_paths, "light paths");
+}
+
+void check_method(const IntegratorTraits& offered, const GuidingMethod& method) {
+  const LearnerTraits learner = method.learner->traits();
+  const GuiderTraits guider = method.guider->traits();
+  if (learner.model != guider.model) {
+    throw InputError(fmt::format(
+        "the learner '{}' learns a '{}' model, but the guider '{}' samples a '{}' model",
+        method.learner->plugin_name(), learner.model, method.guider->plugin_name(), guider.model));
+  }
+  if (guider.guides_camera && !offered.guided_camera) {
+    throw InputError(
+        fmt::format("the guider '{}' guides the camera, which the integrator cannot follow",
+                    method.guider->plugin_name()));
+  }
+  check_records(offered.records, method);
+}
+
+}  // namespace
+
+RenderCounters& RenderCounters::operator+=(const RenderCounters& other) {
+  paths += other.paths;
+  rays += other.rays;
+  invalid_paths += other.invalid_paths;
+  return *this;
+}
+
+void check_compatible(const Integrator& integrator) {
+  if (integrator.guiding() == nullptr) return;
+  const IntegratorTraits offered = integrator.traits();
+  for (const GuidingMethod& method : integrator.guiding()->resolved_methods()) {
+    check_method(offered, method);
+  }
+}
+
+}  // namespace pharos

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <pharos/config/schema.h>
+#include <pharos/scene/scene.h>
+
+namespace pharos {
+
+/// Which lights next event estimation asks at a vertex.
+enum class LightSelection {
+  one,  ///< one, chosen in proportion to power
+  all   ///< every light, each in a branch of its own
+};
+
+template <>
+struct EnumNames<LightSelection> {
+  static constexpr std::array<std::pair<std::string_view, LightSelection>, 2> names{
+      {{"one", LightSelection::one}, {"all", LightSelection::all}}};
+};
+
+/// The lights of a scene under a selection policy: constant, thread-safe.
+class LightSelector {
+ public:
+  LightSelector(const Scene& scene, LightSelection selection);
+
+  /// Light samples to take at each vertex.
+  std::uint16_t branches() const { return branches_; }
+  /// Index into Scene::lights() for a branch; `u` in [0,1).
+  int choose(std::uint16_t branch, float u) const;
+  /// The probability [1] of choosing a light (1 with `all`).
+  float probability(int light) const { return probability_[static_cast<std::size_t>(light)]; }
+
+ private:
+  LightSelection selection_;
+  std::uint16_t branches_ = 0;
+  std::vector<float> probability_;
+  std::vector<float> cumulative_;  ///< upper ends, ascending to 1
+};
+
+}  // namespace pharos

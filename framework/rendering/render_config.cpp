@@ -1,0 +1,94 @@
+#include <fmt/format.h>
+
+#include <pharos/rendering/render_config.h>
+
+namespace pharos {
+namespace {
+
+bool is_exr_or_empty(const std::string& path) {
+  return path.empty() || std::filesystem::path(path).extension() == ".exr";
+}
+
+/// The node under a path of keys, or the deepest one there is.
+const ConfigNode& nearest_node(const ConfigNode& root, std::initializer_list<const char*> keys) {
+  const ConfigNode* node = &root;
+  for (const char* key : keys) {
+    const ConfigNode* next = node->find(key);
+    if (next == nullptr) break;
+    node = next;
+  }
+  return *node;
+}
+
+/// What no single parameter can check.
+void check_together(const RenderConfig& config, const ConfigNode& node) {
+  if (config.budget.spp.has_value() == config.budget.seconds.has_value()) {
+    nearest_node(node, {"budget"}).fail("expected either 'spp' or 'seconds'");
+  }
+  if (config.sensor == nullptr && config.scene.sensor == nullptr) {
+    node.fail("there is no sensor: neither the scene nor the config has one");
+  }
+  try {
+    check_compatible(*config.integrator);
+  } catch (const InputError& error) {
+    nearest_node(node, {"integrator", "guiding"}).fail(error.what());
+  }
+}
+
+}  // namespace
+
+void FilmSettings::describe(Schema<FilmSettings>& s) {
+  s.field("width", &FilmSettings::width, "Width").unit("pixels").at_least(1).at_most(32768);
+  s.field("height", &FilmSettings::height, "Height").unit("pixels").at_least(1).at_most(32768);
+  s.field("filter", &FilmSettings::filter, "Reconstruction filter").otherwise("default");
+  s.field("tile", &FilmSettings::tile, "Edge of a work unit")
+      .unit("pixels")
+      .at_least(1)
+      .at_most(1024);
+}
+
+void OutputSettings::describe(Schema<OutputSettings>& s) {
+  s.field("image", &OutputSettings::image,
+          "EXR file, relative to the current folder; by default the config's name")
+      .check("a name that ends in .exr", is_exr_or_empty);
+  s.field("aovs", &OutputSettings::aovs, "Further layers of the EXR file");
+  s.field("model", &OutputSettings::model, "File for the learned model of the first method");
+  s.field("png", &OutputSettings::png, "Whether a tone-mapped PNG is written beside the EXR file");
+  s.field("exposure", &OutputSettings::exposure, "Exposure of the PNG").unit("stops");
+  s.field("filmic", &OutputSettings::filmic, "Filmic curve for the PNG instead of clipping");
+}
+
+void RenderConfig::describe(Schema<RenderConfig>& s) {
+  s.field("scene", &RenderConfig::scene, "A scene file, or a scene in place").required();
+  s.field("sensor", &RenderConfig::sensor, "Camera, instead of the scene's");
+  s.field("film", &RenderConfig::film, "Size and filter of the image");
+  s.field("sampler", &RenderConfig::sampler, "Where random numbers come from")
+      .otherwise("default");
+  s.field("integrator", &RenderConfig::integrator, "How light transport is estimated")
+      .otherwise("default");
+  s.field("budget", &RenderConfig::budget, "How long to render: spp or seconds").required();
+  s.field("seed", &RenderConfig::seed, "Seed of all random numbers").at_least(0);
+  s.field("output", &RenderConfig::output, "What is written");
+}
+
+LoadedConfig load_render_config(const std::filesystem::path& path,
+                                const std::vector<std::string>& overrides,
+                                const Registry& registry) {
+  ConfigNode node = read_config(path);
+  for (const std::string& assignment : overrides) apply_override(node, assignment);
+  LoadedConfig loaded = build_render_config(node, registry);
+  if (loaded.config.output.image.empty()) {
+    loaded.config.output.image = path.stem().string() + ".exr";
+  }
+  return loaded;
+}
+
+LoadedConfig build_render_config(const ConfigNode& node, const Registry& registry) {
+  BuildContext context{registry};
+  LoadedConfig loaded;
+  loaded.config = Value<RenderConfig>::read(node, context, loaded.resolved);
+  check_together(loaded.config, node);
+  return loaded;
+}
+
+}  // namespace pharos

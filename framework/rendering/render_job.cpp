@@ -1,0 +1,264 @@
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include <pharos/core/parallel.h>
+#include <pharos/rendering/image_combiner.h>
+#include <pharos/rendering/render_job.h>
+
+namespace pharos {
+namespace {
+
+/// Passes an iteration is divided into: enough for an estimate of variance.
+constexpr std::uint32_t kPasses = 16;
+/// Samples a pixel in a pass whose paths are recorded; bounds the memory of logs.
+constexpr std::uint32_t kRecordedPassSamples = 4;
+
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+std::uint32_t round_up(std::uint32_t value, std::uint32_t granule) {
+  return (value + granule - 1) / granule * granule;
+}
+
+std::vector<PixelRect> tiles_of(int width, int height, int edge) {
+  std::vector<PixelRect> tiles;
+  for (int y = 0; y < height; y += edge) {
+    for (int x = 0; x < width; x += edge) {
+      tiles.push_back({x, y, std::min(x + edge, width), std::min(y + edge, height)});
+    }
+  }
+  return tiles;
+}
+
+SceneParts with_sensor(SceneParts parts, const Ref<Sensor>& sensor) {
+  if (sensor != nullptr) parts.sensor = sensor;
+  return parts;
+}
+
+std::uint32_t longest(const std::vector<Iteration>& iterations) {
+  std::uint32_t samples = 0;
+  for (const Iteration& iteration : iterations) {
+    if (iteration.samples == 0) return 0;
+    samples = std::max(samples, iteration.samples);
+  }
+  return samples;
+}
+
+/// How many samples a pixel the passes of an iteration take.
+class PassSizes {
+ public:
+  PassSizes(const Iteration& iteration, std::uint32_t granule)
+      : iteration_(iteration), granule_(granule), limit_(largest(iteration, granule)) {}
+
+  /// The next pass after `done` samples and `elapsed` seconds; 0: the iteration is over. Timed
+  /// iterations start small and double while a pass takes less than a 64th of the time.
+  std::uint32_t next(std::uint32_t done, double elapsed, double last_pass) {
+    if (iteration_.samples > 0) return std::min(limit_, iteration_.samples - done);
+    if (done > 0 && elapsed >= iteration_.seconds) return 0;
+    if (done > 0 && last_pass * 64 < iteration_.seconds) timed_ = std::min(2 * timed_, limit_);
+    return timed_;
+  }
+
+ private:
+  static std::uint32_t largest(const Iteration& iteration, std::uint32_t granule) {
+    if (iteration.training) return round_up(kRecordedPassSamples, granule);
+    if (iteration.samples == 0) return 1u << 20;
+    return round_up((iteration.samples + kPasses - 1) / kPasses, granule);
+  }
+
+  const Iteration& iteration_;
+  std::uint32_t granule_, limit_;
+  std::uint32_t timed_ = granule_;
+};
+
+}  // namespace
+
+class RenderJob::Implementation {
+ public:
+  explicit Implementation(const RenderConfig& config)
+      : config_(config),
+        scene_(with_sensor(config.scene, config.sensor)),
+        sensor_(scene_.sensor().prepare(config.film.width, config.film.height)),
+        integrator_(config.integrator->prepare(
+            {scene_, *sensor_, config.film.width, config.film.height})),
+        tiles_(tiles_of(config.film.width, config.film.height, config.film.tile)) {
+    const GuidingSettings* guiding = config.integrator->guiding();
+    const TrainingSchedule untrained{.iterations = 0};
+    iterations_ = (guiding != nullptr ? guiding->training : untrained)
+                      .divide(config.budget, config.sampler->preferred_samples());
+    const auto probe = config.sampler->needs_probe() ? integrator_->probe() : nullptr;
+    sampler_ = config.sampler->prepare({config.film.width, config.film.height},
+                                       {config.seed, longest(iterations_)}, probe.get());
+    preparation_seconds_ = watch_.seconds();
+  }
+
+  RenderResult run(const RenderControl& control) {
+    begin(control);
+    result_.times.preparation = preparation_seconds_;
+    for (std::uint32_t i = 0; i < iterations_.size() && !stopped(); ++i) run_iteration(i);
+    // A render that was stopped while training has only training images to show.
+    result_.image = combiner_.empty() ? last_image_ : combiner_.combine();
+    result_.stopped = stopped();
+    if (guiding_ != nullptr) {
+      result_.model_bytes = guiding_->model_bytes();
+      result_.model = guiding_->model(0);
+    }
+    return std::move(result_);
+  }
+
+  PathTrace replay(const PathKey& key) {
+    begin({});
+    for (std::uint32_t i = 0; i < key.iteration && i < iterations_.size(); ++i) run_iteration(i);
+    return integrator_->replay(key, context(false));
+  }
+
+  const RenderConfig& config() const { return config_; }
+  const Scene& scene() const { return scene_; }
+
+ private:
+  void begin(const RenderControl& control) {
+    control_ = control;
+    watch_ = {};
+    result_ = {};
+    combiner_ = {};
+    const GuidingSettings* settings = config_.integrator->guiding();
+    guiding_ = settings == nullptr ? nullptr
+                                   : std::make_unique<GuidingState>(
+                                         *settings, LearningContext{scene_.bounds(), config_.seed});
+    frame_ = guiding_ == nullptr ? nullptr : guiding_->frame();
+  }
+
+  bool stopped() const { return control_.stop != nullptr && control_.stop->load(); }
+
+  IterationContext context(bool record) const {
+    return {*sampler_, config_.seed, frame_.get(), record};
+  }
+
+  void run_iteration(std::uint32_t index) {
+    const Iteration& iteration = iterations_[index];
+    const Stopwatch watch;
+    Film film(config_.film.width, config_.film.height, config_.film.filter);
+    PassSizes sizes(iteration, config_.sampler->preferred_samples());
+    std::uint32_t done = 0;
+    double last_pass = 0;
+    while (const std::uint32_t size = sizes.next(done, watch.seconds(), last_pass)) {
+      const Stopwatch pass_watch;
+      const bool complete = run_pass(index, done, size, film, watch);
+      if (!complete) break;
+      done += size;
+      last_pass = pass_watch.seconds();
+    }
+    (iteration.training ? result_.times.training : result_.times.rendering) += watch.seconds();
+    result_.samples_per_pixel += film.samples_per_pixel();
+    last_image_ = film.layers();
+    if (iteration.keeps_image && film.samples_per_pixel() > 0) combiner_.add(last_image_);
+    if (iteration.training && !stopped()) update_guiding(index);
+  }
+
+  void update_guiding(std::uint32_t index) {
+    const Stopwatch watch;
+    guiding_->update(index, !iterations_[index + 1].training);
+    frame_ = guiding_->frame();
+    result_.times.update += watch.seconds();
+  }
+
+  /// Renders `size` samples of every pixel; false when it was cut short.
+  bool run_pass(std::uint32_t index, std::uint32_t first_sample, std::uint32_t size, Film& film,
+                const Stopwatch& iteration_watch) {
+    const IterationContext shared = context(iterations_[index].training);
+    const auto produce = [&](std::size_t i) {
+      WorkResult work{.film = film.make_tile(tiles_[i])};
+      integrator_->render({tiles_[i], index, first_sample, size}, shared, work);
+      return work;
+    };
+    std::uint64_t pixels = 0;
+    const auto consume = [&](std::size_t i, WorkResult& work) {
+      film.merge(work.film);
+      if (shared.record) guiding_->absorb(work.log);
+      result_.counters += work.counters;
+      if (!result_.first_invalid) result_.first_invalid = work.first_invalid;
+      pixels += tiles_[i].area();
+      report(index, first_sample, size, pixels, iteration_watch);
+    };
+    parallel_ordered(tiles_.size(), produce, consume, [&](std::size_t) { return !stopped(); });
+    const double share = static_cast<double>(pixels) / static_cast<double>(film_area());
+    film.end_pass(size * share, pixels == film_area());
+    return pixels == film_area();
+  }
+
+  std::uint64_t film_area() const {
+    return static_cast<std::uint64_t>(config_.film.width) * config_.film.height;
+  }
+
+  void report(std::uint32_t index, std::uint32_t first_sample, std::uint32_t size,
+              std::uint64_t pixels, const Stopwatch& iteration_watch) const {
+    if (!control_.on_progress) return;
+    const double samples =
+        first_sample + size * (static_cast<double>(pixels) / static_cast<double>(film_area()));
+    double total = 0, before = 0;
+    for (std::uint32_t i = 0; i < iterations_.size(); ++i) {
+      const double work = iterations_[i].samples > 0 ? iterations_[i].samples : iterations_[i].seconds;
+      total += work;
+      if (i < index) before += work;
+    }
+    const Iteration& now = iterations_[index];
+    const double here =
+        now.samples > 0 ? samples : std::min(iteration_watch.seconds(), now.seconds);
+    control_.on_progress({.iteration = index,
+                          .iteration_count = static_cast<std::uint32_t>(iterations_.size()),
+                          .training = now.training,
+                          .fraction = (before + here) / total,
+                          .seconds = watch_.seconds(),
+                          .samples_per_pixel = result_.samples_per_pixel + samples,
+                          .rays = result_.counters.rays});
+  }
+
+  RenderConfig config_;
+  Stopwatch watch_;
+  Scene scene_;
+  std::unique_ptr<const PreparedSensor> sensor_;
+  std::unique_ptr<const PreparedIntegrator> integrator_;
+  std::vector<PixelRect> tiles_;
+  std::vector<Iteration> iterations_;
+  std::unique_ptr<const PreparedSampler> sampler_;
+  double preparation_seconds_ = 0;
+
+  // Of the run in progress.
+  RenderControl control_;
+  RenderResult result_;
+  ImageCombiner combiner_;
+  Image last_image_;
+  std::unique_ptr<GuidingState> guiding_;
+  std::shared_ptr<const GuidingFrame> frame_;
+};
+
+RenderJob::RenderJob(const RenderConfig& config)
+    : implementation_(std::make_unique<Implementation>(config)) {}
+
+RenderJob::~RenderJob() = default;
+
+RenderResult RenderJob::run(const RenderControl& control) {
+  return implementation_->run(control);
+}
+
+PathTrace RenderJob::replay(int x, int y, std::uint32_t sample, std::uint32_t iteration) {
+  const RenderConfig& config = implementation_->config();
+  return implementation_->replay({.seed = config.seed,
+                                  .iteration = iteration,
+                                  .index = static_cast<std::uint64_t>(y) * config.film.width + x,
+                                  .sample = sample});
+}
+
+const Scene& RenderJob::scene() const {
+  return implementation_->scene();
+}
+
+}  // namespace pharos

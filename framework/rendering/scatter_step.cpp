@@ -1,0 +1,57 @@
+#include <pharos/rendering/scatter_step.h>
+
+namespace pharos {
+namespace {
+
+std::optional<ScatterStep> sample_unguided(const LocalScattering& scattering,
+                                           const VertexStream& stream) {
+  const std::optional<ScatterSample> sample = scattering.sample(
+      stream.get_1d(Purpose::bsdf_choice), stream.get_2d(Purpose::bsdf_direction));
+  if (!sample || sample->pdf <= 0) return std::nullopt;
+  return ScatterStep{.direction = sample->direction,
+                     .event = sample->event,
+                     .value = sample->pdf * sample->weight,
+                     .unguided_pdf = sample->pdf,
+                     .unguided_weight = sample->weight};
+}
+
+/// What the scattering makes of a guide's proposal.
+std::optional<ScatterStep> accept(const LocalScattering& scattering, const Proposal& proposal) {
+  ScatterStep step{.direction = proposal.direction,
+                   .reach = proposal.reach,
+                   .distance = proposal.distance,
+                   .targets = proposal.targets};
+  if (is_empty(proposal.events & EventMask::smooth)) {
+    for (const DiscreteOutcome& outcome : scattering.discrete()) {
+      if (!contains(proposal.events, outcome.event)) continue;
+      step.direction = outcome.direction;
+      step.event = outcome.event;
+      step.value = outcome.value;
+      step.unguided_pdf = outcome.probability;
+      return step;
+    }
+    return std::nullopt;
+  }
+  step.event = scattering.smooth_event(proposal.direction);
+  if (!contains(proposal.events, step.event)) return std::nullopt;
+  const ScatterValue value = scattering.evaluate(proposal.direction);
+  if (is_black(value.value)) return std::nullopt;
+  step.value = value.value;
+  step.unguided_pdf = value.pdf;
+  return step;
+}
+
+}  // namespace
+
+std::optional<ScatterStep> sample_step(const LocalScattering& scattering, const Guidance& guidance,
+                                       const VertexStream& stream) {
+  if (guidance.distribution == nullptr ||
+      stream.get_1d(Purpose::mix_choice) < guidance.unguided_fraction) {
+    return sample_unguided(scattering, stream);
+  }
+  const std::optional<Proposal> proposal = guidance.distribution->propose(stream);
+  if (!proposal) return std::nullopt;
+  return accept(scattering, *proposal);
+}
+
+}  // namespace pharos

@@ -1,0 +1,133 @@
+#include <limits>
+
+#include <pharos/scene/shape.h>
+
+namespace pharos {
+namespace {
+
+/// Three doubles, for the few steps where float would lose what the scene's coordinates say.
+struct Vec3d {
+  double x, y, z;
+
+  explicit Vec3d(Vec3 v) : x(v.x), y(v.y), z(v.z) {}
+  Vec3d(double a, double b, double c) : x(a), y(b), z(c) {}
+
+  friend Vec3d operator+(Vec3d a, Vec3d b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+  friend Vec3d operator-(Vec3d a, Vec3d b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+  friend Vec3d operator*(double s, Vec3d v) { return {s * v.x, s * v.y, s * v.z}; }
+};
+
+Vec3d cross(Vec3d a, Vec3d b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+double length(Vec3d v) {
+  return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
+}
+Vec3 to_float(Vec3d v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+float sum(Vec3 v) {
+  return v.x + v.y + v.z;
+}
+
+using Corners = std::array<Point3, 3>;
+
+/// How far origin_towards() must step from a triangle, in units of machine epsilon eps = 2^-23.
+///
+/// The position is computed in double and rounded once; so is the origin. Each rounding moves it by
+/// at most eps/2 of the largest coordinate M in each of three directions, together sqrt(3) eps M:
+/// `kRounding` covers that. A ray leaving there must find itself on the right side in Embree's
+/// float arithmetic, which decides by the sign of dot(v0 - o, e0 x e1) with vertices taken relative
+/// to the origin o: these are at most the longest edge L away, and rounding them (eps/2), the two
+/// edges, their cross product (about 10 eps/2 together) and the dot product (3 eps/2) changes the
+/// distance by about 7 eps L unless the triangle's largest angle nears 180 degrees. `kArithmetic`
+/// stands before the 1-norms of two edges, whose sum is at least L and typically 2 L or more.
+constexpr float kEpsilon = std::numeric_limits<float>::epsilon();
+constexpr float kRounding = 2;
+constexpr float kArithmetic = 8;
+
+float position_error(const Corners& p, float edge_sum) {
+  const Vec3 largest = max(abs(p[0]), max(abs(p[1]), abs(p[2])));
+  return kEpsilon * (kRounding * max_component(largest) + kArithmetic * edge_sum);
+}
+
+/// The step within the triangle's plane that takes the point of weights `b` to a distance of at
+/// least `margin` from every edge, or about half-way where the triangle is narrower than that.
+Vec3 step_off_edges(const Corners& p, std::array<float, 3> b, Vec3 normal, float double_area,
+                    float margin) {
+  Vec3 step;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3 edge = p[(i + 2) % 3] - p[(i + 1) % 3];  // the one that vertex i faces
+    const float edge_length = length(edge);
+    const float distance = b[i] * double_area / edge_length;
+    if (distance < margin) step += (margin - distance) / edge_length * cross(normal, edge);
+  }
+  return step;
+}
+
+Frame shading_frame(Vec3 interpolated, Vec3 normal) {
+  const float side = dot(interpolated, normal);
+  const float size = length(interpolated);
+  const bool usable = side != 0 && size > 0 && std::isfinite(size);
+  if (!usable) return Frame::from_normal(normal);
+  return Frame::from_normal(std::copysign(1 / size, side) * interpolated);
+}
+
+}  // namespace
+
+SurfacePoint TriangleMesh::surface_point(std::uint32_t triangle, float b1, float b2) const {
+  const auto [i0, i1, i2] = triangles[triangle];
+  const Corners p{positions[i0], positions[i1], positions[i2]};
+  const Vec3d origin(p[0]);
+  const Vec3d e1 = Vec3d(p[1]) - origin, e2 = Vec3d(p[2]) - origin;
+  const Vec3d area_normal = cross(e1, e2);
+  const double double_area = length(area_normal);
+  const float edge_sum = sum(abs(to_float(e1))) + sum(abs(to_float(e2)));
+  const float b0 = 1 - b1 - b2;
+
+  SurfacePoint point;
+  point.primitive = triangle;
+  point.error = position_error(p, edge_sum);
+  point.normal = to_float((1 / double_area) * area_normal);
+  point.position = to_float(origin + (b1 * e1 + b2 * e2));
+  const float area = static_cast<float>(double_area);
+  // `edge_sum` is above the longest edge, so that this is seldom true without need.
+  if (std::min(b0, std::min(b1, b2)) * area < point.error * edge_sum) {
+    point.position += step_off_edges(p, {b0, b1, b2}, point.normal, area, point.error);
+  }
+  point.uv = uvs.empty() ? Vec2{b1, b2} : b0 * uvs[i0] + b1 * uvs[i1] + b2 * uvs[i2];
+  point.shading =
+      normals.empty()
+          ? Frame::from_normal(point.normal)
+          : shading_frame(b0 * normals[i0] + b1 * normals[i1] + b2 * normals[i2], point.normal);
+  return point;
+}
+
+float TriangleMesh::area(std::uint32_t triangle) const {
+  const auto [i0, i1, i2] = triangles[triangle];
+  const Vec3d origin(positions[i0]);
+  const Vec3d e1 = Vec3d(positions[i1]) - origin, e2 = Vec3d(positions[i2]) - origin;
+  return static_cast<float>(0.5 * length(cross(e1, e2)));
+}
+
+Bounds3 TriangleMesh::bounds() const {
+  Bounds3 box;
+  for (const Point3& p : positions) box.add(p);
+  return box;
+}
+
+SurfacePoint Shape::surface_point(const Ray&, const PrimitiveHit& hit) const {
+  return mesh()->surface_point(hit.primitive, hit.coordinates.x, hit.coordinates.y);
+}
+
+ShapeSample Shape::sample_from(Point3 from, Vec2 u) const {
+  ShapeSample s = sample(u);
+  s.pdf = solid_angle_pdf_from_area(s.pdf, from, s.point.position, s.point.normal);
+  return s;
+}
+
+float Shape::pdf_from(Point3 from, const SurfacePoint& point) const {
+  return solid_angle_pdf_from_area(1 / area(), from, point.position, point.normal);
+}
+
+}  // namespace pharos

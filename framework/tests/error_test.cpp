@@ -1,0 +1,73 @@
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include <pharos/core/error.h>
+
+#include "fixtures.h"
+
+using namespace pharos;
+
+TEST_CASE("a location leaves out what is unknown") {
+  CHECK(Location{"a.yaml", 3, 7}.to_string() == "a.yaml:3:7");
+  CHECK(Location{"a.yaml", 3, 0}.to_string() == "a.yaml:3");
+  CHECK(Location{"a.yaml"}.to_string() == "a.yaml");
+  CHECK(Location{"", 3, 7}.to_string() == "line 3:7");
+  CHECK(Location{}.to_string().empty());
+}
+
+TEST_CASE("an input error knows whether it says where") {
+  const InputError located({"a.yaml", 3, 7}, "wrong");
+  CHECK(std::string(located.what()) == "a.yaml:3:7: error: wrong");
+  CHECK(located.located());
+  const InputError unlocated("wrong");
+  CHECK(std::string(unlocated.what()) == "wrong");
+  CHECK_FALSE(unlocated.located());
+  const InputError nowhere(Location{}, "wrong");
+  CHECK(std::string(nowhere.what()) == "wrong");
+  CHECK_FALSE(nowhere.located());
+}
+
+TEST_CASE("suggestions") {
+  const std::vector<std::string> known{"radius", "height", "radian", "x", "emission"};
+  SUBCASE("one edit of each kind") {
+    for (const char* wrong : {"raduis", "radiu", "radiuss", "radiua", "Radius"}) {
+      CHECK(suggestion(wrong, known) == " (did you mean 'radius'?)");
+    }
+  }
+  SUBCASE("a third of the letters may differ") {
+    CHECK(suggestion("emisin", known) == " (did you mean 'emission'?)");  // 2 of 6
+    CHECK(suggestion("emsin", known).empty());                            // 3 of 5
+  }
+  SUBCASE("of names equally near the first is taken") {
+    CHECK(suggestion("radius", std::vector<std::string>{"radiuc", "radiua"}) ==
+          " (did you mean 'radiuc'?)");
+    CHECK(suggestion("radias", known) == " (did you mean 'radius'?)");
+  }
+  SUBCASE("a name without a common letter is never near") {
+    CHECK(suggestion("y", known).empty());
+    CHECK(suggestion("", known).empty());
+    CHECK(suggestion("y", {}).empty());
+  }
+}
+
+TEST_CASE("a missing file's nearest name is sought in its folder") {
+  const test::TemporaryFolder folder;
+  folder.write("kitchen.yaml", "");
+  folder.write("attic.yaml", "");
+  CHECK(file_suggestion(folder / "kichen.yaml") == " (did you mean 'kitchen.yaml'?)");
+  CHECK(file_suggestion(folder / "garden.yaml").empty());
+  CHECK(file_suggestion(folder / "none/kitchen.yaml").empty());
+}
+
+TEST_CASE("one_line keeps messages on one line and whole characters") {
+  CHECK(one_line("a\nb\tc\x01\n") == "a b c?");
+  CHECK(one_line("abcdef", 3) == "abc…");
+  CHECK(one_line("abcdef", 6) == "abcdef");
+  CHECK(one_line("aää", 2) == "a…");
+}
+
+TEST_CASE("quoted lists") {
+  CHECK(quoted_list(std::vector<std::string>{"a", "b"}) == "'a', 'b'");
+  CHECK(quoted_list({}) == "none");
+}

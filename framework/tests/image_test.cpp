@@ -1,0 +1,170 @@
+#include <cmath>
+#include <fstream>
+#include <iterator>
+
+#include <doctest/doctest.h>
+
+#include <pharos/core/atomic_file.h>
+#include <pharos/core/error.h>
+#include <pharos/core/image.h>
+#include <pharos/core/random.h>
+
+#include "fixtures.h"
+
+using namespace pharos;
+
+namespace {
+
+Image noise(int width, int height, std::vector<std::string> channels) {
+  Image image(width, height, std::move(channels));
+  RandomStream random(1);
+  for (float& v : image.values()) v = random.next_1d();
+  return image;
+}
+
+Image grey(float value) {
+  Image image(2, 1, {"R", "G", "B"});
+  for (float& v : image.values()) v = value;
+  return image;
+}
+
+std::string bytes_of(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+std::size_t files_in(const test::TemporaryFolder& folder) {
+  const std::filesystem::directory_iterator files(folder.path());
+  return static_cast<std::size_t>(std::distance(begin(files), end(files)));
+}
+
+}  // namespace
+
+TEST_CASE("OpenEXR keeps every bit, every channel by name, and the metadata") {
+  const test::TemporaryFolder folder;
+  const Image image = noise(37, 23, {"R", "G", "B", "variance.R", "albedo.G", "depth.Z"});
+  const Metadata metadata{{"pharos:config", "a: 1\nb: [1, 2]\n"},
+                          {"pharos:long", std::string(70'000, 'x')}};
+  write_exr(image, folder / "a.exr", metadata);
+  const Image back = read_image(folder / "a.exr");
+  REQUIRE(back.width() == 37);
+  REQUIRE(back.height() == 23);
+  REQUIRE(back.channel_count() == 6);
+  for (int c = 0; c < 3; ++c) CHECK(back.channels()[c] == image.channels()[c]);
+  for (int c = 0; c < 6; ++c) {
+    const int at = back.channel_index(image.channels()[c]);
+    REQUIRE(at >= 0);
+    for (int y = 0; y < 23; ++y) {
+      for (int x = 0; x < 37; ++x) CHECK(back.pixel(x, y)[at] == image.pixel(x, y)[c]);
+    }
+  }
+  const Metadata read = read_metadata(folder / "a.exr");
+  for (const auto& [key, text] : metadata) CHECK(read.at(key) == text);
+  CHECK(files_in(folder) == 1);
+}
+
+TEST_CASE("equal images make equal files: no time of writing stands in them") {
+  const test::TemporaryFolder folder;
+  write_exr(noise(8, 8, {"R", "G", "B"}), folder / "a.exr");
+  const Metadata metadata = read_metadata(folder / "a.exr");
+  CHECK((metadata.count("DateTime") == 0 || metadata.at("DateTime").empty()));
+}
+
+TEST_CASE("PNG shows sRGB; reading takes it back to linear unless told otherwise") {
+  const test::TemporaryFolder folder;
+  write_png(grey(0.5f), folder / "a.png", 0, false);
+  const float stored = std::round(255 * srgb_from_linear(0.5f)) / 255;
+  CHECK(stored == doctest::Approx(188 / 255.0));
+  CHECK(read_image(folder / "a.png").rgb(0, 0).g == doctest::Approx(linear_from_srgb(stored)));
+  CHECK(read_image(folder / "a.png", ColorSpace::linear).rgb(1, 0).b == doctest::Approx(stored));
+}
+
+TEST_CASE("PNG: exposure, the filmic curve and values out of range") {
+  const test::TemporaryFolder folder;
+  const auto shown = [&](float value, float exposure, bool filmic) {
+    write_png(grey(value), folder / "a.png", exposure, filmic);
+    return std::lround(255 * read_image(folder / "a.png", ColorSpace::linear).rgb(0, 0).r);
+  };
+  CHECK(shown(0.125f, 2, false) == shown(0.5f, 0, false));
+  CHECK(shown(4, 0, false) == 255);
+  CHECK(shown(-1, 0, false) == 0);
+  CHECK(shown(NAN, 0, true) == 0);
+  CHECK(shown(kInfinity, 0, true) == 255);
+  // The fit at 1: 2.54 / 3.16.
+  CHECK(shown(1, 0, true) == std::lround(255 * srgb_from_linear(2.54f / 3.16f)));
+  CHECK(shown(0, 0, true) == 0);
+}
+
+TEST_CASE("the sRGB functions are inverses, and continuous where their pieces meet") {
+  for (int i = 0; i <= 255; ++i) {
+    const float v = i / 255.0f;
+    CHECK(srgb_from_linear(linear_from_srgb(v)) == doctest::Approx(v).epsilon(1e-5));
+  }
+  CHECK(linear_from_srgb(0.5f) == doctest::Approx(0.21404114));
+  CHECK(srgb_from_linear(0.0031308f) ==
+        doctest::Approx(srgb_from_linear(0.0031309f)).epsilon(1e-3));
+}
+
+TEST_CASE("images that cannot be read are input errors on one line") {
+  const test::TemporaryFolder folder;
+  write_exr(noise(64, 64, {"R", "G", "B"}), folder / "whole.exr");
+  write_png(noise(64, 64, {"R", "G", "B"}), folder / "whole.png");
+  folder.write("text.exr", "no image");
+  const auto error = [&](std::string_view name) {
+    return test::input_error_in(folder, [&] { read_image(folder / name); });
+  };
+  CHECK(error("whale.exr") ==
+        "cannot read the image 'whale.exr': no such file (did you mean 'whole.exr'?)");
+  CHECK(error("text.exr").find("cannot read the image 'text.exr': ") == 0);
+  CHECK(test::input_error_in(folder, [&] { read_metadata(folder / "none.exr"); }) ==
+        "cannot read the image 'none.exr': no such file");
+  CHECK(test::input_error([&] { read_image(folder.path()); }) ==
+        "cannot read the image '" + folder.path().string() + "': it is a folder");
+  for (const char* name : {"whole.exr", "whole.png"}) {
+    const std::string whole = bytes_of(folder / name);
+    for (const double share : {0.02, 0.3, 0.7, 0.99}) {
+      const std::string cut = std::string("cut-") + name;
+      folder.write(cut, whole.substr(0, static_cast<std::size_t>(share * whole.size())));
+      CAPTURE(cut);
+      CAPTURE(share);
+      CHECK(error(cut).find("cannot read the image '" + cut + "': ") == 0);
+      CHECK(error(cut).find('\n') == std::string::npos);
+    }
+  }
+}
+
+TEST_CASE("images that cannot be written leave nothing behind") {
+  const test::TemporaryFolder folder;
+  const Image image = grey(1);
+  const std::string path = folder.path().string();
+  CHECK_THROWS_WITH_AS(
+      write_exr(image, folder / "none/a.exr"),
+      ("cannot write '" + path + "/none/a.exr': there is no folder '" + path + "/none'").c_str(),
+      RunError);
+  std::filesystem::create_directory(folder / "b.exr");
+  CHECK_THROWS_AS(write_exr(image, folder / "b.exr"), RunError);
+  CHECK_THROWS_AS(write_exr(Image(), folder / "c.exr"), RunError);
+  CHECK(files_in(folder) == 1);
+}
+
+TEST_CASE("atomic files: a failed write keeps the older file, links stay links") {
+  const test::TemporaryFolder folder;
+  const auto old = folder.write("a.txt", "old");
+  const auto write = [](std::string_view text) {
+    return [text](const std::filesystem::path& to) { std::ofstream(to) << text; };
+  };
+  const auto failing = [](const std::filesystem::path& to) {
+    std::ofstream(to) << "half";
+    throw RunError("disk full");
+  };
+  CHECK_THROWS_WITH_AS(write_atomically(old, failing), "disk full", RunError);
+  CHECK(bytes_of(old) == "old");
+  CHECK(files_in(folder) == 1);
+  std::filesystem::create_symlink(old, folder / "link.txt");
+  write_atomically(folder / "link.txt", write("new"));
+  CHECK(std::filesystem::is_symlink(folder / "link.txt"));
+  CHECK(bytes_of(old) == "new");
+  std::filesystem::create_symlink("/dev/null", folder / "device");
+  CHECK_THROWS_AS(write_atomically(folder / "device", write("new")), RunError);
+  CHECK(std::filesystem::is_character_file("/dev/null"));
+}

@@ -1,0 +1,122 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <pharos/config/registry.h>
+#include <pharos/core/random.h>
+#include <pharos/core/warp.h>
+#include <pharos/scene/scene.h>
+#include <pharos/scene/texture.h>
+
+/// The smallest parts that a scene can be made of.
+namespace pharos::test {
+
+class BlackBsdf : public Bsdf {
+ public:
+  using Settings = NoSettings;
+  explicit BlackBsdf(Settings = {}) {}
+
+  EventMask events() const override { return EventMask::nothing; }
+  ScatterValue evaluate(const SurfacePoint&, Vec3, Vec3, ScatterOptions) const override {
+    return {};
+  }
+  std::optional<ScatterSample> sample(const SurfacePoint&, Vec3, float, Vec2,
+                                      ScatterOptions) const override {
+    return std::nullopt;
+  }
+  float roughness(const SurfacePoint&) const override { return 1; }
+  Rgb albedo(const SurfacePoint&) const override { return {}; }
+};
+
+class MeshShape : public Shape {
+ public:
+  explicit MeshShape(TriangleMesh triangles) : mesh_(std::move(triangles)) {}
+
+  Bounds3 bounds() const override { return mesh_.bounds(); }
+  float area() const override { return 1; }
+  const TriangleMesh* mesh() const override { return &mesh_; }
+  ShapeSample sample(Vec2 u) const override { return {mesh_.surface_point(0, u.x, u.y), 1}; }
+
+ private:
+  TriangleMesh mesh_;
+};
+
+/// An area light or an environment that remembers where it was placed.
+class PlacedEmitter : public Emitter {
+ public:
+  class PlacedLight : public Light {
+   public:
+    PlacedLight(bool on_shape, const EmitterSite& where) : site(where), on_shape_(on_shape) {}
+    LightSample sample(Point3, Vec2) const override { return {}; }
+    bool is_environment() const override { return !on_shape_; }
+    float power() const override { return 1; }
+
+    EmitterSite site;
+
+   private:
+    bool on_shape_;
+  };
+
+  explicit PlacedEmitter(bool on_shape) : on_shape_(on_shape) {}
+  bool needs_shape() const override { return on_shape_; }
+  std::unique_ptr<const Light> place(const EmitterSite& site) const override {
+    return std::make_unique<const PlacedLight>(on_shape_, site);
+  }
+
+ private:
+  bool on_shape_;
+};
+
+class PointSensor : public Sensor {
+ public:
+  explicit PointSensor(Point3 at) : at_(at) {}
+  std::unique_ptr<const PreparedSensor> prepare(int, int) const override { return nullptr; }
+  Point3 position() const override { return at_; }
+
+ private:
+  Point3 at_;
+};
+
+class ClearMedium : public Medium {
+ public:
+  using Settings = NoSettings;
+  explicit ClearMedium(Settings = {}) {}
+  DistanceSample sample(const Ray&, float, float) const override { return {}; }
+  float scatter_pdf(const Ray&, float) const override { return 0; }
+  float pass_probability(const Ray&, float) const override { return 1; }
+  Rgb transmittance(const Ray&, float) const override { return Rgb(1); }
+  Rgb scattering(Point3) const override { return {}; }
+  const PhaseFunction& phase_function() const override { std::abort(); }
+};
+
+inline SceneObject object_of(Ref<Shape> shape) {
+  SceneObject object;
+  object.shape = std::move(shape);
+  object.bsdf = std::make_shared<const BlackBsdf>();
+  return object;
+}
+
+inline SceneParts parts_of(std::vector<TriangleMesh> meshes) {
+  SceneParts parts;
+  for (TriangleMesh& mesh : meshes) {
+    parts.objects.push_back(object_of(std::make_shared<const MeshShape>(std::move(mesh))));
+  }
+  return parts;
+}
+
+/// The square [-1,1]^2 at height z that faces up, as triangles 0 (below the diagonal) and 1.
+inline TriangleMesh square_at(float z) {
+  TriangleMesh mesh;
+  mesh.positions = {{-1, -1, z}, {1, -1, z}, {1, 1, z}, {-1, 1, z}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  return mesh;
+}
+
+inline Vec3 random_direction(RandomStream& random) {
+  return normalize(warp::sphere_from_square(random.next_2d()));
+}
+
+}  // namespace pharos::test

@@ -1,0 +1,106 @@
+#include "../rough_conductor.h"
+
+#include <cmath>
+
+#include <doctest/doctest.h>
+
+#include "../fresnel.h"
+#include "bsdf_checks.h"
+
+namespace pharos {
+namespace {
+
+/// A metal that reflects everything: the Fresnel term of a huge k is one.
+RoughConductor mirror_metal(float alpha, Masking masking) {
+  return RoughConductor({.alpha = alpha,
+                         .eta = Rgb(1),
+                         .k = Rgb(1e4f),
+                         .masking = masking,
+                         .specular_reflectance = test::uniform(Rgb(1))});
+}
+
+double tangent_squared(Vec3 v) {
+  return (1 - double{v.z} * v.z) / (double{v.z} * v.z);
+}
+/// Smith's Lambda of GGX (Heitz 2014, eq. 72).
+double lambda(Vec3 v, double alpha) {
+  return 0.5 * (std::sqrt(1 + alpha * alpha * tangent_squared(v)) - 1);
+}
+/// D in the form of Walter et al. 2007, eq. 33.
+double ggx(Vec3 m, double alpha) {
+  const double c2 = double{m.z} * m.z, t = alpha * alpha + tangent_squared(m);
+  return alpha * alpha / (M_PI * c2 * c2 * t * t);
+}
+
+}  // namespace
+
+TEST_CASE("rough conductor: the textbook formula") {
+  const SurfacePoint point;
+  const Vec3 wo = test::direction(35, 20), wi = test::direction(55, 130);
+  const Vec3 m = normalize(wo + wi);
+  for (const float alpha : {0.1f, 0.5f, 1.0f}) {
+    const RoughConductor::Settings defaults{.alpha = alpha,
+                                            .specular_reflectance = test::uniform(Rgb(0.9f))};
+    RoughConductor::Settings separable = defaults;
+    separable.masking = Masking::separable;
+    const double lo = lambda(wo, alpha), li = lambda(wi, alpha);
+    const double fresnel = conductor_fresnel(dot(wo, m), defaults.eta.g, defaults.k.g);
+    const double common = 0.9 * fresnel * ggx(m, alpha) / (4 * wo.z);
+    CHECK(RoughConductor(defaults).evaluate(point, wo, wi, {}).value.g ==
+          doctest::Approx(common / (1 + lo + li)).epsilon(1e-4));
+    CHECK(RoughConductor(separable).evaluate(point, wo, wi, {}).value.g ==
+          doctest::Approx(common / ((1 + lo) * (1 + li))).epsilon(1e-4));
+  }
+}
+
+TEST_CASE("rough conductor: reflects no more than it gets, and more when masking is correlated") {
+  for (const float alpha : {0.1f, 0.4f, 1.0f}) {
+    for (const double theta : {0.0, 45.0, 80.0}) {
+      const Vec3 wo = test::direction(theta, 30);
+      const double correlated =
+          test::smooth_albedo(mirror_metal(alpha, Masking::height_correlated), wo);
+      const double separable = test::smooth_albedo(mirror_metal(alpha, Masking::separable), wo);
+      CAPTURE(alpha);
+      CAPTURE(theta);
+      CHECK(correlated <= 1.0001);
+      CHECK(separable <= correlated + 1e-4);
+      CHECK(separable > 0.3);
+      if (alpha == 0.1f && theta == 0) CHECK(correlated > 0.98);
+    }
+  }
+}
+
+TEST_CASE("rough conductor: samples carry the albedo") {
+  // The mean weight estimates what quadrature finds; both are bounded by one.
+  const RoughConductor bsdf = mirror_metal(0.6f, Masking::height_correlated);
+  const Vec3 wo = test::direction(65, 0);
+  RandomStream random(3);
+  constexpr int kSamples = 100'000;
+  double sum = 0;
+  for (int i = 0; i < kSamples; ++i) {
+    if (const auto s = bsdf.sample({}, wo, 0, random.next_2d(), {})) sum += s->weight.g;
+  }
+  // Weights lie in [0, 1]: four standard errors are at most 4 * 0.5 / sqrt(n).
+  CHECK(std::abs(sum / kSamples - test::smooth_albedo(bsdf, wo)) < 2 / std::sqrt(kSamples));
+}
+
+TEST_CASE("rough conductor: nearly smooth metal reflects as a mirror does") {
+  const RoughConductor bsdf = mirror_metal(1e-4f, Masking::height_correlated);
+  const Vec3 wo = test::direction(50, 70), mirrored{-wo.x, -wo.y, wo.z};
+  RandomStream random(4);
+  for (int i = 0; i < 100; ++i) {
+    const auto s = bsdf.sample({}, wo, 0, 0.98f * random.next_2d(), {});
+    REQUIRE(s);
+    CHECK(length(s->direction - mirrored) < 5e-3f);
+    CHECK(s->weight.r == doctest::Approx(1).epsilon(1e-3));
+  }
+}
+
+TEST_CASE("rough conductor: approximate albedo") {
+  const RoughConductor bsdf({.alpha = 0.2f, .specular_reflectance = test::uniform(Rgb(0.8f))});
+  const double exact = test::smooth_albedo(bsdf, test::direction(40, 0));
+  CHECK(mean(bsdf.albedo({})) == doctest::Approx(exact).epsilon(0.05));
+  CHECK(bsdf.roughness({}) == 0.2f);
+}
+
+}  // namespace pharos

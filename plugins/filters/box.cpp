@@ -1,0 +1,13 @@
+// box: every sample within a square about the pixel's centre counts the same. With the default
+// radius each sample belongs to one pixel, and pixels are independent of each other.
+//
+//     { type: box, radius: 0.5 }
+#include "box.h"
+
+namespace pharos {
+
+void BoxFilter::Settings::describe(Schema<Settings>& s) {
+  s.field("radius", &Settings::radius, "Half-width").unit("pixels").above(0);
+}
+
+}  // namespace pharos

@@ -1,0 +1,27 @@
+// gaussian: g(x) g(y) with g(x) = exp(-x^2 / (2 s^2)) - exp(-r^2 / (2 s^2)), s the standard
+// deviation, lowered so that it reaches zero at the radius r without a step.
+//
+//     { type: gaussian, stddev: 0.5, radius: 1.5 }
+#include "gaussian.h"
+
+namespace pharos {
+
+void GaussianFilter::Settings::describe(Schema<Settings>& s) {
+  s.field("stddev", &Settings::stddev, "Standard deviation").unit("pixels").above(0);
+  s.field("radius", &Settings::radius, "Half-width").unit("pixels").above(0);
+}
+
+GaussianFilter::GaussianFilter(const Settings& settings)
+    : settings_(settings), exponent_(-0.5f / (settings.stddev * settings.stddev)) {
+  const double s = settings.stddev, r = settings.radius;
+  const double floor = std::exp(-0.5 * r * r / (s * s));
+  const double side = s * std::sqrt(2 * M_PI) * std::erf(r / (s * M_SQRT2)) - 2 * r * floor;
+  floor_ = static_cast<float>(floor);
+  integral_ = static_cast<float>(side * side);
+}
+
+float GaussianFilter::profile(float x) const {
+  return std::max(0.0f, std::exp(exponent_ * x * x) - floor_);
+}
+
+}  // namespace pharos

@@ -1,0 +1,9 @@
+#include <pharos/config/module.h>
+
+#include "box.h"
+#include "gaussian.h"
+
+PHAROS_MODULE(registry) {
+  registry.add<pharos::BoxFilter>("box", "equal weight over a square");
+  registry.add<pharos::GaussianFilter>("gaussian", "a Gaussian that ends at zero");
+}

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <optional>
+
+#include <pharos/rendering/integrator.h>
+#include <pharos/rendering/light_selection.h>
+
+#include "path_settings.h"
+
+namespace pharos {
+
+/// The plugin `path`; see path.cpp.
+class PathIntegrator final : public Integrator {
+ public:
+  using Settings = PathSettings;
+  explicit PathIntegrator(Settings settings);
+
+  IntegratorTraits traits() const override;
+  const GuidingSettings* guiding() const override;
+  std::unique_ptr<const PreparedIntegrator> prepare(const RenderTarget& target) const override;
+
+ private:
+  Settings settings_;
+};
+
+}  // namespace pharos

@@ -1,0 +1,84 @@
+#include "path_probe.h"
+
+#include <pharos/sampling/keyed_numbers.h>
+
+#include "path_walk.h"
+
+namespace pharos {
+namespace {
+
+/// Delivers one chosen value for one dimension and keyed random numbers for all others.
+class PinnedSampler final : public PreparedSampler {
+ public:
+  PinnedSampler(Dimension pinned, Vec2 value) : pinned_(pinned), value_(value) {}
+
+  std::uint64_t begin(const PathKey& key) const override { return hash_key(key); }
+  float value_1d(const SampleStream& stream, Dimension dimension) const override {
+    return dimension == pinned_ ? value_.x : keyed_numbers(stream.state(), dimension).x;
+  }
+  Vec2 value_2d(const SampleStream& stream, Dimension dimension) const override {
+    return dimension == pinned_ ? value_ : keyed_numbers(stream.state(), dimension);
+  }
+
+ private:
+  Dimension pinned_;
+  Vec2 value_;
+};
+
+class PathProbe final : public IntegrandProbe {
+ public:
+  explicit PathProbe(const PathScene& shared) : shared_(shared) {}
+
+  PixelGrid grid() const override { return {shared_.target.width, shared_.target.height}; }
+  int light_branches() const override { return shared_.lights.branches(); }
+
+  void evaluate(int x, int y, Dimension dimension, const PathKey& others,
+                std::span<const Vec2> points, std::span<Rgb> values) const override {
+    PathKey key = others;
+    key.index = static_cast<std::uint64_t>(y) * shared_.target.width + x;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      values[i] = evaluate_one(key, dimension, points[i]);
+    }
+  }
+
+  FirstHit first_hit(int x, int y) const override {
+    const RenderTarget& target = shared_.target;
+    const LensPoint lens = target.sensor.sample_lens({0.5f, 0.5f});
+    const Ray ray = target.sensor.ray(
+        lens, {(static_cast<float>(x) + 0.5f) / static_cast<float>(target.width),
+               (static_cast<float>(y) + 0.5f) / static_cast<float>(target.height)});
+    SurfacePoint point;
+    const float depth = target.scene.intersect(ray, point);
+    if (std::isinf(depth)) return {};
+    return {depth, point.shading.n, point.object};
+  }
+
+ private:
+  Rgb evaluate_one(const PathKey& key, Dimension dimension, Vec2 point) const {
+    const PinnedSampler sampler(dimension, point);
+    const SampleStream stream(sampler, key);
+    const IterationContext context{.sampler = sampler, .seed = key.seed};
+    Arena arena;
+    RenderCounters counters;
+    if (dimension.purpose == Purpose::light_position) {
+      // A light sample at vertex b belongs to paths of b + 1 segments.
+      LightProbeRecorder recorder(dimension);
+      PathWalk walk(shared_, context, stream, arena, counters, recorder);
+      walk.run(static_cast<std::uint16_t>(dimension.bounce + 1));
+      return recorder.sum();
+    }
+    SilentRecorder recorder;
+    PathWalk walk(shared_, context, stream, arena, counters, recorder);
+    return walk.run(shared_.settings.max_depth).radiance;
+  }
+
+  const PathScene& shared_;
+};
+
+}  // namespace
+
+std::unique_ptr<const IntegrandProbe> make_path_probe(const PathScene& shared) {
+  return std::make_unique<PathProbe>(shared);
+}
+
+}  // namespace pharos

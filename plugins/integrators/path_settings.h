@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include <pharos/config/registry.h>
+#include <pharos/guiding/guiding.h>
+#include <pharos/rendering/integrator.h>
+#include <pharos/rendering/light_selection.h>
+
+namespace pharos {
+
+enum class MisHeuristic { balance, power };
+enum class Roulette { off, throughput };
+
+template <>
+struct EnumNames<MisHeuristic> {
+  static constexpr std::array<std::pair<std::string_view, MisHeuristic>, 2> names{
+      {{"balance", MisHeuristic::balance}, {"power", MisHeuristic::power}}};
+};
+template <>
+struct EnumNames<Roulette> {
+  static constexpr std::array<std::pair<std::string_view, Roulette>, 2> names{
+      {{"off", Roulette::off}, {"throughput", Roulette::throughput}}};
+};
+
+struct PathSettings {
+  std::uint16_t max_depth = 12;
+  bool next_event_estimation = true;
+  LightSelection light_selection = LightSelection::one;
+  MisHeuristic mis = MisHeuristic::balance;
+  Roulette roulette = Roulette::off;
+  std::uint16_t roulette_depth = 5;
+  float roulette_limit = 0.95f;
+  std::optional<GuidingSettings> guiding;
+
+  static void describe(Schema<PathSettings>& schema);
+};
+
+/// MIS weight [1] of a technique of density `own` against one of density `other`; both in the same
+/// measure (Veach 1997, eq. 9.8 and 9.13 with exponent 2).
+inline float mis_weight(MisHeuristic heuristic, float own, float other) {
+  if (heuristic == MisHeuristic::balance) return own / (own + other);
+  const float ratio = other / own;  // squares of large densities overflow, their ratio does not
+  return 1 / (1 + ratio * ratio);
+}
+
+/// What every path of a render shares.
+struct PathScene {
+  const RenderTarget& target;
+  const PathSettings& settings;
+  const LightSelector& lights;
+};
+
+}  // namespace pharos

@@ -1,0 +1,433 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include <pharos/core/arena.h>
+#include <pharos/rendering/scatter_step.h>
+
+#include "path_recorder.h"
+#include "path_settings.h"
+
+namespace pharos {
+
+/// What one path found.
+struct PathSample {
+  Rgb radiance;
+  Vec2 film;            ///< [pixels]
+  Features features;
+  bool splat = false;   ///< the camera was guided: `radiance` is a splat's contribution
+};
+
+/// One path from the sensor, vertex by vertex:
+///
+///     first step from the lens -> [ advance -> emission -> next event -> step ] until it ends
+///
+/// advance() traces a step, resolves the next vertex and only then weights the step, because the
+/// density of a guided step may depend on what was hit. `Recorder` listens (path_recorder.h).
+template <class Recorder>
+class PathWalk {
+ public:
+  PathWalk(const PathScene& shared, const IterationContext& context, const SampleStream& stream,
+           Arena& arena, RenderCounters& counters, Recorder& recorder)
+      : shared_(shared),
+        scene_(shared.target.scene),
+        settings_(shared.settings),
+        context_(context),
+        stream_(stream),
+        arena_(arena),
+        counters_(counters),
+        recorder_(recorder) {}
+
+  /// Runs to the end. `max_depth` bounds the number of segments.
+  PathSample run(std::uint16_t max_depth) {
+    ++counters_.paths;
+    std::optional<ScatterStep> step = first_step();
+    while (step && advance(*step)) {
+      add_emission();
+      if (arrival().kind == VertexKind::environment || bounce_ >= max_depth) break;
+      begin_scattering();
+      if (settings_.next_event_estimation && !scattering_->purely_discrete()) add_light_samples();
+      step = next_step();
+    }
+    result_.radiance = radiance_;
+    return result_;
+  }
+
+ private:
+  /// A vertex that the path has reached.
+  struct Arrival {
+    VertexKind kind = VertexKind::sensor;
+    SurfacePoint surface;  ///< `position` is valid for volume vertices too
+    const Medium* medium = nullptr;  ///< that the path came through
+  };
+
+  const Arrival& arrival() const { return arrivals_[current_]; }
+  Point3 position() const { return arrival().surface.position; }
+
+  // --- the first vertex ----------------------------------------------------------------------
+
+  std::optional<ScatterStep> first_step() {
+    const RenderTarget& target = shared_.target;
+    const auto pixel = static_cast<int>(stream_.key().index);
+    const Vec2 in_pixel = stream_.get_2d({Purpose::pixel});
+    const Vec2 size{static_cast<float>(target.width), static_cast<float>(target.height)};
+    result_.film = {static_cast<float>(pixel % target.width) + in_pixel.x,
+                    static_cast<float>(pixel / target.width) + in_pixel.y};
+    const LensPoint lens = target.sensor.sample_lens(stream_.get_2d({Purpose::lens}));
+    Arrival& start = arrivals_[current_];
+    start.surface.position = lens.position;
+    start.surface.normal = lens.normal;
+    start.medium = scene_.sensor_medium();
+    current_vertex_.position = lens.position;
+    current_vertex_.normal = current_vertex_.shading_normal = lens.normal;
+    towards_previous_ = lens.normal;
+    if constexpr (Recorder::kRecords) record_lens(lens);
+
+    Ray ray = target.sensor.ray(lens, {result_.film.x / size.x, result_.film.y / size.y});
+    ScatterStep step{.direction = ray.direction, .event = Event::smooth_reflect};
+    step.value = step.unguided_weight = Rgb(1);
+    step.unguided_pdf = 1;
+    if (context_.guiding == nullptr || !context_.guiding->guides_camera()) return step;
+    return guided_first_step(lens, step, size);
+  }
+
+  /// Camera guiding: the mixture of uniform film positions and the guide's directions. A path of
+  /// any pixel may then land in any other, so all contributions become splats.
+  std::optional<ScatterStep> guided_first_step(const LensPoint& lens, ScatterStep step,
+                                               Vec2 size) {
+    const PreparedSensor& sensor = shared_.target.sensor;
+    result_.splat = true;
+    guidance_ = context_.guiding->query_camera(sensor, lens, arena_);
+    const VertexStream stream(stream_, 0);
+    if (guidance_.distribution != nullptr &&
+        stream.get_1d(Purpose::mix_choice) >= guidance_.unguided_fraction) {
+      const std::optional<Proposal> proposal = guidance_.distribution->propose(stream);
+      if (!proposal) return std::nullopt;
+      step.direction = proposal->direction;
+      step.reach = proposal->reach;
+      step.distance = proposal->distance;
+      step.targets = proposal->targets;
+    }
+    const std::optional<SensorResponse> response = sensor.response(lens, step.direction);
+    if (!response) return std::nullopt;
+    result_.film = {response->film.x * size.x, response->film.y * size.y};
+    step.unguided_pdf = response->direction_pdf;
+    step.value = Rgb(response->direction_pdf * size.x * size.y);
+    step.unguided_weight = Rgb(size.x * size.y);
+    return step;
+  }
+
+  // --- from vertex to vertex ------------------------------------------------------------------
+
+  /// Traces a step to the next vertex and weights it. False when the path ends with value zero.
+  bool advance(const ScatterStep& step) {
+    const Arrival& from = arrivals_[current_];
+    Arrival& to = arrivals_[1 - current_];
+    const bool leaves_surface = from.kind == VertexKind::surface;
+    Ray ray{leaves_surface ? from.surface.origin_towards(step.direction) : from.surface.position,
+            step.direction};
+    to.medium = leaves_surface ? scene_.medium_after(from.surface, step.direction, from.medium)
+                               : from.medium;
+    ++counters_.rays;
+    ray.t_max = scene_.intersect(ray, to.surface);
+    to.kind = std::isinf(ray.t_max) ? VertexKind::environment : VertexKind::surface;
+
+    ResolvedVertex resolved{.direction = step.direction, .event = step.event};
+    Rgb transmittance(1);
+    if (to.medium != nullptr) {
+      if (!travel(step, ray, to, resolved, transmittance)) return false;
+    } else if (step.reach == Proposal::Reach::distance) {
+      return false;
+    }
+    if (!contains(step.targets, to.kind)) return false;
+    resolved.kind = to.kind;
+    resolved.distance = ray.t_max;
+    if (to.kind == VertexKind::environment) {
+      to.surface = {};
+      to.surface.position = ray.origin + environment_distance() * ray.direction;
+      to.surface.normal = to.surface.shading.n = -ray.direction;
+    }
+    resolved.position = to.surface.position;
+    weight_step(step, resolved, transmittance);
+
+    from_position_ = from.surface.position;
+    previous_ = current_vertex_;
+    previous_.event = step.event;
+    towards_previous_ = -step.direction;
+    current_ = 1 - current_;
+    ++bounce_;
+    note_arrival(ray);
+    return !is_black(throughput_);
+  }
+
+  /// Where in a medium a step ends. Shortens `ray` to the vertex; false when the vertex that was
+  /// proposed cannot be reached.
+  bool travel(const ScatterStep& step, Ray& ray, Arrival& to, ResolvedVertex& resolved,
+              Rgb& transmittance) const {
+    const Medium& medium = *to.medium;
+    DistanceSample stop{.t = step.distance,
+                        .scattered = step.reach == Proposal::Reach::distance};
+    if (step.reach == Proposal::Reach::medium) {
+      stop = medium.sample(ray, stream_.get_1d({Purpose::distance_choice, bounce_}),
+                           stream_.get_1d({Purpose::distance, bounce_}));
+    } else if (stop.scattered && stop.t >= ray.t_max) {
+      return false;
+    }
+    if (stop.scattered) {
+      resolved.medium_density = medium.scatter_pdf(ray, stop.t);
+      ray.t_max = stop.t;
+      to.kind = VertexKind::volume;
+      to.surface = {};
+      to.surface.position = ray.at(stop.t);
+    } else {
+      resolved.medium_density = medium.pass_probability(ray, ray.t_max);
+    }
+    transmittance = medium.transmittance(ray, ray.t_max);
+    return true;
+  }
+
+  void weight_step(const ScatterStep& step, const ResolvedVertex& resolved, Rgb transmittance) {
+    density_ = step_density(guidance_, resolved, step.unguided_pdf);
+    const bool plain = guidance_.distribution == nullptr && arrivals_[1 - current_].medium == nullptr;
+    const Rgb weight = plain ? step.unguided_weight
+                       : density_.total > 0 ? step.value * transmittance / density_.total
+                                            : Rgb();
+    arrived_discretely_ = bounce_ == 0 || is_discrete(step.event);
+    throughput_ *= weight;
+    if constexpr (Recorder::kRecords) record_step(step, weight);
+  }
+
+  void note_arrival(const Ray& ray) {
+    const Arrival& here = arrival();
+    current_vertex_ = {.position = here.surface.position,
+                       .normal = here.surface.normal,
+                       .shading_normal = here.surface.shading.n,
+                       .kind = here.kind};
+    if (here.kind == VertexKind::volume) current_vertex_.normal = current_vertex_.shading_normal = {};
+    if (bounce_ == 1 && here.kind == VertexKind::surface) {
+      result_.features = {.albedo = scene_.bsdf(here.surface).albedo(here.surface),
+                          .normal = here.surface.shading.n,
+                          .depth = ray.t_max};
+    }
+    if constexpr (Recorder::kRecords) record_arrival();
+  }
+
+  // --- light ----------------------------------------------------------------------------------
+
+  void add_emission() {
+    const Arrival& here = arrival();
+    if (here.kind == VertexKind::surface) {
+      const Light* light = scene_.light_at(here.surface);
+      if (light == nullptr) return;
+      const Rgb radiance = light->radiance(here.surface, towards_previous_);
+      if (is_black(radiance)) return;
+      const auto pdf = [&] {
+        return shared_.lights.probability(scene_.light_index(here.surface)) *
+               light->pdf_point(from_position_, here.surface);
+      };
+      add_light(radiance, pdf);
+    } else if (here.kind == VertexKind::environment) {
+      for (const int index : scene_.environment_lights()) {
+        const Light& light = *scene_.lights()[static_cast<std::size_t>(index)];
+        const auto pdf = [&] {
+          return shared_.lights.probability(index) * light.pdf_direction(-towards_previous_);
+        };
+        add_light(light.environment_radiance(-towards_previous_), pdf);
+      }
+    }
+  }
+
+  /// Emission that the path ran into; `light_pdf()` is next event estimation's density of it.
+  template <class LightPdf>
+  void add_light(Rgb radiance, LightPdf&& light_pdf) {
+    const bool alone = arrived_discretely_ || !settings_.next_event_estimation;
+    const float weight = alone ? 1.0f : mis_weight(settings_.mis, density_.total, light_pdf());
+    radiance_ += weight * throughput_ * radiance;
+    if constexpr (Recorder::kRecords) recorder_.current().emission += weight * radiance;
+  }
+
+  void add_light_samples() {
+    for (std::uint16_t branch = 0; branch < shared_.lights.branches(); ++branch) {
+      const float u = stream_.get_1d({Purpose::light_choice, bounce_, branch});
+      const int index = shared_.lights.choose(branch, u);
+      LightSample light = scene_.lights()[static_cast<std::size_t>(index)]->sample(
+          position(), stream_.get_2d({Purpose::light_position, bounce_, branch}));
+      light.pdf *= shared_.lights.probability(index);
+      if (light.pdf > 0) add_light_sample(light, branch);
+    }
+  }
+
+  void add_light_sample(const LightSample& light, std::uint16_t branch) {
+    const ScatterValue scatter = scattering_->evaluate(light.direction);
+    Rgb value = scatter.value * light.radiance / light.pdf;
+    if (is_black(value)) return;
+    const Arrival& here = arrival();
+    const bool on_surface = here.kind == VertexKind::surface;
+    Ray shadow{on_surface ? here.surface.origin_towards(light.direction) : position(),
+               light.direction, light.distance};
+    if (std::isfinite(light.distance)) aim_at(light, shadow);
+    ++counters_.rays;
+    if (scene_.occluded(shadow)) return;
+
+    ResolvedVertex resolved{.direction = light.direction,
+                            .distance = light.distance,
+                            .position = light.point.position,
+                            .kind = light.kind,
+                            .event = scattering_->smooth_event(light.direction)};
+    const Medium* medium =
+        on_surface ? scene_.medium_after(here.surface, light.direction, here.medium) : here.medium;
+    if (medium != nullptr) {
+      const Ray whole{position(), light.direction, light.distance};
+      value *= medium->transmittance(whole, light.distance);
+      resolved.medium_density = medium->pass_probability(whole, light.distance);
+    }
+    const StepDensity density = step_density(guidance_, resolved, scatter.pdf);
+    const float weight =
+        light.discrete ? 1.0f : mis_weight(settings_.mis, light.pdf, density.total);
+    radiance_ += weight * throughput_ * value;
+    recorder_.light_contribution(bounce_, branch, weight * throughput_ * value);
+    if constexpr (Recorder::kRecords) record_light(light, weight * value, weight, density, resolved);
+  }
+
+  /// Ends a shadow ray just before the light's surface, by as much as surfaces' positions are
+  /// uncertain there.
+  static void aim_at(const LightSample& light, Ray& shadow) {
+    const Vec3 span = light.point.origin_towards(-light.direction) - shadow.origin;
+    shadow.t_max = length(span);
+    if (shadow.t_max > 0) shadow.direction = span / shadow.t_max;
+  }
+
+  // --- scattering -----------------------------------------------------------------------------
+
+  void begin_scattering() {
+    const Arrival& here = arrival();
+    if (here.kind == VertexKind::surface) {
+      scattering_.emplace(here.surface, scene_.bsdf(here.surface), towards_previous_,
+                          Transport::radiance);
+    } else {
+      scattering_.emplace(here.medium->phase_function(), here.medium->scattering(position()),
+                          towards_previous_, Transport::radiance);
+    }
+    guidance_ = {};
+    if constexpr (!Recorder::kRecords) {
+      if (context_.guiding == nullptr) return;
+    }
+    current_vertex_.roughness = scattering_->roughness();
+    if (context_.guiding != nullptr) {
+      arena_.reset();
+      // The query must live as long as its distribution: both until the next vertex is weighted.
+      query_.emplace(GuidingQuery{.previous = &previous_,
+                                  .current = current_vertex_,
+                                  .towards_previous = towards_previous_,
+                                  .transport = Transport::radiance,
+                                  .bounce = bounce_,
+                                  .scattering = *scattering_,
+                                  .medium = here.medium});
+      guidance_ = context_.guiding->query(*query_, arena_);
+    }
+    if constexpr (Recorder::kRecords) record_scattering();
+  }
+
+  std::optional<ScatterStep> next_step() {
+    std::optional<ScatterStep> step =
+        sample_step(*scattering_, guidance_, VertexStream(stream_, bounce_));
+    if (!step || settings_.roulette == Roulette::off || bounce_ < settings_.roulette_depth) {
+      return step;
+    }
+    const float survival = std::min(settings_.roulette_limit, max_component(throughput_));
+    if (stream_.get_1d({Purpose::roulette, bounce_}) >= survival) return std::nullopt;
+    step->value *= 1 / survival;
+    step->unguided_weight *= 1 / survival;
+    return step;
+  }
+
+  /// How far along an escaping ray the stand-in for the environment lies: outside the scene.
+  float environment_distance() const { return 2 * scene_.bounds().diagonal(); }
+
+  // --- recording ------------------------------------------------------------------------------
+
+  void record_lens(const LensPoint& lens) {
+    recorder_.begin(result_.film);
+    recorder_.arrive({.position = lens.position,
+                      .normal = lens.normal,
+                      .shading_normal = lens.normal,
+                      .kind = VertexKind::sensor,
+                      .throughput = Rgb(1)});
+  }
+
+  void record_arrival() {
+    recorder_.arrive({.position = current_vertex_.position,
+                      .normal = current_vertex_.normal,
+                      .shading_normal = current_vertex_.shading_normal,
+                      .kind = current_vertex_.kind,
+                      .throughput = throughput_});
+  }
+
+  void record_scattering() {
+    RecordedVertex& here = recorder_.current();
+    here.roughness = current_vertex_.roughness;
+    if (scattering_->is_surface()) here.eta = scattering_->bsdf().relative_ior();
+    here.guidable = !scattering_->purely_discrete();
+    here.region = guidance_.region;
+    here.unguided_fraction = guidance_.unguided_fraction;
+  }
+
+  void record_step(const ScatterStep& step, Rgb weight) {
+    RecordedVertex& here = recorder_.current();
+    here.event = step.event;
+    here.direction = step.direction;
+    here.local_weight = weight;
+    here.unguided_pdf = density_.unguided;
+    here.guided_pdf = density_.guided;
+    here.measure = is_discrete(step.event) ? Measure::discrete
+                   : arrivals_[1 - current_].kind == VertexKind::volume
+                       ? Measure::solid_angle_length
+                       : Measure::solid_angle;
+    if (bounce_ == 0) here.unguided_fraction = guidance_.unguided_fraction;
+  }
+
+  void record_light(const LightSample& light, Rgb contribution, float weight,
+                    const StepDensity& density, const ResolvedVertex& resolved) {
+    recorder_.light_sample({.light = {.position = light.point.position,
+                                      .normal = light.point.normal,
+                                      .shading_normal = light.point.shading.n,
+                                      .kind = light.kind,
+                                      .emission = light.radiance},
+                            .direction = light.direction,
+                            .contribution = contribution,
+                            .mis_weight = weight,
+                            .light_pdf = light.pdf,
+                            .scattering_pdf = density.total,
+                            .event = resolved.event});
+  }
+
+  const PathScene& shared_;
+  const Scene& scene_;
+  const PathSettings& settings_;
+  const IterationContext& context_;
+  const SampleStream& stream_;
+  Arena& arena_;
+  RenderCounters& counters_;
+  Recorder& recorder_;
+
+  PathSample result_;
+  Rgb radiance_;
+  Rgb throughput_{1};
+  std::uint16_t bounce_ = 0;  ///< number of the current vertex; 0 on the lens
+  // Two arrivals in turn: the scattering at one stays valid until the next has been weighted.
+  std::array<Arrival, 2> arrivals_;
+  int current_ = 0;
+  Vec3 towards_previous_;
+  Point3 from_position_;  ///< of the previous vertex
+  bool arrived_discretely_ = true;
+  StepDensity density_;   ///< of the step that led here
+  GuidingVertex previous_, current_vertex_{.kind = VertexKind::sensor};
+  std::optional<LocalScattering> scattering_;
+  std::optional<GuidingQuery> query_;
+  Guidance guidance_;
+};
+
+}  // namespace pharos

@@ -1,0 +1,7 @@
+#include <pharos/config/module.h>
+
+#include "fixed.h"
+
+PHAROS_MODULE(registry) {
+  registry.add<pharos::FixedMixing>("fixed", "the same share of unguided samples everywhere");
+}

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <pharos/config/registry.h>
+#include <pharos/sampling/sampler.h>
+
+namespace pharos {
+
+class IndependentSampler final : public Sampler {
+ public:
+  using Settings = NoSettings;
+  explicit IndependentSampler(const Settings& = {}) {}
+  std::unique_ptr<const PreparedSampler> prepare(const PixelGrid& grid, const SamplePlan& plan,
+                                                 const IntegrandProbe* probe) const override;
+};
+
+}  // namespace pharos

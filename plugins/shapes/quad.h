@@ -1,0 +1,27 @@
+#pragma once
+
+#include <pharos/config/schema.h>
+
+#include "triangle_shape.h"
+
+namespace pharos {
+
+/// See quad.cpp.
+class Quad : public TriangleShape {
+ public:
+  struct Settings {
+    Transform to_world = {};
+    bool flip_normals = false;
+    static void describe(Schema<Settings>& s);
+  };
+
+  explicit Quad(const Settings& settings);
+
+  /// Affine in `u`: the point has texture coordinates u.
+  ShapeSample sample(Vec2 u) const override;
+
+ private:
+  bool wound_backwards_;
+};
+
+}  // namespace pharos

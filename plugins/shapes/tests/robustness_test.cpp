@@ -1,0 +1,104 @@
+// Rays that leave a closed surface must neither meet it again at once nor slip through it, at any
+// scale and far from the origin.
+
+#include <doctest/doctest.h>
+
+#include "../box.h"
+#include "../sphere.h"
+#include "shape_test_kit.h"
+
+namespace pharos {
+namespace {
+
+constexpr int kSteps = 50'000;
+
+struct Placement {
+  float scale;
+  Vec3 offset;  ///< in units of `scale`
+  bool turned;
+};
+
+std::vector<Placement> placements() {
+  std::vector<Placement> all;
+  for (const float scale : {1e-4f, 1.0f, 1e4f}) {
+    for (const Vec3 offset : {Vec3{0, 0, 0}, Vec3{200, -190, 210}}) {
+      for (const bool turned : {false, true}) all.push_back({scale, offset, turned});
+    }
+  }
+  return all;
+}
+
+Transform to_world(const Placement& p) {
+  const Transform scaled = Transform::scale({p.scale, p.scale, p.scale});
+  const Transform turned = p.turned ? Transform::rotate({1, 2, 3}, 40) * scaled : scaled;
+  return Transform::translate(p.scale * p.offset) * turned;
+}
+
+struct Faults {
+  int leaks = 0;         ///< rays inside that met nothing
+  int self_hits = 0;     ///< rays inside that met the face they left
+  int outer_hits = 0;    ///< rays outside that met the convex shape they left
+  int blocked_self = 0;  ///< the same as occlusion queries
+};
+
+/// Walks from wall to wall inside a convex shape and sends a ray off its outer side at each step.
+template <class IsSelfHit>
+Faults walk(const Scene& scene, Point3 start, const IsSelfHit& is_self_hit) {
+  Faults faults;
+  RandomStream random(7);
+  Ray ray{start, test::random_direction(random)};
+  for (int i = 0; i < kSteps; ++i) {
+    SurfacePoint hit;
+    if (scene.intersect(ray, hit) == kInfinity) {
+      ++faults.leaks;
+      ray = {start, test::random_direction(random)};
+      continue;
+    }
+    const Vec3 outwards = test::random_departure(hit.normal, random);
+    const Ray outer{hit.origin_towards(outwards), outwards};
+    SurfacePoint other;
+    if (scene.intersect(outer, other) < kInfinity) ++faults.outer_hits;
+    if (scene.occluded(outer)) ++faults.blocked_self;
+
+    const Vec3 inwards = test::random_departure(-hit.normal, random);
+    ray = {hit.origin_towards(inwards), inwards};
+    const float t = scene.intersect(ray, other);
+    if (t < kInfinity && is_self_hit(hit, other, inwards, t)) ++faults.self_hits;
+  }
+  return faults;
+}
+
+void check(const Faults& faults, const Placement& p) {
+  INFO("scale ", p.scale, ", offset ", p.offset.x, ", turned ", p.turned);
+  CHECK(faults.leaks == 0);
+  CHECK(faults.self_hits == 0);
+  CHECK(faults.outer_hits == 0);
+  CHECK(faults.blocked_self == 0);
+}
+
+TEST_CASE("no ray leaks out of a box or meets the face it leaves") {
+  for (const Placement& p : placements()) {
+    const auto scene = test::scene_of<Box>({.to_world = to_world(p)});
+    const auto same_face = [](const SurfacePoint& a, const SurfacePoint& b, Vec3, float) {
+      return a.primitive / 2 == b.primitive / 2;
+    };
+    check(walk(*scene, to_world(p).point({}), same_face), p);
+  }
+}
+
+TEST_CASE("no ray leaks out of a sphere or meets the point it leaves") {
+  for (const Placement& p : placements()) {
+    Sphere::Settings settings;
+    settings.to_world = to_world(p);
+    const auto scene = test::scene_of<Sphere>(settings);
+    // A chord from the surface has length 2 r cos; the step inwards moves its start by `error`.
+    const auto wrong_chord = [&](const SurfacePoint& a, const SurfacePoint&, Vec3 d, float t) {
+      const float chord = 2 * p.scale * abs_dot(a.normal, d);
+      return std::abs(t - chord) > 1e-4f * p.scale + 40 * std::sqrt(a.error * p.scale);
+    };
+    check(walk(*scene, to_world(p).point({}), wrong_chord), p);
+  }
+}
+
+}  // namespace
+}  // namespace pharos

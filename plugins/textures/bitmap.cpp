@@ -1,0 +1,101 @@
+// bitmap: an image file stretched over the unit square of texture coordinates, (0, 0) at the lower
+// left corner of the picture and (1, 1) at the upper right. Texel centres lie half a texel inside.
+// The colour is that of channels R, G, B or else Y, whatever their order; without such names that
+// of the first three channels, or of the first alone when there are fewer.
+//
+//     { type: bitmap, file: wood.png, filter: bilinear, wrap: repeat, uv_scale: [2, 2] }
+#include "bitmap.h"
+
+#include <fmt/core.h>
+
+namespace pharos {
+namespace {
+
+/// The indices of the channels that hold red, green and blue.
+std::array<int, 3> color_channels(const Image& image) {
+  const int r = image.channel_index("R"), g = image.channel_index("G"),
+            b = image.channel_index("B"), y = image.channel_index("Y");
+  if (r >= 0 && g >= 0 && b >= 0) return {r, g, b};
+  if (y >= 0) return {y, y, y};
+  if (image.channel_count() < 3) return {0, 0, 0};
+  return {0, 1, 2};
+}
+
+}  // namespace
+
+void Bitmap::Settings::describe(Schema<Settings>& s) {
+  s.field("file", &Settings::file, "Image file").required();
+  s.field("filter", &Settings::filter, "Interpolation between texels");
+  s.field("wrap", &Settings::wrap, "What lies outside the unit square");
+  s.field("color_space", &Settings::color_space, "How 8- and 16-bit images are encoded");
+  s.field("uv_scale", &Settings::uv_scale, "Factors on the texture coordinates");
+}
+
+Bitmap::Bitmap(const Settings& settings) : settings_(settings) {
+  const Image image = read_image(settings.file, settings.color_space);
+  width_ = image.width();
+  height_ = image.height();
+  const auto [red, green, blue] = color_channels(image);
+  double sums[3] = {};
+  for (int y = 0; y < height_; ++y) {
+    for (int x = 0; x < width_; ++x) {
+      const float* pixel = image.pixel(x, y);
+      const Rgb c{pixel[red], pixel[green], pixel[blue]};
+      if (!is_finite(c) || c.r < 0 || c.g < 0 || c.b < 0) {
+        throw InputError(Location{.file = settings.file.string()},
+                         fmt::format("pixel ({}, {}) is negative or not finite", x, y));
+      }
+      texels_.push_back(c);
+      maximum_ = std::max(maximum_, max_component(c));
+      for (int i = 0; i < 3; ++i) sums[i] += double{c[i]};
+    }
+  }
+  const double n = static_cast<double>(texels_.size());
+  for (int i = 0; i < 3; ++i) average_[i] = static_cast<float>(sums[i] / n);
+}
+
+Rgb Bitmap::evaluate(const SurfacePoint& point) const {
+  const float u = wrapped(point.uv.x * settings_.uv_scale.x);
+  const float v = wrapped(point.uv.y * settings_.uv_scale.y);
+  const float x = u * static_cast<float>(width_), y = (1 - v) * static_cast<float>(height_);
+  return settings_.filter == BitmapFilter::nearest ? nearest(x, y) : bilinear(x, y);
+}
+
+/// The place in [0, 1] whose colour belongs to a coordinate anywhere.
+float Bitmap::wrapped(float coordinate) const {
+  switch (settings_.wrap) {
+    case BitmapWrap::repeat:
+      return coordinate - std::floor(coordinate);
+    case BitmapWrap::mirror: {
+      const float t = coordinate - 2 * std::floor(0.5f * coordinate);
+      return t > 1 ? 2 - t : t;
+    }
+    case BitmapWrap::clamp:
+      break;
+  }
+  return std::clamp(coordinate, 0.0f, 1.0f);
+}
+
+/// The texel at an index that is at most one outside.
+int Bitmap::neighbour(int index, int size) const {
+  if (settings_.wrap == BitmapWrap::repeat) return index < 0 ? size - 1 : index < size ? index : 0;
+  return std::clamp(index, 0, size - 1);
+}
+
+Rgb Bitmap::nearest(float x, float y) const {
+  return texel(std::min(static_cast<int>(x), width_ - 1),
+               std::min(static_cast<int>(y), height_ - 1));
+}
+
+Rgb Bitmap::bilinear(float x, float y) const {
+  const float left = std::floor(x - 0.5f), top = std::floor(y - 0.5f);
+  const float a = x - 0.5f - left, b = y - 0.5f - top;
+  const int x0 = neighbour(static_cast<int>(left), width_);
+  const int x1 = neighbour(static_cast<int>(left) + 1, width_);
+  const int y0 = neighbour(static_cast<int>(top), height_);
+  const int y1 = neighbour(static_cast<int>(top) + 1, height_);
+  return (1 - b) * ((1 - a) * texel(x0, y0) + a * texel(x1, y0)) +
+         b * ((1 - a) * texel(x0, y1) + a * texel(x1, y1));
+}
+
+}  // namespace pharos

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <vector>
+
+#include <pharos/config/schema.h>
+#include <pharos/core/image.h>
+#include <pharos/scene/texture.h>
+
+namespace pharos {
+
+enum class BitmapFilter { bilinear, nearest };
+template <>
+struct EnumNames<BitmapFilter> {
+  static constexpr std::array<std::pair<std::string_view, BitmapFilter>, 2> names{
+      {{"bilinear", BitmapFilter::bilinear}, {"nearest", BitmapFilter::nearest}}};
+};
+
+/// What lies outside the unit square of texture coordinates.
+enum class BitmapWrap { repeat, clamp, mirror };
+template <>
+struct EnumNames<BitmapWrap> {
+  static constexpr std::array<std::pair<std::string_view, BitmapWrap>, 3> names{
+      {{"repeat", BitmapWrap::repeat},
+       {"clamp", BitmapWrap::clamp},
+       {"mirror", BitmapWrap::mirror}}};
+};
+
+template <>
+struct EnumNames<ColorSpace> {
+  static constexpr std::array<std::pair<std::string_view, ColorSpace>, 2> names{
+      {{"srgb", ColorSpace::srgb}, {"linear", ColorSpace::linear}}};
+};
+
+class Bitmap final : public Texture {
+ public:
+  struct Settings {
+    std::filesystem::path file;
+    BitmapFilter filter = BitmapFilter::bilinear;
+    BitmapWrap wrap = BitmapWrap::repeat;
+    ColorSpace color_space = ColorSpace::srgb;
+    Vec2 uv_scale{1, 1};
+    static void describe(Schema<Settings>& s);
+  };
+  /// Reads the file. Throws InputError as read_image() does, and for values that are negative or
+  /// not finite.
+  explicit Bitmap(const Settings& settings);
+
+  Rgb evaluate(const SurfacePoint& point) const override;
+  float maximum() const override { return maximum_; }
+  Rgb average() const override { return average_; }
+
+ private:
+  float wrapped(float coordinate) const;
+  int neighbour(int index, int size) const;
+  Rgb texel(int x, int y) const { return texels_[static_cast<std::size_t>(y) * width_ + x]; }
+  Rgb nearest(float x, float y) const;
+  Rgb bilinear(float x, float y) const;
+
+  Settings settings_;
+  int width_ = 0, height_ = 0;
+  std::vector<Rgb> texels_;
+  float maximum_ = 0;
+  Rgb average_;
+};
+
+}  // namespace pharos

@@ -1,0 +1,32 @@
+// checkerboard: squares of two colours. One unit of texture coordinates, once scaled, holds two by
+// two of them: `color0` where u and v lie in the same half of their unit, `color1` elsewhere.
+//
+//     { type: checkerboard, color0: 0.7, color1: [0.2, 0.1, 0.1], uv_scale: [8, 8] }
+#include "checkerboard.h"
+
+namespace pharos {
+namespace {
+
+bool in_upper_half(float x) {
+  return x - std::floor(x) >= 0.5f;
+}
+
+}  // namespace
+
+void Checkerboard::Settings::describe(Schema<Settings>& s) {
+  s.field("color0", &Settings::color0, "Colour of the square at the origin").at_least(0);
+  s.field("color1", &Settings::color1, "Colour of its neighbours").at_least(0);
+  s.field("uv_scale", &Settings::uv_scale, "Factors on the texture coordinates");
+}
+
+Rgb Checkerboard::evaluate(const SurfacePoint& point) const {
+  const bool same = in_upper_half(point.uv.x * settings_.uv_scale.x) ==
+                    in_upper_half(point.uv.y * settings_.uv_scale.y);
+  return same ? settings_.color0 : settings_.color1;
+}
+
+float Checkerboard::maximum() const {
+  return std::max(max_component(settings_.color0), max_component(settings_.color1));
+}
+
+}  // namespace pharos

@@ -1,0 +1,13 @@
+// constant: the same colour everywhere. What a bare number or list of three stands for wherever a
+// texture is expected.
+//
+//     { type: constant, value: [0.2, 0.5, 0.8] }
+#include "constant.h"
+
+namespace pharos {
+
+void ConstantTexture::Settings::describe(Schema<Settings>& s) {
+  s.field("value", &Settings::value, "The colour").at_least(0);
+}
+
+}  // namespace pharos

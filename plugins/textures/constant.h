@@ -1,0 +1,24 @@
+#pragma once
+
+#include <pharos/config/schema.h>
+#include <pharos/scene/texture.h>
+
+namespace pharos {
+
+class ConstantTexture final : public Texture {
+ public:
+  struct Settings {
+    Rgb value{0.5f};
+    static void describe(Schema<Settings>& s);
+  };
+  explicit ConstantTexture(const Settings& settings) : value_(settings.value) {}
+
+  Rgb evaluate(const SurfacePoint&) const override { return value_; }
+  float maximum() const override { return max_component(value_); }
+  Rgb average() const override { return value_; }
+
+ private:
+  Rgb value_;
+};
+
+}  // namespace pharos

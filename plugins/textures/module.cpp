@@ -1,0 +1,12 @@
+#include <pharos/config/module.h>
+
+#include "bitmap.h"
+#include "checkerboard.h"
+#include "constant.h"
+
+PHAROS_MODULE(registry) {
+  registry.add<pharos::ConstantTexture>("constant", "the same colour everywhere");
+  registry.add<pharos::Checkerboard>("checkerboard", "two colours in squares");
+  registry.add<pharos::Bitmap>("bitmap", "an image file");
+  registry.set_shorthand<pharos::Texture>("constant", "value");
+}

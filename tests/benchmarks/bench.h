@@ -1,0 +1,27 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace pharos::bench {
+
+/// One figure, measured several times.
+struct Measurement {
+  std::string name;  ///< such as "rays.cornell-box.mrays"
+  std::string unit;
+  std::vector<double> runs;
+
+  double median() const;
+  double low() const;
+  double high() const;
+};
+
+/// A group of measurements that is run as one, interleaved where it compares. `repeats` is how often
+/// each figure is measured.
+using Benchmark = std::function<std::vector<Measurement>(int repeats)>;
+
+std::vector<Measurement> bench_rays(int repeats);
+std::vector<Measurement> bench_threads(int repeats);
+
+}  // namespace pharos::bench

@@ -1,0 +1,118 @@
+// Rendering from the command line: files, metadata, exit codes, interruption.
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <pharos/core/image.h>
+
+#include "process.h"
+
+namespace pharos::testing {
+namespace {
+
+std::string small_render() {
+  return fmt::format("scene: {}/cornell-box/scene.yaml\nfilm: {{ width: 40, height: 30 }}\n"
+                     "budget: {{ spp: 4 }}\noutput: {{ aovs: [albedo, depth, variance] }}\n",
+                     PHAROS_SCENES);
+}
+
+TEST_CASE("render writes EXR and PNG and says what it did") {
+  const ScratchFolder folder;
+  folder.write("box.yaml", small_render());
+  const Outcome outcome = run_pharos("render box.yaml", folder.path());
+  CHECK(outcome.exit_code == 0);
+  CHECK(outcome.out.empty());
+  CHECK(outcome.err.find("box.exr: 40 x 30, 4 samples") != std::string::npos);
+  CHECK(folder.has("box.png"));
+  CHECK(folder.file_count() == 3);  // nothing temporary is left
+
+  const Image image = read_image(folder.path() / "box.exr");
+  CHECK(image.width() == 40);
+  CHECK(image.height() == 30);
+  CHECK(image.channel_index("albedo.R") >= 0);
+  CHECK(image.channel_index("depth.Z") >= 0);
+  CHECK(image.channel_index("normal.X") == -1);
+  const Metadata metadata = read_metadata(folder.path() / "box.exr");
+  CHECK(metadata.at("pharos:seed") == "1");
+  CHECK(metadata.at("pharos:samples_per_pixel") == "4");
+  CHECK(metadata.at("pharos:config").find("max_depth: 12") != std::string::npos);
+}
+
+TEST_CASE("--quiet, --output, --set and --threads") {
+  const ScratchFolder folder;
+  folder.write("box.yaml", small_render());
+  const Outcome outcome = run_pharos(
+      "render box.yaml --quiet -o other.exr --set film.width=8 --set output.png=false --threads 3",
+      folder.path());
+  CHECK(outcome.exit_code == 0);
+  CHECK(outcome.err.empty());
+  CHECK(read_image(folder.path() / "other.exr").width() == 8);
+  CHECK_FALSE(folder.has("other.png"));
+  CHECK_FALSE(folder.has("box.exr"));
+}
+
+TEST_CASE("a validated config renders the same image") {
+  const ScratchFolder folder;
+  folder.write("box.yaml", small_render());
+  const Outcome resolved = run_pharos("validate box.yaml", folder.path());
+  REQUIRE(resolved.exit_code == 0);
+  folder.write("resolved.yaml", resolved.out);
+  CHECK(run_pharos("validate resolved.yaml", folder.path()).out == resolved.out);
+  REQUIRE(run_pharos("render box.yaml", folder.path()).exit_code == 0);
+  REQUIRE(run_pharos("render resolved.yaml", folder.path()).exit_code == 0);
+  CHECK(read_image(folder.path() / "box.exr").values() ==
+        read_image(folder.path() / "resolved.exr").values());
+}
+
+TEST_CASE("the config in an image's metadata renders that image again") {
+  const ScratchFolder folder;
+  folder.write("box.yaml", small_render());
+  REQUIRE(run_pharos("render box.yaml -q", folder.path()).exit_code == 0);
+  folder.write("again.yaml", read_metadata(folder.path() / "box.exr").at("pharos:config"));
+  REQUIRE(run_pharos("render again.yaml -q", folder.path()).exit_code == 0);
+  CHECK(read_image(folder.path() / "box.exr").values() ==
+        read_image(folder.path() / "again.exr").values());
+}
+
+TEST_CASE("Ctrl-C and SIGTERM keep what was rendered") {
+  for (const char* signal : {"INT", "TERM"}) {
+    const ScratchFolder folder;
+    folder.write("box.yaml", small_render());
+    const Outcome outcome =
+        interrupt_pharos("render box.yaml --set budget.spp=1000000", folder.path(), 1.5, signal);
+    CHECK(outcome.exit_code == 130);
+    CHECK(outcome.err.find("(interrupted)") != std::string::npos);
+    REQUIRE(folder.has("box.exr"));
+    CHECK(read_metadata(folder.path() / "box.exr").at("pharos:stopped") == "true");
+    CHECK(read_image(folder.path() / "box.exr").rgb(20, 25).r > 0);
+  }
+}
+
+TEST_CASE("--replay prints one path") {
+  const ScratchFolder folder;
+  folder.write("box.yaml", small_render());
+  const Outcome outcome = run_pharos("render box.yaml --replay 20,25,1", folder.path());
+  CHECK(outcome.exit_code == 0);
+  CHECK(outcome.out.find("0 sensor") != std::string::npos);
+  CHECK(outcome.out.find("1 surface") != std::string::npos);
+  CHECK_FALSE(folder.has("box.exr"));
+  CHECK(run_pharos("render box.yaml --replay 99,0,0", folder.path()).exit_code == 2);
+}
+
+TEST_CASE("plugins lists contracts, plugins and parameters") {
+  const ScratchFolder folder;
+  const Outcome all = run_pharos("plugins", folder.path());
+  CHECK(all.exit_code == 0);
+  for (const char* name : {"bsdf", "rough_conductor", "sampler", "sobol", "integrator", "path"}) {
+    CHECK_MESSAGE(all.out.find(name) != std::string::npos, name);
+  }
+  const Outcome path = run_pharos("plugins path", folder.path());
+  CHECK(path.out.find("max_depth") != std::string::npos);
+  CHECK(path.out.find("one | all") != std::string::npos);
+  const Outcome unknown = run_pharos("plugins pth", folder.path());
+  CHECK(unknown.exit_code == 2);
+  CHECK(unknown.err.find("did you mean 'path'?") != std::string::npos);
+}
+
+}  // namespace
+}  // namespace pharos::testing

@@ -1,0 +1,7 @@
+#include <pharos/config/module.h>
+
+#include "stubs.h"
+
+PHAROS_MODULE(registry) {
+  pharos::stubs::register_mixture_guiders(registry);
+}

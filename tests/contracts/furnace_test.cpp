@@ -1,0 +1,100 @@
+// Every kind of guide, driven through the integrator in furnaces that must stay exact.
+
+#include <cmath>
+
+#include "furnace.h"
+
+namespace pharos::testing {
+namespace {
+
+std::string pair(const std::string& learner, const std::string& guider,
+                 const std::string& more = "") {
+  return fmt::format("{{ learner: {}, guider: {}, {}training: {{ iterations: 3 }} }}", learner,
+                     guider, more);
+}
+
+double diffuse_t(const std::string& guiding, const std::string& sampler = "independent") {
+  return furnace_t(path_config(kDiffuseScene, 4, guiding, 32, sampler), kDiffuseFurnace);
+}
+
+double fog_t(const std::string& guiding) {
+  return furnace_t(path_config(kGlassInFogScene, 100, guiding, 32), kGlassInFogFurnace);
+}
+
+TEST_CASE("furnace: unguided") {
+  CHECK(std::abs(diffuse_t("")) < kLimit);
+  CHECK(std::abs(fog_t("")) < kLimit);
+}
+
+TEST_CASE("furnace (a): a direction-only method") {
+  CHECK(std::abs(diffuse_t(pair("stub_direction", "stub_direction"))) < kLimit);
+  CHECK(std::abs(fog_t(pair("stub_direction", "stub_direction"))) < kLimit);
+}
+
+TEST_CASE("furnace: a deliberately bad guide is noisy, not wrong") {
+  const std::string guider = "{ type: stub_direction, adversarial: true }";
+  CHECK(std::abs(diffuse_t(pair("stub_direction", guider))) < kLimit);
+}
+
+TEST_CASE("furnace: a density off by 3 % is seen") {
+  const std::string guider = "{ type: stub_direction, pdf_scale: 1.03 }";
+  const std::string config =
+      path_config(kDiffuseScene, 4, pair("stub_direction", guider), 128);
+  CHECK(furnace_t(config, kDiffuseFurnace, 24) < -kLimit);
+}
+
+TEST_CASE("furnace (b): a method that splats along segments") {
+  CHECK(std::abs(diffuse_t(pair("stub_segments", "stub_segments"))) < kLimit);
+}
+
+TEST_CASE("furnace (c): whole vertices, distances, discrete events, declined by prefix") {
+  CHECK(std::abs(diffuse_t(pair("stub_vertices", "stub_vertices"))) < kLimit);
+  CHECK(std::abs(fog_t(pair("stub_vertices", "stub_vertices"))) < kLimit);
+}
+
+TEST_CASE("furnace (d): a guided first vertex, through the splat layer") {
+  CHECK(std::abs(diffuse_t(pair("stub_camera", "stub_camera"))) < kLimit);
+  CHECK(std::abs(fog_t(pair("stub_camera", "stub_camera"))) < kLimit);
+}
+
+TEST_CASE("furnace (d): a camera density off by 3 % is seen") {
+  const std::string guider = "{ type: stub_camera, pdf_scale: 1.03 }";
+  const std::string config = path_config(kDiffuseScene, 1, pair("stub_camera", guider), 128);
+  CHECK(std::abs(furnace_t(config, 1, 24)) > kLimit);
+}
+
+TEST_CASE("furnace (e): fractions learned for regions that are refined") {
+  const std::string guiding =
+      pair("{ type: stub_direction, refine: true }", "stub_direction", "mixing: stub_learned, ");
+  CHECK(std::abs(diffuse_t(guiding)) < kLimit);
+}
+
+TEST_CASE("furnace (f): a sampler that probes the light-position integrand") {
+  CHECK(std::abs(diffuse_t("", "stub_probing")) < kLimit);
+}
+
+TEST_CASE("furnace (g): one mixture model, two guiders of another module") {
+  CHECK(std::abs(diffuse_t(pair("stub_mixture", "stub_exact"))) < kLimit);
+  CHECK(std::abs(diffuse_t(pair("stub_mixture", "stub_projected"))) < kLimit);
+}
+
+TEST_CASE("furnace: several methods side by side") {
+  const std::string guiding =
+      "{ methods: [ { learner: stub_direction, guider: stub_direction, weight: 2 }, "
+      "{ learner: stub_mixture, guider: stub_exact }, "
+      "{ learner: stub_vertices, guider: stub_vertices } ], mixing: stub_learned, "
+      "training: { iterations: 3, schedule: geometric, images: combine } }";
+  CHECK(std::abs(diffuse_t(guiding)) < kLimit);
+  CHECK(std::abs(fog_t(guiding)) < kLimit);
+}
+
+TEST_CASE("a learner's model must be what the guider samples") {
+  CHECK_THROWS_WITH_AS(
+      config_from(path_config(kDiffuseScene, 4, pair("stub_mixture", "stub_direction"), 1)),
+      doctest::Contains("the learner 'stub_mixture' learns a 'spatial_mixture' model, but the "
+                        "guider 'stub_direction' samples a 'stub_direction' model"),
+      InputError);
+}
+
+}  // namespace
+}  // namespace pharos::testing

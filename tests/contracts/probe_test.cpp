@@ -1,0 +1,105 @@
+// The integrand probe speaks of the same primary numbers that a sampler delivers.
+
+#include <pharos/sampling/integrand_probe.h>
+#include <pharos/sampling/keyed_numbers.h>
+
+#include "furnace.h"
+
+namespace pharos::testing {
+namespace {
+
+constexpr Dimension kLight{Purpose::light_position, 1, 0};
+
+/// The numbers that a probe holds fixed, with a light position of our own.
+class Pinned final : public PreparedSampler {
+ public:
+  explicit Pinned(Vec2 light) : light_(light) {}
+  std::uint64_t begin(const PathKey& key) const override { return hash_key(key); }
+  float value_1d(const SampleStream& stream, Dimension dimension) const override {
+    return keyed_numbers(stream.state(), dimension).x;
+  }
+  Vec2 value_2d(const SampleStream& stream, Dimension dimension) const override {
+    return dimension == kLight ? light_ : keyed_numbers(stream.state(), dimension);
+  }
+
+ private:
+  Vec2 light_;
+};
+
+/// A floor under a square light, seen from the side; black but for direct light.
+const std::string kFloorAndLight = R"(
+scene:
+  shapes:
+    - { type: quad, to_world: [ { scale: [4, 4, 1] }, { rotate: { axis: [1, 0, 0], degrees: -90 } } ], material: { type: diffuse, reflectance: 0.5 } }
+    - { type: quad, to_world: [ { scale: 0.5 }, { rotate: { axis: [1, 0, 0], degrees: 90 } }, { translate: [0, 2, 0] } ], material: { type: diffuse, reflectance: 0 }, emitter: { type: area, radiance: 10 } }
+  sensor: { type: perspective, fov: 30, to_world: { look_at: { origin: [0, 1, -5], target: [0, 0, 0], up: [0, 1, 0] } } }
+film: { width: 16, height: 16, filter: box }
+)";
+
+struct Prepared {
+  explicit Prepared(const std::string& yaml)
+      : loaded(config_from(yaml)),
+        scene(loaded.config.scene),
+        sensor(scene.sensor().prepare(16, 16)),
+        integrator(loaded.config.integrator->prepare({scene, *sensor, 16, 16})) {}
+
+  LoadedConfig loaded;
+  Scene scene;
+  std::unique_ptr<const PreparedSensor> sensor;
+  std::unique_ptr<const PreparedIntegrator> integrator;
+};
+
+TEST_CASE("a probed value is what the integrator finds with those numbers") {
+  const Prepared p(path_config(kFloorAndLight, 2, "", 1));
+  const auto probe = p.integrator->probe();
+  REQUIRE(probe != nullptr);
+  CHECK(probe->light_branches() == 1);
+  const std::vector<Vec2> points{{0.1f, 0.2f}, {0.5f, 0.5f}, {0.9f, 0.3f}, {0.25f, 0.99f}};
+  for (const auto& [x, y] : {std::pair{2, 8}, {13, 9}, {3, 10}}) {
+    PathKey key{.seed = 3, .index = static_cast<std::uint64_t>(y) * 16 + x};
+    std::vector<Rgb> values(points.size());
+    probe->evaluate(x, y, kLight, key, points, values);
+    // A whole path may also hit the light by its BSDF sample, the same one for every point: the
+    // differences between points are the light sample's alone.
+    const auto whole = [&](Vec2 light) {
+      return mean(p.integrator->replay(key, {Pinned(light)}).radiance);
+    };
+    CHECK(mean(values[0]) > 0);
+    for (std::size_t i = 1; i < points.size(); ++i) {
+      CHECK_FALSE(values[i] == values[0]);
+      CHECK(mean(values[i]) - mean(values[0]) ==
+            doctest::Approx(whole(points[i]) - whole(points[0])).epsilon(1e-3));
+    }
+  }
+}
+
+TEST_CASE("first hits know depth and normal") {
+  const Prepared p(path_config(kFloorAndLight, 2, "", 1));
+  const auto probe = p.integrator->probe();
+  const FirstHit floor = probe->first_hit(8, 8);
+  CHECK(floor.depth == doctest::Approx(std::sqrt(26.0)).epsilon(0.05));
+  CHECK(floor.normal.y == doctest::Approx(1));
+  const FirstHit sky = probe->first_hit(0, 0);
+  CHECK(std::isinf(sky.depth));
+}
+
+TEST_CASE("with all lights every light has a branch of its own") {
+  const std::string config = path_config(kDiffuseScene, 2, "", 1);
+  const Prepared p(config + "# two lights\n");
+  CHECK(p.integrator->probe()->light_branches() == 1);
+  LoadedConfig loaded = config_from(
+      kDiffuseScene +
+      "integrator: { type: path, light_selection: all }\nsampler: independent\nbudget: { spp: 1 }\n");
+  const auto all = loaded.config.integrator->prepare({p.scene, *p.sensor, 16, 16});
+  const auto probe = all->probe();
+  CHECK(probe->light_branches() == 2);
+  const std::vector<Vec2> points{{0.3f, 0.6f}};
+  std::vector<Rgb> wall(1), ball(1);
+  probe->evaluate(8, 8, {Purpose::light_position, 1, 0}, {.seed = 3}, points, wall);
+  probe->evaluate(8, 8, {Purpose::light_position, 1, 1}, {.seed = 3}, points, ball);
+  CHECK(mean(wall[0]) > 0);
+  CHECK_FALSE(wall[0] == ball[0]);
+}
+
+}  // namespace
+}  // namespace pharos::testing

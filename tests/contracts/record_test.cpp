@@ -1,0 +1,114 @@
+// What paths record must add up to what they contribute.
+
+#include <pharos/rendering/integrator.h>
+
+#include "furnace.h"
+
+namespace pharos::testing {
+namespace {
+
+/// One work unit of the config's whole film, recorded or not.
+struct Unit {
+  explicit Unit(const std::string& yaml)
+      : loaded(config_from(yaml)),
+        config(loaded.config),
+        scene(config.scene),
+        sensor(scene.sensor().prepare(config.film.width, config.film.height)),
+        integrator(
+            config.integrator->prepare({scene, *sensor, config.film.width, config.film.height})),
+        sampler(config.sampler->prepare({config.film.width, config.film.height}, {}, nullptr)),
+        film(config.film.width, config.film.height, config.film.filter) {}
+
+  WorkResult render(bool record) {
+    const PixelRect all{0, 0, config.film.width, config.film.height};
+    WorkResult result{.film = film.make_tile(all)};
+    integrator->render({all, 0, 0, 2}, {*sampler, 7, nullptr, record}, result);
+    return result;
+  }
+
+  LoadedConfig loaded;
+  const RenderConfig& config;
+  Scene scene;
+  std::unique_ptr<const PreparedSensor> sensor;
+  std::unique_ptr<const PreparedIntegrator> integrator;
+  std::unique_ptr<const PreparedSampler> sampler;
+  Film film;
+};
+
+void check_record(const std::string& yaml) {
+  Unit unit(yaml);
+  WorkResult recorded = unit.render(true);
+  CHECK(recorded.log.size() == 2u * 32 * 32);
+
+  double sum = 0;
+  std::vector<Rgb> incident;
+  for (std::size_t p = 0; p < recorded.log.size(); ++p) {
+    const PathView path = recorded.log[p];
+    estimate_incident_radiance(path, incident);
+    const auto& vertices = path.vertices;
+    REQUIRE(vertices.front().kind == VertexKind::sensor);
+    Rgb direct;
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      direct += vertices[i].throughput * vertices[i].emission;
+      if (i == 0) continue;
+      const RecordedVertex& parent = vertices[vertices[i].parent];
+      const Rgb arrived = parent.throughput * parent.local_weight;
+      CHECK(mean(arrived) == doctest::Approx(mean(vertices[i].throughput)).epsilon(1e-4));
+      CHECK(length(vertices[i].position - parent.position) > 0);
+    }
+    for (const RecordedLightSample& light : path.light_samples) {
+      direct += vertices[light.vertex].throughput * light.contribution;
+      CHECK(light.mis_weight > 0);
+      CHECK(light.mis_weight <= 1);
+    }
+    // Everything that a camera path finds comes through its first segment.
+    const Rgb through_first = vertices[0].local_weight * incident[0];
+    CHECK(mean(through_first) == doctest::Approx(mean(direct)).epsilon(1e-4));
+    sum += mean(direct);
+  }
+
+  unit.film.merge(recorded.film);
+  unit.film.end_pass(2);
+  CHECK(image_mean(unit.film.layers()) == doctest::Approx(sum / (2.0 * 32 * 32)).epsilon(1e-4));
+}
+
+TEST_CASE("records add up to the image") {
+  check_record(path_config(kDiffuseScene, 4, "", 2));
+  check_record(path_config(kGlassInFogScene, 20, "", 2));
+}
+
+TEST_CASE("recording changes nothing") {
+  Unit unit(path_config(kGlassInFogScene, 20, "", 2));
+  Film silent = unit.film, recorded = unit.film;
+  const WorkResult quiet = unit.render(false);
+  CHECK(quiet.log.size() == 0);
+  silent.merge(quiet.film);
+  recorded.merge(unit.render(true).film);
+  silent.end_pass(2);
+  recorded.end_pass(2);
+  const Image a = silent.layers(), b = recorded.layers();
+  for (int y = 0; y < a.height(); ++y) {
+    for (int x = 0; x < a.width(); ++x) REQUIRE(a.rgb(x, y) == b.rgb(x, y));
+  }
+}
+
+TEST_CASE("incident radiance follows branches") {
+  PathLog log;
+  log.begin_path({}, Transport::radiance);
+  log.add(RecordedVertex{.kind = VertexKind::sensor, .local_weight = Rgb(1)});
+  // One vertex from which two steps were taken stands there twice.
+  log.add(RecordedVertex{.parent = 0, .local_weight = Rgb(0.25f)});
+  log.add(RecordedVertex{.parent = 0, .local_weight = Rgb(0.75f)});
+  log.add(RecordedVertex{.parent = 1, .emission = Rgb(4)});
+  log.add(RecordedVertex{.parent = 2, .emission = Rgb(8)});
+  log.add(RecordedLightSample{.vertex = 4, .contribution = Rgb(2)});
+  std::vector<Rgb> incident;
+  estimate_incident_radiance(log[0], incident);
+  CHECK(incident[1] == Rgb(4));
+  CHECK(incident[2] == Rgb(10));
+  CHECK(incident[0] == Rgb(0.25f * 4 + 0.75f * 10));
+  CHECK(incident[4] == Rgb());
+}
+
+}  // namespace
+}  // namespace pharos::testing

@@ -1,0 +1,213 @@
+// Stub (a): a direction-only method. Its model is a histogram of incident radiance over direction in
+// each of a row of cells along x; the cells double in number with every iteration, which is what the
+// learned mixing policy (e) must follow.
+
+#include <algorithm>
+#include <cmath>
+
+#include <pharos/config/registry.h>
+#include <pharos/core/warp.h>
+#include <pharos/guiding/guider.h>
+
+#include "stubs.h"
+#include "table.h"
+
+namespace pharos::stubs {
+namespace {
+
+constexpr std::uint32_t kRows = 4, kColumns = 8, kBins = kRows * kColumns;
+constexpr std::uint32_t kFinestCells = 8;
+
+std::uint32_t bin_of(Vec3 direction) {
+  const Vec2 u = warp::square_from_sphere(direction);
+  const auto column = std::min(static_cast<std::uint32_t>(u.x * kColumns), kColumns - 1);
+  const auto row = std::min(static_cast<std::uint32_t>(u.y * kRows), kRows - 1);
+  return row * kColumns + column;
+}
+
+/// Cells of equal width along x.
+struct CellRow {
+  Bounds3 region;
+
+  std::uint32_t cell(Point3 p, std::uint32_t count) const {
+    const float x = (p.x - region.low.x) / std::max(region.extent().x, 1e-20f);
+    return static_cast<std::uint32_t>(
+        std::clamp(x * static_cast<float>(count), 0.0f, static_cast<float>(count - 1)));
+  }
+};
+
+class DirectionModel final : public TableModel {
+ public:
+  DirectionModel(std::vector<double> table, CellRow row, bool was_refined)
+      : TableModel(std::move(table)), row_(row), was_refined_(was_refined) {}
+
+  std::string name() const override { return "stub_direction"; }
+  std::uint32_t region_count() const override {
+    return static_cast<std::uint32_t>(table().size() / kBins);
+  }
+  std::vector<std::uint32_t> region_origins() const override {
+    std::vector<std::uint32_t> origins;
+    for (std::uint32_t i = 0; was_refined_ && i < region_count(); ++i) origins.push_back(i / 2);
+    return origins;
+  }
+  double density(Point3) const override { return 1; }
+  double density(Point3 p, Vec3 direction) const override {
+    return histogram(cell(p))[bin_of(direction)];
+  }
+
+  std::uint32_t cell(Point3 p) const { return row_.cell(p, region_count()); }
+  /// Probabilities of the bins of a cell; they sum to one.
+  const double* histogram(std::uint32_t cell) const { return table().data() + cell * kBins; }
+
+ private:
+  CellRow row_;
+  bool was_refined_;
+};
+
+class DirectionState final : public TableState {
+ public:
+  DirectionState(const LearningContext& context, bool refine)
+      : TableState(kFinestCells * kBins), row_{context.region}, refine_(refine) {}
+
+  void absorb(const PathLog& log) override {
+    for_each_step(log, [&](const PathView& path, std::size_t i, double weight) {
+      const RecordedVertex& vertex = path.vertices[i];
+      sums_[row_.cell(vertex.position, kFinestCells) * kBins + bin_of(vertex.direction)] += weight;
+    });
+  }
+
+  std::shared_ptr<const GuidingModel> update(std::uint32_t, bool) override {
+    const bool refines = refine_ && cells_ > 0 && cells_ < kFinestCells;
+    cells_ = cells_ == 0 ? 1 : refines ? 2 * cells_ : cells_;
+    std::vector<double> table(cells_ * kBins);
+    for (std::uint32_t i = 0; i < sums_.size(); ++i) {
+      const std::uint32_t cell = i / kBins * cells_ / kFinestCells;
+      table[cell * kBins + i % kBins] += sums_[i];
+    }
+    for (std::uint32_t cell = 0; cell < cells_; ++cell) normalize(table.data() + cell * kBins);
+    return std::make_shared<DirectionModel>(std::move(table), row_, refines);
+  }
+
+ private:
+  /// Nine parts learned, one part uniform.
+  static void normalize(double* bins) {
+    double total = 0;
+    for (std::uint32_t b = 0; b < kBins; ++b) total += bins[b];
+    for (std::uint32_t b = 0; b < kBins; ++b) {
+      bins[b] = 0.1 / kBins + 0.9 * (total > 0 ? bins[b] / total : 1.0 / kBins);
+    }
+  }
+
+  CellRow row_;
+  bool refine_;
+  std::uint32_t cells_ = 0;
+};
+
+class DirectionLearner final : public Learner {
+ public:
+  struct Settings {
+    bool refine = false;
+    static void describe(Schema<Settings>& s) {
+      s.field("refine", &Settings::refine, "Double the number of regions each iteration");
+    }
+  };
+  explicit DirectionLearner(Settings settings) : settings_(settings) {}
+
+  LearnerTraits traits() const override { return {"stub_direction", {.light_samples = true}}; }
+  std::unique_ptr<LearningState> begin(const LearningContext& context) const override {
+    return std::make_unique<DirectionState>(context, settings_.refine);
+  }
+  std::shared_ptr<const GuidingModel> load_model(std::istream& in) const override {
+    return std::make_shared<DirectionModel>(read_table(in, kBins), CellRow{}, false);
+  }
+
+ private:
+  Settings settings_;
+};
+
+struct DirectionGuiderSettings {
+  bool adversarial = false;
+  float pdf_scale = 1;
+
+  static void describe(Schema<DirectionGuiderSettings>& s) {
+    s.field("adversarial", &DirectionGuiderSettings::adversarial,
+            "Prefer what the model thinks unlikely: bad, yet correct");
+    s.field("pdf_scale", &DirectionGuiderSettings::pdf_scale,
+            "Planted fault: factor on the density");
+  }
+};
+
+class DirectionDistribution final : public GuidingDistribution {
+ public:
+  DirectionDistribution(const DirectionModel& model, std::uint32_t cell,
+                        const DirectionGuiderSettings& settings, double* bins)
+      : bins_(bins), cell_(cell), pdf_scale_(settings.pdf_scale) {
+    double total = 0;
+    for (std::uint32_t b = 0; b < kBins; ++b) {
+      const double p = model.histogram(cell)[b];
+      total += bins_[b] = settings.adversarial ? 1 / p : p;
+    }
+    for (std::uint32_t b = 0; b < kBins; ++b) bins_[b] /= total;
+  }
+
+  std::optional<Proposal> propose(const VertexStream& stream) const override {
+    double u = stream.get_1d(Purpose::guide_choice);
+    std::uint32_t bin = 0;
+    while (bin + 1 < kBins && u >= bins_[bin]) u -= bins_[bin++];
+    const Vec2 v = stream.get_2d(Purpose::guide_direction);
+    const Vec2 square{(static_cast<float>(bin % kColumns) + v.x) / kColumns,
+                      (static_cast<float>(bin / kColumns) + v.y) / kRows};
+    return Proposal{.direction = warp::sphere_from_square(square)};
+  }
+  Density density(const ResolvedVertex& vertex) const override {
+    const double per_bin = bins_[bin_of(vertex.direction)] * kBins;
+    return {pdf_scale_ * static_cast<float>(per_bin) * warp::sphere_pdf(), Measure::solid_angle};
+  }
+  std::uint32_t region() const override { return cell_; }
+
+ private:
+  double* bins_;
+  std::uint32_t cell_;
+  float pdf_scale_;
+};
+
+class BoundDirectionGuider final : public BoundGuider {
+ public:
+  BoundDirectionGuider(std::shared_ptr<const DirectionModel> model,
+                       const DirectionGuiderSettings& settings)
+      : model_(std::move(model)), settings_(settings) {}
+
+  const GuidingDistribution* query(const GuidingQuery& query, Arena& arena) const override {
+    return arena.make<DirectionDistribution>(*model_, model_->cell(query.current.position),
+                                             settings_, arena.make_array<double>(kBins));
+  }
+
+ private:
+  std::shared_ptr<const DirectionModel> model_;
+  DirectionGuiderSettings settings_;
+};
+
+class DirectionGuider final : public Guider {
+ public:
+  using Settings = DirectionGuiderSettings;
+  explicit DirectionGuider(Settings settings) : settings_(settings) {}
+
+  GuiderTraits traits() const override { return {.model = "stub_direction"}; }
+  std::unique_ptr<const BoundGuider> bind(
+      std::shared_ptr<const GuidingModel> model) const override {
+    return std::make_unique<BoundDirectionGuider>(bind_model<DirectionModel>(model, *this),
+                                                  settings_);
+  }
+
+ private:
+  Settings settings_;
+};
+
+}  // namespace
+
+void register_direction(Registry& registry) {
+  registry.add<DirectionLearner>("stub_direction", "Histogram of incident radiance");
+  registry.add<DirectionGuider>("stub_direction", "Directions from the histogram");
+}
+
+}  // namespace pharos::stubs

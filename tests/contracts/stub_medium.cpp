@@ -1,0 +1,52 @@
+// A grey homogeneous medium with isotropic scattering: what stub (c) steers distances in.
+
+#include <cmath>
+
+#include <pharos/config/registry.h>
+#include <pharos/core/warp.h>
+#include <pharos/scene/medium.h>
+
+#include "stubs.h"
+
+namespace pharos::stubs {
+namespace {
+
+class Isotropic final : public PhaseFunction {
+ public:
+  float evaluate(Vec3, Vec3) const override { return warp::sphere_pdf(); }
+  Vec3 sample(Vec3, Vec2 u) const override { return warp::sphere_from_square(u); }
+  float mean_cosine() const override { return 0; }
+};
+
+class GreyMedium final : public Medium {
+ public:
+  struct Settings {
+    float scattering = 1;
+    static void describe(Schema<Settings>& s) {
+      s.field("scattering", &Settings::scattering, "Scattering coefficient").unit("1/m").above(0);
+    }
+  };
+  explicit GreyMedium(Settings settings) : sigma_(settings.scattering) {}
+
+  DistanceSample sample(const Ray& ray, float, float u) const override {
+    const float t = -std::log1p(-u) / sigma_;
+    return {t, t < ray.t_max};
+  }
+  float scatter_pdf(const Ray&, float t) const override { return sigma_ * std::exp(-sigma_ * t); }
+  float pass_probability(const Ray&, float t) const override { return std::exp(-sigma_ * t); }
+  Rgb transmittance(const Ray&, float t) const override { return Rgb(std::exp(-sigma_ * t)); }
+  Rgb scattering(Point3) const override { return Rgb(sigma_); }
+  const PhaseFunction& phase_function() const override { return phase_; }
+
+ private:
+  float sigma_;
+  Isotropic phase_;
+};
+
+}  // namespace
+
+void register_medium(Registry& registry) {
+  registry.add<GreyMedium>("stub_grey", "Scatters, never absorbs");
+}
+
+}  // namespace pharos::stubs

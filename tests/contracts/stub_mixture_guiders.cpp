@@ -1,0 +1,147 @@
+// Stub (g), the guiders: two ways to sample any model that offers SpatialMixture. `stub_exact` draws a
+// point from a Gaussian and keeps its direction, with the exact density of such directions;
+// `stub_projected` draws in the plane through the mean and projects (Schuessler et al. 2022, sec. 5.2).
+
+#include <cmath>
+
+#include <pharos/config/registry.h>
+#include <pharos/core/warp.h>
+#include <pharos/guiding/spatial_mixture.h>
+
+#include "stubs.h"
+
+namespace pharos::stubs {
+namespace {
+
+double normal_pdf(double x) {
+  return std::exp(-0.5 * x * x) / std::sqrt(2 * double{kPi});
+}
+
+Vec3 lower_times(const float* l, Vec3 z) {
+  return {l[0] * z.x, l[1] * z.x + l[2] * z.y, l[3] * z.x + l[4] * z.y + l[5] * z.z};
+}
+Vec3 lower_solve(const float* l, Vec3 v) {
+  const float x = v.x / l[0];
+  const float y = (v.y - l[1] * x) / l[2];
+  return {x, y, (v.z - l[3] * x - l[4] * y) / l[5]};
+}
+
+Vec3 normal_3d(const VertexStream& stream) {
+  const Vec2 u = stream.get_2d(Purpose::guide_direction);
+  const float w = stream.get_1d(Purpose::guide_distance);
+  const auto gauss = [](float v) {
+    return static_cast<float>(warp::normal_from_unit(v + 0x1p-25));
+  };
+  return {gauss(u.x), gauss(u.y), gauss(w)};
+}
+
+/// Directions to points of a 3D Gaussian about `mean` (relative to the origin): the density p0 of
+/// Lelyakin et al. 2025 in whitened coordinates.
+struct Exact {
+  static std::optional<Vec3> sample(const SpatialGaussian& g, Vec3 mean,
+                                    const VertexStream& stream) {
+    const Vec3 point = mean + lower_times(g.cholesky, normal_3d(stream));
+    if (length_squared(point) == 0) return std::nullopt;
+    return normalize(point);
+  }
+  static double pdf(const SpatialGaussian& g, Vec3 mean, Vec3 direction) {
+    const Vec3 v = lower_solve(g.cholesky, direction);
+    const Vec3 m = lower_solve(g.cholesky, mean);
+    const double a = length_squared(v);
+    const double u = dot(v, m) / std::sqrt(a);
+    const double e = -length_squared(cross(v, m)) / (2 * a);
+    const double determinant = double{g.cholesky[0]} * g.cholesky[2] * g.cholesky[5];
+    const double scale = std::exp(e) / (2 * double{kPi} * determinant * std::pow(a, 1.5));
+    const double cumulative = 0.5 * std::erfc(-u / std::sqrt(2.0));
+    return scale * ((1 + u * u) * cumulative + u * normal_pdf(u));
+  }
+};
+
+/// Points of the 2D Gaussian in the plane through the mean, perpendicular to the direction there.
+/// Treats the Gaussian as isotropic, which the stub's components are.
+struct Projected {
+  static std::optional<Vec3> sample(const SpatialGaussian& g, Vec3 mean,
+                                    const VertexStream& stream) {
+    const float d = length(mean);
+    if (d == 0) return std::nullopt;
+    const Frame frame = Frame::from_normal(mean / d);
+    const Vec3 z = g.cholesky[0] * normal_3d(stream);
+    return normalize(frame.to_world({z.x, z.y, d}));
+  }
+  static double pdf(const SpatialGaussian& g, Vec3 mean, Vec3 direction) {
+    const double d = length(mean);
+    if (d == 0) return 0;
+    const Vec3 local = Frame::from_normal(mean / static_cast<float>(d)).to_local(direction);
+    if (local.z <= 0) return 0;
+    const double s = g.cholesky[0];
+    const double x = d * local.x / local.z / s, y = d * local.y / local.z / s;
+    return normal_pdf(x) * normal_pdf(y) / (s * s) * d * d / std::pow(double{local.z}, 3.0);
+  }
+};
+
+template <class Technique>
+class MixtureDistribution final : public GuidingDistribution {
+ public:
+  MixtureDistribution(SpatialMixture::View view, Point3 origin) : view_(view), origin_(origin) {}
+
+  std::optional<Proposal> propose(const VertexStream& stream) const override {
+    float u = stream.get_1d(Purpose::guide_choice);
+    std::size_t k = 0;
+    while (k + 1 < view_.components.size() && u >= view_.components[k].weight) {
+      u -= view_.components[k++].weight;
+    }
+    const SpatialGaussian& g = view_.components[k];
+    const std::optional<Vec3> direction = Technique::sample(g, g.mean - origin_, stream);
+    if (!direction) return std::nullopt;
+    return Proposal{.direction = *direction};
+  }
+  Density density(const ResolvedVertex& vertex) const override {
+    double sum = 0;
+    for (const SpatialGaussian& g : view_.components) {
+      sum += g.weight * Technique::pdf(g, g.mean - origin_, vertex.direction);
+    }
+    return {static_cast<float>(sum), Measure::solid_angle};
+  }
+  std::uint32_t region() const override { return view_.region; }
+
+ private:
+  SpatialMixture::View view_;
+  Point3 origin_;
+};
+
+template <class Technique>
+class BoundMixtureGuider final : public BoundGuider {
+ public:
+  explicit BoundMixtureGuider(std::shared_ptr<const SpatialMixture> mixture)
+      : mixture_(std::move(mixture)) {}
+  const GuidingDistribution* query(const GuidingQuery& query, Arena& arena) const override {
+    const SpatialMixture::View view = mixture_->mixture_at(query, arena);
+    if (view.components.empty()) return nullptr;
+    return arena.make<MixtureDistribution<Technique>>(view, query.current.position);
+  }
+
+ private:
+  std::shared_ptr<const SpatialMixture> mixture_;
+};
+
+template <class Technique>
+class MixtureGuider final : public Guider {
+ public:
+  using Settings = NoSettings;
+  explicit MixtureGuider(Settings) {}
+  GuiderTraits traits() const override { return {.model = std::string(kSpatialMixtureModel)}; }
+  std::unique_ptr<const BoundGuider> bind(
+      std::shared_ptr<const GuidingModel> model) const override {
+    return std::make_unique<BoundMixtureGuider<Technique>>(
+        bind_model<SpatialMixture>(model, *this));
+  }
+};
+
+}  // namespace
+
+void register_mixture_guiders(Registry& registry) {
+  registry.add<MixtureGuider<Exact>>("stub_exact", "Directions to points of the Gaussians");
+  registry.add<MixtureGuider<Projected>>("stub_projected", "Points in planes through the means");
+}
+
+}  // namespace pharos::stubs

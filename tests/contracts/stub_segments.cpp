@@ -1,0 +1,167 @@
+// Stub (b): a method that splats contributions along whole path segments, those that leave the scene
+// included, into a grid over the region, and sends rays towards the grid's mass. The density of a
+// direction is an integral along the ray through every voxel.
+
+#include <algorithm>
+#include <cmath>
+
+#include <pharos/config/registry.h>
+#include <pharos/guiding/guider.h>
+
+#include "box_ray.h"
+#include "stubs.h"
+#include "table.h"
+
+namespace pharos::stubs {
+namespace {
+
+constexpr std::uint32_t kEdge = 5, kVoxels = kEdge * kEdge * kEdge;
+
+Bounds3 voxel_bounds(const Bounds3& region, std::uint32_t v) {
+  const Vec3 cell = region.extent() / static_cast<float>(kEdge);
+  const Vec3 index{static_cast<float>(v % kEdge), static_cast<float>(v / kEdge % kEdge),
+                   static_cast<float>(v / (kEdge * kEdge))};
+  Bounds3 box;
+  box.add(region.low + index * cell);
+  box.add(region.low + (index + Vec3{1, 1, 1}) * cell);
+  return box;
+}
+
+class SegmentModel final : public TableModel {
+ public:
+  SegmentModel(std::vector<double> mass, const Bounds3& region)
+      : TableModel(std::move(mass)), region_(region) {}
+
+  std::string name() const override { return "stub_segments"; }
+  double density(Point3 p) const override {
+    for (std::uint32_t v = 0; v < kVoxels; ++v) {
+      if (voxel_bounds(region_, v).contains(p)) return table()[v];
+    }
+    return 0;
+  }
+  double density(Point3 p, Vec3 direction) const override {
+    double sum = 0;
+    for (std::uint32_t v = 0; v < kVoxels; ++v) {
+      sum += table()[v] * box_direction_pdf(voxel_bounds(region_, v), p, direction);
+    }
+    return sum;
+  }
+  const Bounds3& region() const { return region_; }
+
+ private:
+  Bounds3 region_;
+};
+
+class SegmentState final : public TableState {
+ public:
+  explicit SegmentState(const Bounds3& region) : TableState(kVoxels), region_(region) {}
+
+  void absorb(const PathLog& log) override {
+    std::vector<Rgb> incident;
+    for (std::size_t p = 0; p < log.size(); ++p) {
+      const PathView path = log[p];
+      estimate_incident_radiance(path, incident);
+      for (std::size_t i = 1; i + 1 < path.vertices.size(); ++i) {
+        const RecordedVertex& vertex = path.vertices[i];
+        if (vertex.guidable) {
+          splat(vertex.position, path.vertices[i + 1].position,
+                mean(vertex.throughput * vertex.local_weight * incident[i]));
+        }
+      }
+    }
+  }
+
+  std::shared_ptr<const GuidingModel> update(std::uint32_t, bool) override {
+    double total = 0;
+    for (const double sum : sums_) total += sum;
+    std::vector<double> mass;
+    for (const double sum : sums_) {
+      mass.push_back(0.2 / kVoxels + 0.8 * (total > 0 ? sum / total : 1.0 / kVoxels));
+    }
+    return std::make_shared<SegmentModel>(std::move(mass), region_);
+  }
+
+ private:
+  void splat(Point3 from, Point3 to, double contribution) {
+    const float distance = length(to - from);
+    const Vec3 direction = (to - from) / distance;
+    for (std::uint32_t v = 0; v < kVoxels; ++v) {
+      const Interval t = box_interval(voxel_bounds(region_, v), from, direction);
+      const double inside = std::min(t.end, double{distance}) - t.begin;
+      if (inside > 0) sums_[v] += contribution * inside / region_.diagonal();
+    }
+  }
+
+  Bounds3 region_;
+};
+
+class SegmentLearner final : public Learner {
+ public:
+  using Settings = NoSettings;
+  explicit SegmentLearner(Settings) {}
+
+  LearnerTraits traits() const override { return {"stub_segments", {.light_samples = true}}; }
+  std::unique_ptr<LearningState> begin(const LearningContext& context) const override {
+    return std::make_unique<SegmentState>(context.region);
+  }
+  std::shared_ptr<const GuidingModel> load_model(std::istream& in) const override {
+    return std::make_shared<SegmentModel>(read_table(in, kVoxels), Bounds3{});
+  }
+};
+
+class SegmentDistribution final : public GuidingDistribution {
+ public:
+  SegmentDistribution(const SegmentModel& model, Point3 origin) : model_(model), origin_(origin) {}
+
+  std::optional<Proposal> propose(const VertexStream& stream) const override {
+    double u = stream.get_1d(Purpose::guide_choice);
+    std::uint32_t v = 0;
+    while (v + 1 < kVoxels && u >= model_.table()[v]) u -= model_.table()[v++];
+    const Vec2 xy = stream.get_2d(Purpose::guide_direction);
+    const float z = stream.get_1d(Purpose::guide_distance);
+    const Bounds3 box = voxel_bounds(model_.region(), v);
+    const Vec3 offset = box.low + Vec3{xy.x, xy.y, z} * box.extent() - origin_;
+    if (length_squared(offset) == 0) return std::nullopt;
+    return Proposal{.direction = normalize(offset)};
+  }
+  Density density(const ResolvedVertex& vertex) const override {
+    return {static_cast<float>(model_.density(origin_, vertex.direction)), Measure::solid_angle};
+  }
+
+ private:
+  const SegmentModel& model_;
+  Point3 origin_;
+};
+
+class BoundSegmentGuider final : public BoundGuider {
+ public:
+  explicit BoundSegmentGuider(std::shared_ptr<const SegmentModel> model)
+      : model_(std::move(model)) {}
+  const GuidingDistribution* query(const GuidingQuery& query, Arena& arena) const override {
+    return arena.make<SegmentDistribution>(*model_, query.current.position);
+  }
+
+ private:
+  std::shared_ptr<const SegmentModel> model_;
+};
+
+class SegmentGuider final : public Guider {
+ public:
+  using Settings = NoSettings;
+  explicit SegmentGuider(Settings) {}
+
+  GuiderTraits traits() const override { return {.model = "stub_segments"}; }
+  std::unique_ptr<const BoundGuider> bind(
+      std::shared_ptr<const GuidingModel> model) const override {
+    return std::make_unique<BoundSegmentGuider>(bind_model<SegmentModel>(model, *this));
+  }
+};
+
+}  // namespace
+
+void register_segments(Registry& registry) {
+  registry.add<SegmentLearner>("stub_segments", "Splats along segments into a grid");
+  registry.add<SegmentGuider>("stub_segments", "Directions towards the grid's mass");
+}
+
+}  // namespace pharos::stubs

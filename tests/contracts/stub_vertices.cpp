@@ -1,0 +1,152 @@
+// Stub (c): a method that proposes whole vertices. It looks at the previous vertex, proposes positions
+// in space (in a medium) and on the surface behind them, distances, and discrete events; and it declines
+// by the path's prefix. Its model is the region's box.
+
+#include <algorithm>
+#include <cmath>
+
+#include <pharos/config/registry.h>
+#include <pharos/guiding/guider.h>
+
+#include "box_ray.h"
+#include "stubs.h"
+#include "table.h"
+
+namespace pharos::stubs {
+namespace {
+
+class BoxModel final : public TableModel {
+ public:
+  explicit BoxModel(const Bounds3& box) : TableModel({}), box_(box) {}
+  std::string name() const override { return "stub_vertices"; }
+  double density(Point3 p) const override { return box_.contains(p) ? 1 : 0; }
+  double density(Point3 p, Vec3 direction) const override {
+    return box_direction_pdf(box_, p, direction);
+  }
+  const Bounds3& box() const { return box_; }
+
+ private:
+  Bounds3 box_;
+};
+
+class BoxState final : public TableState {
+ public:
+  explicit BoxState(const Bounds3& box) : TableState(0), box_(box) {}
+  void absorb(const PathLog&) override {}
+  std::shared_ptr<const GuidingModel> update(std::uint32_t, bool) override {
+    return std::make_shared<BoxModel>(box_);
+  }
+
+ private:
+  Bounds3 box_;
+};
+
+class VertexLearner final : public Learner {
+ public:
+  using Settings = NoSettings;
+  explicit VertexLearner(Settings) {}
+  LearnerTraits traits() const override { return {"stub_vertices", {.light_samples = true}}; }
+  std::unique_ptr<LearningState> begin(const LearningContext& context) const override {
+    return std::make_unique<BoxState>(context.region);
+  }
+  std::shared_ptr<const GuidingModel> load_model(std::istream& in) const override {
+    read_table(in, 0);
+    return std::make_shared<BoxModel>(Bounds3{});
+  }
+};
+
+/// Shares of the branches at smooth vertices; the rest is a direction with the medium's distances.
+constexpr float kVolumeShare = 0.4f, kSurfaceShare = 0.3f;
+/// Share of reflection among discrete events.
+constexpr float kReflectShare = 0.7f;
+
+class VertexDistribution final : public GuidingDistribution {
+ public:
+  VertexDistribution(const Bounds3& box, Point3 origin, bool discrete)
+      : box_(box), origin_(origin), discrete_(discrete) {}
+
+  std::optional<Proposal> propose(const VertexStream& stream) const override {
+    const float u = stream.get_1d(Purpose::guide_choice);
+    if (discrete_) return Proposal{.events = u < kReflectShare ? reflect() : transmit()};
+    const Vec2 xy = stream.get_2d(Purpose::guide_direction);
+    const float z = stream.get_1d(Purpose::guide_distance);
+    const Vec3 offset = box_.low + Vec3{xy.x, xy.y, z} * box_.extent() - origin_;
+    const float distance = length(offset);
+    if (distance == 0) return std::nullopt;
+    Proposal proposal{.direction = offset / distance};
+    if (u < kVolumeShare) {
+      proposal.reach = Proposal::Reach::distance;
+      proposal.distance = distance;
+      proposal.targets = TargetMask::volume;
+    } else if (u < kVolumeShare + kSurfaceShare) {
+      proposal.reach = Proposal::Reach::surface;
+      proposal.targets = TargetMask::surface | TargetMask::environment;
+    }
+    return proposal;
+  }
+
+  Density density(const ResolvedVertex& vertex) const override {
+    if (is_discrete(vertex.event)) {
+      if (!discrete_) return {0, Measure::discrete};
+      const float share = contains(reflect(), vertex.event) ? kReflectShare : 1 - kReflectShare;
+      return {share, Measure::discrete};
+    }
+    if (discrete_) return {0, Measure::solid_angle};
+    const auto along = static_cast<float>(box_direction_pdf(box_, origin_, vertex.direction));
+    const float by_medium = (1 - kVolumeShare - kSurfaceShare) * along * vertex.medium_density;
+    if (vertex.kind != VertexKind::volume) {
+      return {kSurfaceShare * along + by_medium, Measure::solid_angle};
+    }
+    const Vec3 e = box_.extent();
+    const float in_box = box_.contains(vertex.position) ? 1 / (e.x * e.y * e.z) : 0.0f;
+    return {kVolumeShare * in_box * square(vertex.distance) + by_medium,
+            Measure::solid_angle_length};
+  }
+
+ private:
+  static EventMask reflect() { return EventMask::reflect & EventMask::discrete; }
+  static EventMask transmit() { return EventMask::transmit & EventMask::discrete; }
+
+  Bounds3 box_;
+  Point3 origin_;
+  bool discrete_;
+};
+
+class BoundVertexGuider final : public BoundGuider {
+ public:
+  explicit BoundVertexGuider(std::shared_ptr<const BoxModel> model) : model_(std::move(model)) {}
+
+  const GuidingDistribution* query(const GuidingQuery& query, Arena& arena) const override {
+    // Declined by prefix: known are only paths that came from the upper half.
+    if (query.previous == nullptr || query.previous->position.y < model_->box().center().y) {
+      return nullptr;
+    }
+    return arena.make<VertexDistribution>(model_->box(), query.current.position,
+                                          query.scattering.purely_discrete());
+  }
+
+ private:
+  std::shared_ptr<const BoxModel> model_;
+};
+
+class VertexGuider final : public Guider {
+ public:
+  using Settings = NoSettings;
+  explicit VertexGuider(Settings) {}
+  GuiderTraits traits() const override {
+    return {.model = "stub_vertices", .steers_distance = true, .steers_events = true};
+  }
+  std::unique_ptr<const BoundGuider> bind(
+      std::shared_ptr<const GuidingModel> model) const override {
+    return std::make_unique<BoundVertexGuider>(bind_model<BoxModel>(model, *this));
+  }
+};
+
+}  // namespace
+
+void register_vertices(Registry& registry) {
+  registry.add<VertexLearner>("stub_vertices", "Remembers the region");
+  registry.add<VertexGuider>("stub_vertices", "Positions, distances and discrete events");
+}
+
+}  // namespace pharos::stubs

@@ -1,0 +1,72 @@
+// The same config and seed give the same bits for any number of threads, learned models included.
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <sstream>
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include "meshes.h"
+#include "renders.h"
+
+namespace pharos::testing {
+namespace {
+
+std::string bits(const RenderResult& result) {
+  const std::vector<float>& values = result.image.values();
+  std::string all(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float));
+  if (result.model != nullptr) {
+    std::ostringstream model;
+    result.model->save(model);
+    all += model.str();
+  }
+  return all;
+}
+
+void check_same_bits(const std::string& config) {
+  const std::string one = bits(render(config, 1));
+  for (const int threads : {1, 2, 3, 7}) {
+    const bool same = bits(render(config, threads)) == one;
+    CHECK_MESSAGE(same, threads << " threads");
+  }
+}
+
+std::string cornell(const std::string& rest) {
+  return fmt::format("scene: {}/cornell-box/scene.yaml\nbudget: {{ spp: 16 }}\n"
+                     "film: {{ width: 80, height: 64, filter: gaussian }}\n{}",
+                     PHAROS_SCENES, rest);
+}
+
+TEST_CASE("same bits: cornell-box, both samplers") {
+  check_same_bits(cornell("sampler: sobol\n"));
+  check_same_bits(cornell("sampler: independent\n"));
+}
+
+TEST_CASE("same bits: guided, with the learned model") {
+  check_same_bits(
+      cornell("sampler: sobol\nintegrator: { type: path, guiding: { learner: { type: "
+              "stub_direction, refine: true }, guider: stub_direction, mixing: stub_learned, "
+              "training: { iterations: 3, images: combine } } }\n"));
+}
+
+TEST_CASE("same bits: a scene of 300,000 triangles") {
+  const std::filesystem::path mesh =
+      std::filesystem::temp_directory_path() / fmt::format("pharos-field-{}.ply", getpid());
+  const std::size_t triangles = write_sphere_field(mesh, 220, 27);
+  CHECK(triangles >= 300'000);
+  check_same_bits(fmt::format(R"(
+scene:
+  shapes: [ {{ type: mesh, file: {}, material: {{ type: diffuse, reflectance: 0.7 }} }} ]
+  emitters: [ {{ type: constant, radiance: 1 }} ]
+  sensor: {{ type: perspective, fov: 45, to_world: {{ look_at: {{ origin: [0, 0, -4], target: [0, 0, 0], up: [0, 1, 0] }} }} }}
+film: {{ width: 64, height: 64 }}
+budget: {{ spp: 8 }}
+)",
+                              mesh.string()));
+  std::filesystem::remove(mesh);
+}
+
+}  // namespace
+}  // namespace pharos::testing

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cmath>
+
+#include <pharos/config/registry.h>
+#include <pharos/scene/texture.h>
+
+/// Vertical stripes in two colours.
+class Stripes final : public pharos::Texture {
+ public:
+  struct Settings {
+    pharos::Rgb first{0.9f};
+    pharos::Rgb second{0.1f};
+    float count = 8;
+
+    static void describe(pharos::Schema<Settings>& s) {
+      s.field("first", &Settings::first, "Colour of even stripes").at_least(0);
+      s.field("second", &Settings::second, "Colour of odd stripes").at_least(0);
+      s.field("count", &Settings::count, "Stripes in one unit of u").above(0);
+    }
+  };
+  explicit Stripes(Settings settings) : settings_(settings) {}
+
+  pharos::Rgb evaluate(const pharos::SurfacePoint& point) const override {
+    const bool odd = static_cast<long>(std::floor(point.uv.x * settings_.count)) % 2 != 0;
+    return odd ? settings_.second : settings_.first;
+  }
+  float maximum() const override {
+    return std::max(max_component(settings_.first), max_component(settings_.second));
+  }
+  pharos::Rgb average() const override { return 0.5f * (settings_.first + settings_.second); }
+
+ private:
+  Settings settings_;
+};
