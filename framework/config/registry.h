@@ -50,10 +50,10 @@ class Registry {
 
   /// Builds the component of contract C that `node` describes: a mapping with `type`, the name of
   /// a plugin without further settings, `default`, the name of an entry of the scene's
-  /// dictionaries, or the contract's shorthand. An entry of the dictionaries wins over a plugin of the same name.
-  /// `resolved` receives what was built with all values in force; for an entry its name. Throws
-  /// InputError with location and nearest name; errors of a constructor that name no location get
-  /// that of `node`. Never null.
+  /// dictionaries, or the contract's shorthand. An entry of the dictionaries wins over a plugin of
+  /// the same name. `resolved` receives what was built with all values in force; for an entry its
+  /// name. Throws InputError with location and nearest name; errors of a constructor that name no
+  /// location get that of `node`. Never null.
   template <class C>
   Ref<C> build(const ConfigNode& node, BuildContext& context, ConfigNode& resolved) const {
     return std::static_pointer_cast<const C>(

@@ -71,11 +71,11 @@ class GuidingDistribution {
   /// Draws from the stream's guide_* dimensions. Empty for a valid sample of value zero.
   virtual std::optional<Proposal> propose(const VertexStream& stream) const = 0;
 
-  /// The density of proposing `vertex`, summed over every branch that could have made it. Its
-  /// measure is solid_angle [1/sr] for surfaces and the environment, solid_angle_length
-  /// [1/(sr m)] for volume vertices and discrete for discrete events. Guides that leave distances
-  /// to the medium (GuiderTraits::steers_distance false) return [1/sr] always; the caller
-  /// multiplies `medium_density` in.
+  /// The density of proposing `vertex`, summed over every branch that could have made it, in the
+  /// measure measure_of(vertex.event, vertex.kind). Branches whose distance the medium decides
+  /// contain the factor `vertex.medium_density`, after discrete events too. Guides that never steer
+  /// distances (GuiderTraits::steers_distance false) leave the factor out and return [1/sr] or, for
+  /// discrete events, [1]; the caller multiplies it in.
   virtual Density density(const ResolvedVertex& vertex) const = 0;
 
   /// The part of the model that this comes from; learned mixing is keyed by it. Below

@@ -46,10 +46,7 @@ class Mixture final : public GuidingDistribution {
   Density density(const ResolvedVertex& vertex) const override {
     float sum = 0;
     for (const Part& part : parts_) sum += part.share * part.density(vertex);
-    const Measure measure = is_discrete(vertex.event)              ? Measure::discrete
-                            : vertex.kind == VertexKind::volume ? Measure::solid_angle_length
-                                                                : Measure::solid_angle;
-    return {sum, measure};
+    return {sum, measure_of(vertex.event, vertex.kind)};
   }
 
  private:

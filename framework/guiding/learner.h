@@ -32,7 +32,7 @@ class LearningState {
   /// Takes the recorded paths of one work unit. Called in order of work units.
   virtual void absorb(const PathLog& log) = 0;
   /// Ends training iteration `iteration` (from 0 on); `last` when no further one follows. Returns
-  /// the model for the next iteration.
+  /// the model for the next iteration; null while nothing is known.
   virtual std::shared_ptr<const GuidingModel> update(std::uint32_t iteration, bool last) = 0;
 
   /// Saved state continues training where it stopped; merge() adds what another state absorbed

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <pharos/core/atomic_file.h>
 #include <pharos/core/error.h>
 #include <pharos/core/version.h>
 #include <pharos/rendering/render_job.h>
@@ -27,15 +28,12 @@ Metadata metadata_of(const RenderResult& result, const LoadedConfig& loaded) {
 }
 
 void write_model(const GuidingModel& model, const std::filesystem::path& path) {
-  std::filesystem::path temporary = path;
-  temporary += ".tmp";
-  {
+  write_atomically(path, [&](const std::filesystem::path& temporary) {
     std::ofstream out(temporary, std::ios::binary);
     model.save(out);
     out.flush();
-    if (!out) throw RunError(fmt::format("{}: cannot be written", path.string()));
-  }
-  std::filesystem::rename(temporary, path);
+    if (!out) throw RunError(fmt::format("{}: error: cannot be written", path.string()));
+  });
 }
 
 }  // namespace

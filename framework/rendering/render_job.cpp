@@ -11,7 +11,9 @@ namespace {
 
 /// Passes an iteration is divided into: enough for an estimate of variance.
 constexpr std::uint32_t kPasses = 16;
-/// Samples a pixel in a pass whose paths are recorded; bounds the memory of logs.
+/// Most samples a pixel in a pass: bounds how long a work unit takes, and so how soon a render stops.
+constexpr std::uint32_t kPassSamples = 64;
+/// The same for passes whose paths are recorded: bounds the memory of logs.
 constexpr std::uint32_t kRecordedPassSamples = 4;
 
 class Stopwatch {
@@ -70,8 +72,9 @@ class PassSizes {
  private:
   static std::uint32_t largest(const Iteration& iteration, std::uint32_t granule) {
     if (iteration.training) return round_up(kRecordedPassSamples, granule);
-    if (iteration.samples == 0) return 1u << 20;
-    return round_up((iteration.samples + kPasses - 1) / kPasses, granule);
+    const std::uint32_t wanted =
+        iteration.samples == 0 ? kPassSamples : (iteration.samples + kPasses - 1) / kPasses;
+    return round_up(std::min(wanted, kPassSamples), granule);
   }
 
   const Iteration& iteration_;

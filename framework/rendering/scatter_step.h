@@ -31,9 +31,9 @@ struct StepDensity {
 std::optional<ScatterStep> sample_step(const LocalScattering& scattering, const Guidance& guidance,
                                        const VertexStream& stream);
 
-/// The density of reaching `vertex`, by whichever way, when the unguided sampler's density of its
-/// direction (or probability of its discrete event) is `unguided_pdf`. In the measure of the
-/// vertex: [1/sr], [1/(sr m)] for volume vertices, or [1] for discrete events.
+/// The density of reaching `vertex`, by whichever way, in the measure of its event and kind, when the
+/// unguided sampler's density of its direction (or probability of its discrete event) is
+/// `unguided_pdf`.
 inline StepDensity step_density(const Guidance& guidance, const ResolvedVertex& vertex,
                                 float unguided_pdf) {
   StepDensity density;

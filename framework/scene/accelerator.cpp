@@ -1,4 +1,5 @@
 #include <cstring>
+#include <new>
 #include <string>
 
 #if PHAROS_EMBREE_MAJOR >= 4
@@ -175,11 +176,13 @@ inline float Scene::Accelerator::intersect(const Ray& ray, SurfacePoint& point) 
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return kInfinity;
   const Geometry& geometry = geometries_[query.hit.geomID];
   const float t = query.ray.tfar;
+  // Built in place: copying this many small fields would wait for their stores.
   if (geometry.mesh != nullptr) {
-    point = geometry.mesh->surface_point(query.hit.primID, query.hit.u, query.hit.v);
+    ::new (&point)
+        SurfacePoint(geometry.mesh->surface_point(query.hit.primID, query.hit.u, query.hit.v));
   } else {
-    point = geometry.shape->surface_point(
-        ray, {.t = t, .coordinates = {query.hit.u, query.hit.v}, .primitive = query.hit.primID});
+    ::new (&point) SurfacePoint(geometry.shape->surface_point(
+        ray, {.t = t, .coordinates = {query.hit.u, query.hit.v}, .primitive = query.hit.primID}));
   }
   point.object = query.hit.geomID;
   return t;

@@ -64,7 +64,16 @@ enum class Transport : std::uint8_t {
 enum class Measure : std::uint8_t {
   solid_angle,         ///< [1/sr]: a direction, with the surface or environment met along it
   solid_angle_length,  ///< [1/(sr m)]: a direction and a distance, a vertex in a medium
-  discrete,            ///< [1]: the probability of a discrete event
+  discrete,            ///< [1]: a discrete event, with the surface or environment met after it
+  discrete_length,     ///< [1/m]: a discrete event and a distance, a vertex in a medium
 };
+
+/// The measure of reaching a vertex of kind `target` by `event`.
+constexpr Measure measure_of(Event event, VertexKind target) {
+  if (target == VertexKind::volume) {
+    return is_discrete(event) ? Measure::discrete_length : Measure::solid_angle_length;
+  }
+  return is_discrete(event) ? Measure::discrete : Measure::solid_angle;
+}
 
 }  // namespace pharos

@@ -157,6 +157,9 @@ SceneParts Value<SceneParts>::read(const ConfigNode& node, BuildContext& context
   if (!node.is_scalar()) return read_mapping(node, context, resolved);
   const auto path = Value<std::filesystem::path>::read(node, context, resolved);
   if (!std::filesystem::exists(path)) node.fail("there is no scene file '" + path.string() + "'");
+  if (std::filesystem::is_directory(path)) {
+    node.fail("expected a scene file, found the folder '" + path.string() + "'");
+  }
   return read_mapping(read_config(path), context, resolved);
 }
 

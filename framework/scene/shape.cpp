@@ -30,8 +30,6 @@ float sum(Vec3 v) {
   return v.x + v.y + v.z;
 }
 
-using Corners = std::array<Point3, 3>;
-
 /// How far origin_towards() must step from a triangle, in units of machine epsilon eps = 2^-23.
 ///
 /// The position is computed in double and rounded once; so is the origin. Each rounding moves it by
@@ -46,15 +44,15 @@ constexpr float kEpsilon = std::numeric_limits<float>::epsilon();
 constexpr float kRounding = 2;
 constexpr float kArithmetic = 8;
 
-float position_error(const Corners& p, float edge_sum) {
-  const Vec3 largest = max(abs(p[0]), max(abs(p[1]), abs(p[2])));
-  return kEpsilon * (kRounding * max_component(largest) + kArithmetic * edge_sum);
+float largest(Vec3 v) {
+  return max_component(abs(v));
 }
 
 /// The step within the triangle's plane that takes the point of weights `b` to a distance of at
 /// least `margin` from every edge, or about half-way where the triangle is narrower than that.
-Vec3 step_off_edges(const Corners& p, std::array<float, 3> b, Vec3 normal, float double_area,
-                    float margin) {
+[[gnu::noinline, gnu::cold]] Vec3 step_off_edges(const std::array<Point3, 3>& p,
+                                                 const std::array<float, 3>& b, Vec3 normal,
+                                                 float double_area, float margin) {
   Vec3 step;
   for (std::size_t i = 0; i < 3; ++i) {
     const Vec3 edge = p[(i + 2) % 3] - p[(i + 1) % 3];  // the one that vertex i faces
@@ -77,29 +75,34 @@ Frame shading_frame(Vec3 interpolated, Vec3 normal) {
 
 SurfacePoint TriangleMesh::surface_point(std::uint32_t triangle, float b1, float b2) const {
   const auto [i0, i1, i2] = triangles[triangle];
-  const Corners p{positions[i0], positions[i1], positions[i2]};
-  const Vec3d origin(p[0]);
-  const Vec3d e1 = Vec3d(p[1]) - origin, e2 = Vec3d(p[2]) - origin;
+  const Point3 p0 = positions[i0], p1 = positions[i1], p2 = positions[i2];
+  const float b0 = 1 - b1 - b2;
+  const Vec3d origin(p0);
+  const Vec3d e1 = Vec3d(p1) - origin, e2 = Vec3d(p2) - origin;
   const Vec3d area_normal = cross(e1, e2);
   const double double_area = length(area_normal);
-  const float edge_sum = sum(abs(to_float(e1))) + sum(abs(to_float(e2)));
-  const float b0 = 1 - b1 - b2;
+  const Vec3 normal = to_float((1 / double_area) * area_normal);
+  Point3 position = to_float(origin + (b1 * e1 + b2 * e2));
 
-  SurfacePoint point;
-  point.primitive = triangle;
-  point.error = position_error(p, edge_sum);
-  point.normal = to_float((1 / double_area) * area_normal);
-  point.position = to_float(origin + (b1 * e1 + b2 * e2));
+  const float coordinate = std::max(largest(p0), std::max(largest(p1), largest(p2)));
+  const float edge_sum = sum(abs(to_float(e1))) + sum(abs(to_float(e2)));
+  const float error = kEpsilon * (kRounding * coordinate + kArithmetic * edge_sum);
   const float area = static_cast<float>(double_area);
   // `edge_sum` is above the longest edge, so that this is seldom true without need.
-  if (std::min(b0, std::min(b1, b2)) * area < point.error * edge_sum) {
-    point.position += step_off_edges(p, {b0, b1, b2}, point.normal, area, point.error);
+  if (std::min(b0, std::min(b1, b2)) * area < error * edge_sum) {
+    position += step_off_edges({p0, p1, p2}, {b0, b1, b2}, normal, area, error);
   }
-  point.uv = uvs.empty() ? Vec2{b1, b2} : b0 * uvs[i0] + b1 * uvs[i1] + b2 * uvs[i2];
+
+  SurfacePoint point;
+  point.position = position;
+  point.normal = normal;
   point.shading =
       normals.empty()
-          ? Frame::from_normal(point.normal)
-          : shading_frame(b0 * normals[i0] + b1 * normals[i1] + b2 * normals[i2], point.normal);
+          ? Frame::from_normal(normal)
+          : shading_frame(b0 * normals[i0] + b1 * normals[i1] + b2 * normals[i2], normal);
+  point.uv = uvs.empty() ? Vec2{b1, b2} : b0 * uvs[i0] + b1 * uvs[i1] + b2 * uvs[i2];
+  point.error = error;
+  point.primitive = triangle;
   return point;
 }
 

@@ -1,4 +1,6 @@
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <fstream>
 #include <iterator>
 
@@ -31,6 +33,38 @@ Image grey(float value) {
 std::string bytes_of(const std::filesystem::path& path) {
   std::ifstream stream(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// An uncompressed grey 8-bit TIFF of 64 x 64 pixels in one strip, which comes last.
+std::string tiff_bytes() {
+  std::string bytes = "II*";
+  bytes += '\0';
+  const auto put = [&](std::uint32_t value, int count) {
+    for (int i = 0; i < count; ++i) bytes += static_cast<char>(value >> 8 * i & 0xff);
+  };
+  constexpr std::uint16_t kShort = 3, kLong = 4;
+  struct Entry {
+    std::uint16_t tag, type;
+    std::uint32_t value;
+  };
+  constexpr std::array<Entry, 8> entries{{{256, kShort, 64},     // width
+                                          {257, kShort, 64},     // height
+                                          {258, kShort, 8},      // bits per sample
+                                          {259, kShort, 1},      // no compression
+                                          {262, kShort, 1},      // black is zero
+                                          {273, kLong, 110},     // where the strip begins
+                                          {278, kShort, 64},     // rows in it
+                                          {279, kLong, 4096}}};  // bytes in it
+  put(8, 4);
+  put(entries.size(), 2);
+  for (const Entry& entry : entries) {
+    put(entry.tag, 2);
+    put(entry.type, 2);
+    put(1, 4);
+    put(entry.value, 4);
+  }
+  put(0, 4);
+  return bytes + std::string(4096, 'x');
 }
 
 std::size_t files_in(const test::TemporaryFolder& folder) {
@@ -108,7 +142,6 @@ TEST_CASE("the sRGB functions are inverses, and continuous where their pieces me
 TEST_CASE("images that cannot be read are input errors on one line") {
   const test::TemporaryFolder folder;
   write_exr(noise(64, 64, {"R", "G", "B"}), folder / "whole.exr");
-  write_png(noise(64, 64, {"R", "G", "B"}), folder / "whole.png");
   folder.write("text.exr", "no image");
   const auto error = [&](std::string_view name) {
     return test::input_error_in(folder, [&] { read_image(folder / name); });
@@ -120,15 +153,24 @@ TEST_CASE("images that cannot be read are input errors on one line") {
         "cannot read the image 'none.exr': no such file");
   CHECK(test::input_error([&] { read_image(folder.path()); }) ==
         "cannot read the image '" + folder.path().string() + "': it is a folder");
-  for (const char* name : {"whole.exr", "whole.png"}) {
+}
+
+TEST_CASE("images that are cut off are input errors, also where the reader fills the gap") {
+  const test::TemporaryFolder folder;
+  write_exr(noise(64, 64, {"R", "G", "B"}), folder / "a.exr");
+  folder.write("a.tif", tiff_bytes());
+  folder.write("a.ppm", "P6 64 64 255\n" + std::string(3 * 64 * 64, 'x'));
+  for (const std::string name : {"a.exr", "a.tif", "a.ppm"}) {
+    CHECK(read_image(folder / name).width() == 64);
     const std::string whole = bytes_of(folder / name);
     for (const double share : {0.02, 0.3, 0.7, 0.99}) {
-      const std::string cut = std::string("cut-") + name;
+      const std::string cut = "cut-" + name;
       folder.write(cut, whole.substr(0, static_cast<std::size_t>(share * whole.size())));
       CAPTURE(cut);
       CAPTURE(share);
-      CHECK(error(cut).find("cannot read the image '" + cut + "': ") == 0);
-      CHECK(error(cut).find('\n') == std::string::npos);
+      const std::string error = test::input_error_in(folder, [&] { read_image(folder / cut); });
+      CHECK(error.find("cannot read the image '" + cut + "': ") == 0);
+      CHECK(error.find('\n') == std::string::npos);
     }
   }
 }

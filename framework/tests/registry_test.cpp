@@ -162,6 +162,21 @@ TEST_CASE("named components are shared, and win over plugins") {
   CHECK(build("7", {named("7", 5)}).paint->value() == 5);
 }
 
+TEST_CASE("the word `default` stands for what a contract chose, if it chose") {
+  CHECK(error("default") == "a.yaml:1:1: error: unknown paint 'default'; known: " + kNames);
+  Registry registry = paints();
+  registry.set_default<Paint>("bare");
+  CHECK(build("default", {}, registry).paint->value() == 42);
+  CHECK(build("default", {}, registry).resolved == "{ type: bare }");
+  CHECK(build("default", {named("default", 5)}, registry).paint->value() == 5);
+}
+
+TEST_CASE("components know the name they were built under") {
+  CHECK(build("0.5").paint->plugin_name() == "plain");
+  CHECK(build("{type: twice, inside: 1}").paint->plugin_name() == "twice");
+  CHECK(Plain({}).plugin_name().empty());
+}
+
 TEST_CASE("errors: names") {
   CHECK(error("{type: plian}") ==
         "a.yaml:1:8: error: unknown paint 'plian' (did you mean 'plain'?); known: " + kNames);

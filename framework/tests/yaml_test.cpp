@@ -101,7 +101,7 @@ TEST_CASE("documents that are refused") {
   CHECK(parse_error("a: [1, 2\n").find("a.yaml:2:1: error: YAML: ") == 0);
   CHECK(parse_error("[1").find("a.yaml:1:1: error: YAML: ") == 0);
   CHECK(parse_error("a: 'x\nb: 2\n").find("a.yaml:3:7: error: YAML: ") == 0);
-  CHECK(parse_error("a: \"x\nb: 2\n").find("a.yaml:3:7: error: YAML: ") == 0);
+  CHECK(parse_error("a: \"x\nb: 2\n").find("a.yaml:3:6: error: YAML: ") == 0);
   CHECK(parse_error("x: 1\ny:\n  a: 1\n  b: 2\n  a: 3\n") ==
         "a.yaml:5:3: error: duplicate key 'a', first given in line 3");
   CHECK(parse_error("{a: 1, a: 2}") ==

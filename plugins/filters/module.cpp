@@ -6,4 +6,5 @@
 PHAROS_MODULE(registry) {
   registry.add<pharos::BoxFilter>("box", "equal weight over a square");
   registry.add<pharos::GaussianFilter>("gaussian", "a Gaussian that ends at zero");
+  registry.set_default<pharos::Filter>("box");
 }

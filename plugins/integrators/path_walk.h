@@ -148,7 +148,6 @@ class PathWalk {
     if (to.kind == VertexKind::environment) {
       to.surface = {};
       to.surface.position = ray.origin + environment_distance() * ray.direction;
-      to.surface.normal = to.surface.shading.n = -ray.direction;
     }
     resolved.position = to.surface.position;
     weight_step(step, resolved, transmittance);
@@ -206,7 +205,9 @@ class PathWalk {
                        .normal = here.surface.normal,
                        .shading_normal = here.surface.shading.n,
                        .kind = here.kind};
-    if (here.kind == VertexKind::volume) current_vertex_.normal = current_vertex_.shading_normal = {};
+    if (here.kind != VertexKind::surface) {
+      current_vertex_.normal = current_vertex_.shading_normal = {};
+    }
     if (bounce_ == 1 && here.kind == VertexKind::surface) {
       result_.features = {.albedo = scene_.bsdf(here.surface).albedo(here.surface),
                           .normal = here.surface.shading.n,
@@ -382,10 +383,7 @@ class PathWalk {
     here.local_weight = weight;
     here.unguided_pdf = density_.unguided;
     here.guided_pdf = density_.guided;
-    here.measure = is_discrete(step.event) ? Measure::discrete
-                   : arrivals_[1 - current_].kind == VertexKind::volume
-                       ? Measure::solid_angle_length
-                       : Measure::solid_angle;
+    here.measure = measure_of(step.event, arrivals_[1 - current_].kind);
     if (bounce_ == 0) here.unguided_fraction = guidance_.unguided_fraction;
   }
 

@@ -4,4 +4,5 @@
 
 PHAROS_MODULE(registry) {
   registry.add<pharos::FixedMixing>("fixed", "the same share of unguided samples everywhere");
+  registry.set_default<pharos::MixingPolicy>("fixed");
 }

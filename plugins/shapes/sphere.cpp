@@ -145,6 +145,8 @@ ShapeSample Sphere::sample(Vec2 u) const {
 }
 
 std::optional<float> Sphere::cone_from(Point3 from) const {
+  // Rounding puts points of the sphere itself on either side; those of a room see its inside.
+  if (flip_normals_) return std::nullopt;
   const Double3 axis = from_center(from);
   const double sin_squared = double{radius_} * radius_ / dot(axis, axis);
   if (!(sin_squared < 1)) return std::nullopt;

@@ -41,7 +41,8 @@ class Sphere : public Shape {
   /// The surface in the direction `outward` (of any length) from the centre.
   SurfacePoint surface_towards(const Double3& outward) const;
   Double3 from_center(Point3 p) const;
-  /// 1 - cos of the half-angle of the cone of directions that meet the sphere; empty from inside.
+  /// 1 - cos of the half-angle of the cone of directions that meet the sphere; empty from inside
+  /// and for flipped spheres, which are lit and seen from inside.
   std::optional<float> cone_from(Point3 from) const;
 
   Point3 center_;

@@ -85,7 +85,7 @@ TEST_CASE("missing and unusable files") {
                            "file: nothing.png } } }"),
                 "nothing.png");
   check_refused("extends: nowhere.yaml\n", "bad.yaml:1:10: error: ");
-  check_refused("extends: bad.yaml\n", "bad.yaml:1:10: error: ");
+  check_refused("extends: bad.yaml\n", "bad.yaml:1:1: error: ");
   check_refused(with(""), "no-such-folder", "-o no-such-folder/x.exr");
 }
 

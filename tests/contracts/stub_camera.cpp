@@ -13,7 +13,7 @@ namespace {
 
 class EmptyModel final : public TableModel {
  public:
-  EmptyModel() : TableModel({}) {}
+  using TableModel::TableModel;
   std::string name() const override { return "stub_camera"; }
   double density(Point3) const override { return 1; }
   double density(Point3, Vec3) const override { return 1; }
@@ -23,7 +23,7 @@ class EmptyState final : public TableState {
  public:
   EmptyState() : TableState(0) {}
   std::shared_ptr<const GuidingModel> initial_model() const override {
-    return std::make_shared<EmptyModel>();
+    return std::make_shared<EmptyModel>(Table{});
   }
   void absorb(const PathLog&) override {}
   std::shared_ptr<const GuidingModel> update(std::uint32_t, bool) override {
@@ -40,8 +40,7 @@ class CameraLearner final : public Learner {
     return std::make_unique<EmptyState>();
   }
   std::shared_ptr<const GuidingModel> load_model(std::istream& in) const override {
-    read_table(in, 0);
-    return std::make_shared<EmptyModel>();
+    return std::make_shared<EmptyModel>(load_table(in, 0));
   }
 };
 

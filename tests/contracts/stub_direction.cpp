@@ -26,20 +26,16 @@ std::uint32_t bin_of(Vec3 direction) {
 }
 
 /// Cells of equal width along x.
-struct CellRow {
-  Bounds3 region;
-
-  std::uint32_t cell(Point3 p, std::uint32_t count) const {
-    const float x = (p.x - region.low.x) / std::max(region.extent().x, 1e-20f);
-    return static_cast<std::uint32_t>(
-        std::clamp(x * static_cast<float>(count), 0.0f, static_cast<float>(count - 1)));
-  }
-};
+std::uint32_t cell_of(Point3 p, const Bounds3& region, std::uint32_t count) {
+  const float x = (p.x - region.low.x) / std::max(region.extent().x, 1e-20f);
+  return static_cast<std::uint32_t>(
+      std::clamp(x * static_cast<float>(count), 0.0f, static_cast<float>(count - 1)));
+}
 
 class DirectionModel final : public TableModel {
  public:
-  DirectionModel(std::vector<double> table, CellRow row, bool was_refined)
-      : TableModel(std::move(table)), row_(row), was_refined_(was_refined) {}
+  DirectionModel(Table table, bool was_refined)
+      : TableModel(std::move(table)), was_refined_(was_refined) {}
 
   std::string name() const override { return "stub_direction"; }
   std::uint32_t region_count() const override {
@@ -55,37 +51,39 @@ class DirectionModel final : public TableModel {
     return histogram(cell(p))[bin_of(direction)];
   }
 
-  std::uint32_t cell(Point3 p) const { return row_.cell(p, region_count()); }
+  std::uint32_t cell(Point3 p) const { return cell_of(p, region(), region_count()); }
   /// Probabilities of the bins of a cell; they sum to one.
   const double* histogram(std::uint32_t cell) const { return table().data() + cell * kBins; }
 
  private:
-  CellRow row_;
   bool was_refined_;
 };
 
 class DirectionState final : public TableState {
  public:
   DirectionState(const LearningContext& context, bool refine)
-      : TableState(kFinestCells * kBins), row_{context.region}, refine_(refine) {}
+      : TableState(kFinestCells * kBins), region_(context.region), refine_(refine) {}
 
   void absorb(const PathLog& log) override {
     for_each_step(log, [&](const PathView& path, std::size_t i, double weight) {
       const RecordedVertex& vertex = path.vertices[i];
-      sums_[row_.cell(vertex.position, kFinestCells) * kBins + bin_of(vertex.direction)] += weight;
+      const std::uint32_t cell = cell_of(vertex.position, region_, kFinestCells);
+      sums_[cell * kBins + bin_of(vertex.direction)] += weight;
     });
   }
 
   std::shared_ptr<const GuidingModel> update(std::uint32_t, bool) override {
     const bool refines = refine_ && cells_ > 0 && cells_ < kFinestCells;
     cells_ = cells_ == 0 ? 1 : refines ? 2 * cells_ : cells_;
-    std::vector<double> table(cells_ * kBins);
+    Table table{std::vector<double>(cells_ * kBins), region_};
     for (std::uint32_t i = 0; i < sums_.size(); ++i) {
       const std::uint32_t cell = i / kBins * cells_ / kFinestCells;
-      table[cell * kBins + i % kBins] += sums_[i];
+      table.values[cell * kBins + i % kBins] += sums_[i];
     }
-    for (std::uint32_t cell = 0; cell < cells_; ++cell) normalize(table.data() + cell * kBins);
-    return std::make_shared<DirectionModel>(std::move(table), row_, refines);
+    for (std::uint32_t cell = 0; cell < cells_; ++cell) {
+      normalize(table.values.data() + cell * kBins);
+    }
+    return std::make_shared<DirectionModel>(std::move(table), refines);
   }
 
  private:
@@ -98,7 +96,7 @@ class DirectionState final : public TableState {
     }
   }
 
-  CellRow row_;
+  Bounds3 region_;
   bool refine_;
   std::uint32_t cells_ = 0;
 };
@@ -118,7 +116,7 @@ class DirectionLearner final : public Learner {
     return std::make_unique<DirectionState>(context, settings_.refine);
   }
   std::shared_ptr<const GuidingModel> load_model(std::istream& in) const override {
-    return std::make_shared<DirectionModel>(read_table(in, kBins), CellRow{}, false);
+    return std::make_shared<DirectionModel>(load_table(in, kBins), false);
   }
 
  private:

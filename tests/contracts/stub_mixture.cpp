@@ -17,11 +17,18 @@ namespace {
 constexpr std::size_t kOctants = 8;
 /// Sums kept of each octant: weight, weighted position and squared position.
 constexpr std::size_t kSums = 5;
+/// Numbers saved of each component: weight, mean, standard deviation.
+constexpr std::size_t kNumbers = 5;
 
 class MixtureModel final : public TableModel, public SpatialMixture {
  public:
-  explicit MixtureModel(std::vector<SpatialGaussian> components)
-      : TableModel({}), components_(std::move(components)) {}
+  explicit MixtureModel(Table table) : TableModel(std::move(table)) {
+    for (const double* n = this->table().data(); n < this->table().data() + this->table().size();
+         n += kNumbers) {
+      const auto f = [n](int i) { return static_cast<float>(n[i]); };
+      components_.push_back({f(0), {f(1), f(2), f(3)}, {f(4), 0, f(4), 0, 0, f(4)}});
+    }
+  }
 
   std::string name() const override { return "stub_mixture"; }
   double density(Point3 p) const override {
@@ -59,23 +66,24 @@ class MixtureState final : public TableState {
   std::shared_ptr<const GuidingModel> update(std::uint32_t, bool) override {
     double total = 0;
     for (std::size_t k = 0; k < kOctants; ++k) total += sums_[k * kSums];
-    std::vector<SpatialGaussian> components;
+    Table table{{}, region_};
     for (std::size_t k = 0; k < kOctants; ++k) {
       const double* sums = &sums_[k * kSums];
-      if (sums[0] > 0) components.push_back(fit(sums, total));
+      table.values.push_back(total > 0 ? sums[0] / total : 0);
+      double variance = sums[0] > 0 ? sums[4] / sums[0] : 0;
+      for (int axis = 1; axis <= 3; ++axis) {
+        const double mean = sums[0] > 0 ? sums[axis] / sums[0] : 0;
+        table.values.push_back(mean);
+        variance -= mean * mean;
+      }
+      const double smallest = 0.05 * region_.diagonal();
+      table.values.push_back(std::max(std::sqrt(std::max(variance, 0.0) / 3), smallest));
     }
-    return std::make_shared<MixtureModel>(std::move(components));
+    if (total == 0) return nullptr;
+    return std::make_shared<MixtureModel>(std::move(table));
   }
 
  private:
-  SpatialGaussian fit(const double* sums, double total) const {
-    const Vec3 mean = Vec3{static_cast<float>(sums[1]), static_cast<float>(sums[2]),
-                           static_cast<float>(sums[3])} /
-                      static_cast<float>(sums[0]);
-    const auto variance = static_cast<float>(sums[4] / sums[0]) - length_squared(mean);
-    const float s = std::max(std::sqrt(std::max(variance, 0.0f) / 3), 0.05f * region_.diagonal());
-    return {static_cast<float>(sums[0] / total), mean, {s, 0, s, 0, 0, s}};
-  }
 
   Bounds3 region_;
 };
@@ -91,8 +99,7 @@ class MixtureLearner final : public Learner {
     return std::make_unique<MixtureState>(context.region);
   }
   std::shared_ptr<const GuidingModel> load_model(std::istream& in) const override {
-    read_table(in, 0);
-    return std::make_shared<MixtureModel>(std::vector<SpatialGaussian>{});
+    return std::make_shared<MixtureModel>(load_table(in, kOctants * kNumbers));
   }
 };
 

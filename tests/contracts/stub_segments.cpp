@@ -29,27 +29,22 @@ Bounds3 voxel_bounds(const Bounds3& region, std::uint32_t v) {
 
 class SegmentModel final : public TableModel {
  public:
-  SegmentModel(std::vector<double> mass, const Bounds3& region)
-      : TableModel(std::move(mass)), region_(region) {}
+  using TableModel::TableModel;
 
   std::string name() const override { return "stub_segments"; }
   double density(Point3 p) const override {
     for (std::uint32_t v = 0; v < kVoxels; ++v) {
-      if (voxel_bounds(region_, v).contains(p)) return table()[v];
+      if (voxel_bounds(region(), v).contains(p)) return table()[v];
     }
     return 0;
   }
   double density(Point3 p, Vec3 direction) const override {
     double sum = 0;
     for (std::uint32_t v = 0; v < kVoxels; ++v) {
-      sum += table()[v] * box_direction_pdf(voxel_bounds(region_, v), p, direction);
+      sum += table()[v] * box_direction_pdf(voxel_bounds(region(), v), p, direction);
     }
     return sum;
   }
-  const Bounds3& region() const { return region_; }
-
- private:
-  Bounds3 region_;
 };
 
 class SegmentState final : public TableState {
@@ -74,11 +69,11 @@ class SegmentState final : public TableState {
   std::shared_ptr<const GuidingModel> update(std::uint32_t, bool) override {
     double total = 0;
     for (const double sum : sums_) total += sum;
-    std::vector<double> mass;
+    Table mass{{}, region_};
     for (const double sum : sums_) {
-      mass.push_back(0.2 / kVoxels + 0.8 * (total > 0 ? sum / total : 1.0 / kVoxels));
+      mass.values.push_back(0.2 / kVoxels + 0.8 * (total > 0 ? sum / total : 1.0 / kVoxels));
     }
-    return std::make_shared<SegmentModel>(std::move(mass), region_);
+    return std::make_shared<SegmentModel>(std::move(mass));
   }
 
  private:
@@ -105,7 +100,7 @@ class SegmentLearner final : public Learner {
     return std::make_unique<SegmentState>(context.region);
   }
   std::shared_ptr<const GuidingModel> load_model(std::istream& in) const override {
-    return std::make_shared<SegmentModel>(read_table(in, kVoxels), Bounds3{});
+    return std::make_shared<SegmentModel>(load_table(in, kVoxels));
   }
 };
 

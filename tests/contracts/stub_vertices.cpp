@@ -17,16 +17,12 @@ namespace {
 
 class BoxModel final : public TableModel {
  public:
-  explicit BoxModel(const Bounds3& box) : TableModel({}), box_(box) {}
+  using TableModel::TableModel;
   std::string name() const override { return "stub_vertices"; }
-  double density(Point3 p) const override { return box_.contains(p) ? 1 : 0; }
+  double density(Point3 p) const override { return region().contains(p) ? 1 : 0; }
   double density(Point3 p, Vec3 direction) const override {
-    return box_direction_pdf(box_, p, direction);
+    return box_direction_pdf(region(), p, direction);
   }
-  const Bounds3& box() const { return box_; }
-
- private:
-  Bounds3 box_;
 };
 
 class BoxState final : public TableState {
@@ -34,7 +30,7 @@ class BoxState final : public TableState {
   explicit BoxState(const Bounds3& box) : TableState(0), box_(box) {}
   void absorb(const PathLog&) override {}
   std::shared_ptr<const GuidingModel> update(std::uint32_t, bool) override {
-    return std::make_shared<BoxModel>(box_);
+    return std::make_shared<BoxModel>(Table{{}, box_});
   }
 
  private:
@@ -50,8 +46,7 @@ class VertexLearner final : public Learner {
     return std::make_unique<BoxState>(context.region);
   }
   std::shared_ptr<const GuidingModel> load_model(std::istream& in) const override {
-    read_table(in, 0);
-    return std::make_shared<BoxModel>(Bounds3{});
+    return std::make_shared<BoxModel>(load_table(in, 0));
   }
 };
 
@@ -86,24 +81,24 @@ class VertexDistribution final : public GuidingDistribution {
   }
 
   Density density(const ResolvedVertex& vertex) const override {
-    if (is_discrete(vertex.event)) {
-      if (!discrete_) return {0, Measure::discrete};
-      const float share = contains(reflect(), vertex.event) ? kReflectShare : 1 - kReflectShare;
-      return {share, Measure::discrete};
-    }
-    if (discrete_) return {0, Measure::solid_angle};
-    const auto along = static_cast<float>(box_direction_pdf(box_, origin_, vertex.direction));
-    const float by_medium = (1 - kVolumeShare - kSurfaceShare) * along * vertex.medium_density;
-    if (vertex.kind != VertexKind::volume) {
-      return {kSurfaceShare * along + by_medium, Measure::solid_angle};
-    }
-    const Vec3 e = box_.extent();
-    const float in_box = box_.contains(vertex.position) ? 1 / (e.x * e.y * e.z) : 0.0f;
-    return {kVolumeShare * in_box * square(vertex.distance) + by_medium,
-            Measure::solid_angle_length};
+    return {value(vertex), measure_of(vertex.event, vertex.kind)};
   }
 
  private:
+  float value(const ResolvedVertex& vertex) const {
+    if (is_discrete(vertex.event) != discrete_) return 0;
+    if (discrete_) {
+      const float share = contains(reflect(), vertex.event) ? kReflectShare : 1 - kReflectShare;
+      return share * vertex.medium_density;
+    }
+    const auto along = static_cast<float>(box_direction_pdf(box_, origin_, vertex.direction));
+    const float by_medium = (1 - kVolumeShare - kSurfaceShare) * along * vertex.medium_density;
+    if (vertex.kind != VertexKind::volume) return kSurfaceShare * along + by_medium;
+    const Vec3 e = box_.extent();
+    const float in_box = box_.contains(vertex.position) ? 1 / (e.x * e.y * e.z) : 0.0f;
+    return kVolumeShare * in_box * square(vertex.distance) + by_medium;
+  }
+
   static EventMask reflect() { return EventMask::reflect & EventMask::discrete; }
   static EventMask transmit() { return EventMask::transmit & EventMask::discrete; }
 
@@ -118,10 +113,10 @@ class BoundVertexGuider final : public BoundGuider {
 
   const GuidingDistribution* query(const GuidingQuery& query, Arena& arena) const override {
     // Declined by prefix: known are only paths that came from the upper half.
-    if (query.previous == nullptr || query.previous->position.y < model_->box().center().y) {
+    if (query.previous == nullptr || query.previous->position.y < model_->region().center().y) {
       return nullptr;
     }
-    return arena.make<VertexDistribution>(model_->box(), query.current.position,
+    return arena.make<VertexDistribution>(model_->region(), query.current.position,
                                           query.scattering.purely_discrete());
   }
 

@@ -11,6 +11,12 @@
 
 namespace pharos::stubs {
 
+/// A table of numbers and the region it is about.
+struct Table {
+  std::vector<double> values;
+  Bounds3 region;
+};
+
 inline void write_table(std::ostream& out, const std::vector<double>& table) {
   const std::uint64_t size = table.size();
   out.write(reinterpret_cast<const char*>(&size), sizeof size);
@@ -29,19 +35,31 @@ inline std::vector<double> read_table(std::istream& in, std::size_t expected) {
   return table;
 }
 
-/// A model that is one table of numbers.
+/// A model that is one table of numbers over a region.
 class TableModel : public GuidingModel {
  public:
-  explicit TableModel(std::vector<double> table) : table_(std::move(table)) {}
+  explicit TableModel(Table table) : table_(std::move(table)) {}
 
   std::uint32_t version() const override { return 1; }
-  std::size_t size_bytes() const override { return table_.size() * sizeof(double); }
-  void save(std::ostream& out) const override { write_table(out, table_); }
-  const std::vector<double>& table() const { return table_; }
+  std::size_t size_bytes() const override { return table_.values.size() * sizeof(double); }
+  void save(std::ostream& out) const override {
+    out.write(reinterpret_cast<const char*>(&table_.region), sizeof(Bounds3));
+    write_table(out, table_.values);
+  }
+  const std::vector<double>& table() const { return table_.values; }
+  const Bounds3& region() const { return table_.region; }
 
  private:
-  std::vector<double> table_;
+  Table table_;
 };
+
+/// What TableModel::save() wrote, of `expected` numbers.
+inline Table load_table(std::istream& in, std::size_t expected) {
+  Table table;
+  in.read(reinterpret_cast<char*>(&table.region), sizeof(Bounds3));
+  table.values = read_table(in, expected);
+  return table;
+}
 
 /// Learning that is a table of sums.
 class TableState : public LearningState {
@@ -69,7 +87,7 @@ void for_each_step(const PathLog& log, Use&& use) {
     estimate_incident_radiance(path, incident);
     for (std::size_t i = 1; i < path.vertices.size(); ++i) {
       const RecordedVertex& vertex = path.vertices[i];
-      if (!vertex.guidable || vertex.pdf() <= 0 || vertex.measure == Measure::discrete) continue;
+      if (!vertex.guidable || vertex.pdf() <= 0 || is_discrete(vertex.event)) continue;
       use(path, i, mean(incident[i]) / vertex.pdf());
     }
   }

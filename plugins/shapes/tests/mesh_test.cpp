@@ -1,30 +1,11 @@
 #include "../mesh.h"
 
-#include <fstream>
-
 #include <doctest/doctest.h>
 
-#include <pharos/core/error.h>
+#include <pharos/tests/fixtures.h>
 
 namespace pharos {
 namespace {
-
-/// A file in the folder for temporary files, taken away at the end.
-class TemporaryFile {
- public:
-  TemporaryFile(const std::string& name, const std::string& text)
-      : path_(std::filesystem::temp_directory_path() / ("pharos-mesh-test-" + name)) {
-    std::ofstream(path_, std::ios::binary) << text;
-  }
-  ~TemporaryFile() { std::filesystem::remove(path_); }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 /// Two objects: a unit square in the plane z = 0 with tilted normals, and a triangle above it.
 const char* const kTwoObjects =
@@ -37,26 +18,31 @@ const char* const kTwoObjects =
     "v 0 0 1\nv 2 0 1\nv 0 2 1\n"
     "f 5/1/1 6/2/1 7/3/1\n";
 
-std::string error_of(const std::filesystem::path& path) {
-  try {
-    const Mesh mesh(Mesh::Settings{.file = path});
-  } catch (const InputError& e) {
-    return e.what();
-  }
-  return "no error";
-}
+/// A mesh file of its own.
+struct MeshFile {
+  test::TemporaryFolder folder;
+  std::filesystem::path path;
 
+  MeshFile(const std::string& name, const std::string& text) : path(folder.write(name, text)) {}
+
+  Mesh load(Mesh::Settings settings = {}) const {
+    settings.file = path;
+    return Mesh(settings);
+  }
+};
+
+/// The message must name the file and give the reason.
 void check_error(const std::string& name, const std::string& text, const std::string& reason) {
-  const TemporaryFile file(name, text);
-  const std::string message = error_of(file.path());
+  const MeshFile file(name, text);
+  const std::string message = test::input_error([&] { file.load(); });
   INFO(message);
-  CHECK(message.find(file.path().string()) != std::string::npos);
+  CHECK(message.find(file.path.string()) != std::string::npos);
   CHECK(message.find(reason) != std::string::npos);
 }
 
 TEST_CASE("all objects of a file are joined and polygons cut into triangles") {
-  const TemporaryFile file("two.obj", kTwoObjects);
-  const Mesh mesh(Mesh::Settings{.file = file.path()});
+  const MeshFile file("two.obj", kTwoObjects);
+  const Mesh mesh = file.load();
   CHECK(mesh.primitive_count() == 3);
   CHECK(mesh.area() == doctest::Approx(3));
   CHECK(mesh.bounds().high.x == 2);
@@ -65,23 +51,23 @@ TEST_CASE("all objects of a file are joined and polygons cut into triangles") {
 }
 
 TEST_CASE("shading normals are the file's unless told otherwise") {
-  const TemporaryFile file("normals.obj", kTwoObjects);
-  const Mesh smooth(Mesh::Settings{.file = file.path()});
+  const MeshFile file("normals.obj", kTwoObjects);
+  const Mesh smooth = file.load();
   const SurfacePoint p = smooth.mesh()->surface_point(0, 0.3f, 0.3f);
   CHECK(p.normal.z == doctest::Approx(1));
   CHECK(p.shading.n.x == doctest::Approx(0.6));
   CHECK(p.shading.n.z == doctest::Approx(0.8));
-  const Mesh flat(Mesh::Settings{.file = file.path(), .face_normals = true});
+  const Mesh flat = file.load({.face_normals = true});
   CHECK(flat.mesh()->normals.empty());
   CHECK(flat.mesh()->surface_point(0, 0.3f, 0.3f).shading.n.z == doctest::Approx(1));
 }
 
 TEST_CASE("mirroring keeps the outer side, flip_normals exchanges it") {
-  const TemporaryFile file("mirror.obj", kTwoObjects);
+  const MeshFile file("mirror.obj", kTwoObjects);
   for (const float mirror : {1.0f, -1.0f}) {
     for (const bool flip : {false, true}) {
-      const Mesh mesh(Mesh::Settings{
-          .file = file.path(), .to_world = Transform::scale({mirror, 1, 1}), .flip_normals = flip});
+      const Mesh mesh =
+          file.load({.to_world = Transform::scale({mirror, 1, 1}), .flip_normals = flip});
       const SurfacePoint p = mesh.mesh()->surface_point(0, 0.3f, 0.3f);
       const float side = flip ? -1.0f : 1.0f;
       CHECK(p.normal.z == doctest::Approx(side));
@@ -92,8 +78,8 @@ TEST_CASE("mirroring keeps the outer side, flip_normals exchanges it") {
 }
 
 TEST_CASE("a file without normals has those of its faces, and barycentric coordinates") {
-  const TemporaryFile file("plain.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-  const Mesh mesh(Mesh::Settings{.file = file.path()});
+  const MeshFile file("plain.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const Mesh mesh = file.load();
   CHECK(mesh.mesh()->normals.empty());
   const SurfacePoint p = mesh.mesh()->surface_point(0, 0.25f, 0.5f);
   CHECK(p.uv == Vec2{0.25f, 0.5f});
@@ -102,13 +88,14 @@ TEST_CASE("a file without normals has those of its faces, and barycentric coordi
 }
 
 TEST_CASE("triangles without area are left out") {
-  const TemporaryFile file("thin.obj",
-                           "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nf 1 2 4\nf 1 2 3\nf 1 1 2\n");
-  CHECK(Mesh(Mesh::Settings{.file = file.path()}).primitive_count() == 1);
+  const MeshFile file("thin.obj",
+                      "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nf 1 2 4\nf 1 2 3\nf 1 1 2\n");
+  CHECK(file.load().primitive_count() == 1);
 }
 
 TEST_CASE("what cannot be a surface is an error that names the file") {
-  CHECK(error_of("/nowhere/missing.obj").find("/nowhere/missing.obj") != std::string::npos);
+  const std::string missing = test::input_error([] { Mesh({.file = "/nowhere/missing.obj"}); });
+  CHECK(missing == "mesh '/nowhere/missing.obj': there is no such file");
   check_error("empty.obj", "", "mesh");
   check_error("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n", "mesh");
   check_error("line.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", "area");
@@ -128,8 +115,8 @@ TEST_CASE("a binary file that was cut off is an error") {
   const std::array<std::int32_t, 3> face{0, 1, 2};
   const std::string whole =
       ply + '\3' + std::string(reinterpret_cast<const char*>(face.data()), sizeof(face));
-  const TemporaryFile file("whole.ply", whole);
-  CHECK(Mesh(Mesh::Settings{.file = file.path()}).primitive_count() == 1);
+  const MeshFile file("whole.ply", whole);
+  CHECK(file.load().primitive_count() == 1);
   check_error("cut-faces.ply", ply, "mesh");
   check_error("cut-vertices.ply", ply.substr(0, ply.size() - 20), "mesh");
 }

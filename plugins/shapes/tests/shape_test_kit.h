@@ -3,41 +3,16 @@
 #include <memory>
 #include <utility>
 
-#include <pharos/core/random.h>
-#include <pharos/core/warp.h>
-#include <pharos/scene/scene.h>
+#include <pharos/tests/scene_fixtures.h>
 
 /// What the suites of this folder share.
 namespace pharos::test {
 
-/// Scatters nothing: geometry is all that is looked at here.
-class BlackBsdf : public Bsdf {
- public:
-  EventMask events() const override { return EventMask::nothing; }
-  ScatterValue evaluate(const SurfacePoint&, Vec3, Vec3, ScatterOptions) const override {
-    return {};
-  }
-  std::optional<ScatterSample> sample(const SurfacePoint&, Vec3, float, Vec2,
-                                      ScatterOptions) const override {
-    return std::nullopt;
-  }
-  float roughness(const SurfacePoint&) const override { return 1; }
-  Rgb albedo(const SurfacePoint&) const override { return {}; }
-};
-
 template <class S>
 std::unique_ptr<const Scene> scene_of(typename S::Settings settings) {
   SceneParts parts;
-  parts.objects.push_back({.shape = std::make_shared<const S>(settings),
-                           .bsdf = std::make_shared<const BlackBsdf>(),
-                           .emitter = nullptr,
-                           .interior = nullptr,
-                           .exterior = nullptr});
+  parts.objects.push_back(object_of(std::make_shared<const S>(std::move(settings))));
   return std::make_unique<const Scene>(std::move(parts));
-}
-
-inline Vec3 random_direction(RandomStream& random) {
-  return normalize(warp::sphere_from_square(random.next_2d()));
 }
 
 /// On the side of `normal`; every other one grazes, with cosines down to 1e-3. (At 1e-5 and below,
