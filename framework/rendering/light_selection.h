@@ -30,6 +30,8 @@ class LightSelector {
 
   /// Light samples to take at each vertex.
   std::uint16_t branches() const { return branches_; }
+  /// Whether choose() looks at its number: only where there is a choice.
+  bool needs_number() const { return cumulative_.size() > 1; }
   /// Index into Scene::lights() for a branch; `u` in [0,1).
   int choose(std::uint16_t branch, float u) const;
   /// The probability [1] of choosing a light (1 with `all`).

@@ -3,18 +3,6 @@
 namespace pharos {
 namespace {
 
-std::optional<ScatterStep> sample_unguided(const LocalScattering& scattering,
-                                           const VertexStream& stream) {
-  const std::optional<ScatterSample> sample = scattering.sample(
-      stream.get_1d(Purpose::bsdf_choice), stream.get_2d(Purpose::bsdf_direction));
-  if (!sample || sample->pdf <= 0) return std::nullopt;
-  return ScatterStep{.direction = sample->direction,
-                     .event = sample->event,
-                     .value = sample->pdf * sample->weight,
-                     .unguided_pdf = sample->pdf,
-                     .unguided_weight = sample->weight};
-}
-
 /// What the scattering makes of a guide's proposal.
 std::optional<ScatterStep> accept(const LocalScattering& scattering, const Proposal& proposal) {
   ScatterStep step{.direction = proposal.direction,
@@ -43,13 +31,10 @@ std::optional<ScatterStep> accept(const LocalScattering& scattering, const Propo
 
 }  // namespace
 
-std::optional<ScatterStep> sample_step(const LocalScattering& scattering, const Guidance& guidance,
-                                       const VertexStream& stream) {
-  if (guidance.distribution == nullptr ||
-      stream.get_1d(Purpose::mix_choice) < guidance.unguided_fraction) {
-    return sample_unguided(scattering, stream);
-  }
-  const std::optional<Proposal> proposal = guidance.distribution->propose(stream);
+std::optional<ScatterStep> sample_guided_step(const LocalScattering& scattering,
+                                              const GuidingDistribution& guide,
+                                              const VertexStream& stream) {
+  const std::optional<Proposal> proposal = guide.propose(stream);
   if (!proposal) return std::nullopt;
   return accept(scattering, *proposal);
 }

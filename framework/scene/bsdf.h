@@ -13,7 +13,7 @@ namespace pharos {
 
 /// Value and density of scattering into a given direction.
 struct ScatterValue {
-  Rgb value;      ///< f |cos| [1/sr]; at volume vertices sigma_s times the phase function [1/(sr m)]
+  Rgb value;  ///< f |cos| [1/sr]; at volume vertices sigma_s times the phase function [1/(sr m)]
   float pdf = 0;  ///< of sample() among smooth events [1/sr]
 };
 

@@ -34,12 +34,13 @@ float sum(Vec3 v) {
 ///
 /// The position is computed in double and rounded once; so is the origin. Each rounding moves it by
 /// at most eps/2 of the largest coordinate M in each of three directions, together sqrt(3) eps M:
-/// `kRounding` covers that. A ray leaving there must find itself on the right side in Embree's
-/// float arithmetic, which decides by the sign of dot(v0 - o, e0 x e1) with vertices taken relative
-/// to the origin o: these are at most the longest edge L away, and rounding them (eps/2), the two
-/// edges, their cross product (about 10 eps/2 together) and the dot product (3 eps/2) changes the
-/// distance by about 7 eps L unless the triangle's largest angle nears 180 degrees. `kArithmetic`
-/// stands before the 1-norms of two edges, whose sum is at least L and typically 2 L or more.
+/// `kRounding` covers that. The stored edges are rounded once too, by eps/2 of their length. A ray
+/// leaving there must find itself on the right side in Embree's float arithmetic, which decides by
+/// the sign of dot(v0 - o, e0 x e1) with vertices taken relative to the origin o: these are at most
+/// the longest edge L away, and rounding them (eps/2), the two edges, their cross product (about 10
+/// eps/2 together) and the dot product (3 eps/2) changes the distance by about 7 eps L unless the
+/// triangle's largest angle nears 180 degrees. `kArithmetic` stands before the 1-norms of two
+/// edges, whose sum is at least L and typically 2 L or more.
 constexpr float kEpsilon = std::numeric_limits<float>::epsilon();
 constexpr float kRounding = 2;
 constexpr float kArithmetic = 8;
@@ -73,36 +74,63 @@ Frame shading_frame(Vec3 interpolated, Vec3 normal) {
 
 }  // namespace
 
-SurfacePoint TriangleMesh::surface_point(std::uint32_t triangle, float b1, float b2) const {
+TriangleFacts TriangleMesh::facts_of(std::uint32_t triangle) const {
   const auto [i0, i1, i2] = triangles[triangle];
   const Point3 p0 = positions[i0], p1 = positions[i1], p2 = positions[i2];
-  const float b0 = 1 - b1 - b2;
   const Vec3d origin(p0);
   const Vec3d e1 = Vec3d(p1) - origin, e2 = Vec3d(p2) - origin;
   const Vec3d area_normal = cross(e1, e2);
   const double double_area = length(area_normal);
-  const Vec3 normal = to_float((1 / double_area) * area_normal);
-  Point3 position = to_float(origin + (b1 * e1 + b2 * e2));
 
+  TriangleFacts record;
+  record.origin = p0;
+  record.edge1 = to_float(e1);
+  record.edge2 = to_float(e2);
+  record.normal = to_float((1 / double_area) * area_normal);
   const float coordinate = std::max(largest(p0), std::max(largest(p1), largest(p2)));
-  const float edge_sum = sum(abs(to_float(e1))) + sum(abs(to_float(e2)));
-  const float error = kEpsilon * (kRounding * coordinate + kArithmetic * edge_sum);
-  const float area = static_cast<float>(double_area);
-  // `edge_sum` is above the longest edge, so that this is seldom true without need.
-  if (std::min(b0, std::min(b1, b2)) * area < error * edge_sum) {
-    position += step_off_edges({p0, p1, p2}, {b0, b1, b2}, normal, area, error);
-  }
+  const float edge_sum = sum(abs(record.edge1)) + sum(abs(record.edge2));
+  record.error = kEpsilon * (kRounding * coordinate + kArithmetic * edge_sum);
+  // `edge_sum` is above the longest edge, so that points are seldom found near one without need.
+  record.edge_weight = record.error * edge_sum / static_cast<float>(double_area);
+  return record;
+}
 
+void TriangleMesh::precompute() {
+  facts.clear();
+  facts.reserve(triangles.size());
+  for (std::uint32_t i = 0; i < triangles.size(); ++i) facts.push_back(facts_of(i));
+}
+
+Point3 TriangleMesh::position_off_edges(std::uint32_t triangle, Point3 position,
+                                        const std::array<float, 3>& weights,
+                                        const TriangleFacts& f) const {
+  const auto [i0, i1, i2] = triangles[triangle];
+  return position + step_off_edges({positions[i0], positions[i1], positions[i2]}, weights, f.normal,
+                                   length(cross(f.edge1, f.edge2)), f.error);
+}
+
+SurfacePoint TriangleMesh::surface_point(std::uint32_t triangle, float b1, float b2) const {
+  const TriangleFacts f = facts.empty() ? facts_of(triangle) : facts[triangle];
+  const float b0 = 1 - b1 - b2;
   SurfacePoint point;
-  point.position = position;
-  point.normal = normal;
+  point.position = to_float(Vec3d(f.origin) + (b1 * Vec3d(f.edge1) + double{b2} * Vec3d(f.edge2)));
+  if (std::min(b0, std::min(b1, b2)) < f.edge_weight) {
+    point.position = position_off_edges(triangle, point.position, {b0, b1, b2}, f);
+  }
+  point.normal = f.normal;
+  point.error = f.error;
+  point.primitive = triangle;
+  point.uv = {b1, b2};
+  if (normals.empty() && uvs.empty()) {
+    point.shading = Frame::from_normal(f.normal);
+    return point;
+  }
+  const auto [i0, i1, i2] = triangles[triangle];
   point.shading =
       normals.empty()
-          ? Frame::from_normal(normal)
-          : shading_frame(b0 * normals[i0] + b1 * normals[i1] + b2 * normals[i2], normal);
-  point.uv = uvs.empty() ? Vec2{b1, b2} : b0 * uvs[i0] + b1 * uvs[i1] + b2 * uvs[i2];
-  point.error = error;
-  point.primitive = triangle;
+          ? Frame::from_normal(f.normal)
+          : shading_frame(b0 * normals[i0] + b1 * normals[i1] + b2 * normals[i2], f.normal);
+  if (!uvs.empty()) point.uv = b0 * uvs[i0] + b1 * uvs[i1] + b2 * uvs[i2];
   return point;
 }
 

@@ -13,6 +13,15 @@
 
 namespace pharos {
 
+/// What every hit of a triangle needs, computed once and in one cache line.
+struct alignas(64) TriangleFacts {
+  Point3 origin;          ///< vertex 0
+  Vec3 edge1, edge2;      ///< from vertex 0 to vertices 1 and 2
+  Vec3 normal;            ///< unit
+  float error = 0;        ///< see SurfacePoint::error
+  float edge_weight = 0;  ///< barycentric weights below this may lie within `error` of an edge
+};
+
 /// Indexed triangles in world space, counter-clockwise as seen from the outer side. `normals` and
 /// `uvs` are empty or one per position. Who fills it in sees to it that positions are finite,
 /// indices valid and areas positive.
@@ -21,6 +30,10 @@ struct TriangleMesh {
   std::vector<Vec3> normals;
   std::vector<Vec2> uvs;
   std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<TriangleFacts> facts;  ///< made by precompute(); empty: computed at every hit
+
+  /// Fills `facts`; to be called when the rest is complete.
+  void precompute();
 
   /// The surface at barycentric weights (b1, b2) of `triangle`'s vertices 1 and 2. Where there are
   /// no `uvs`, texture coordinates are those weights; where there are no `normals`, or they cancel
@@ -30,6 +43,11 @@ struct TriangleMesh {
   /// [scene units^2]
   float area(std::uint32_t triangle) const;
   Bounds3 bounds() const;
+
+ private:
+  TriangleFacts facts_of(std::uint32_t triangle) const;
+  Point3 position_off_edges(std::uint32_t triangle, Point3 position,
+                            const std::array<float, 3>& weights, const TriangleFacts& f) const;
 };
 
 /// Where a ray met a primitive, in the primitive's own terms.

@@ -153,8 +153,10 @@ class PathWalk {
     weight_step(step, resolved, transmittance);
 
     from_position_ = from.surface.position;
-    previous_ = current_vertex_;
-    previous_.event = step.event;
+    if (vertices_are_asked_for()) {
+      previous_ = current_vertex_;
+      previous_.event = step.event;
+    }
     towards_previous_ = -step.direction;
     current_ = 1 - current_;
     ++bounce_;
@@ -201,12 +203,12 @@ class PathWalk {
 
   void note_arrival(const Ray& ray) {
     const Arrival& here = arrival();
-    current_vertex_ = {.position = here.surface.position,
-                       .normal = here.surface.normal,
-                       .shading_normal = here.surface.shading.n,
-                       .kind = here.kind};
-    if (here.kind != VertexKind::surface) {
-      current_vertex_.normal = current_vertex_.shading_normal = {};
+    if (vertices_are_asked_for()) {
+      const bool on_surface = here.kind == VertexKind::surface;
+      current_vertex_ = {.position = here.surface.position,
+                         .normal = on_surface ? here.surface.normal : Vec3{},
+                         .shading_normal = on_surface ? here.surface.shading.n : Vec3{},
+                         .kind = here.kind};
     }
     if (bounce_ == 1 && here.kind == VertexKind::surface) {
       result_.features = {.albedo = scene_.bsdf(here.surface).albedo(here.surface),
@@ -252,7 +254,9 @@ class PathWalk {
 
   void add_light_samples() {
     for (std::uint16_t branch = 0; branch < shared_.lights.branches(); ++branch) {
-      const float u = stream_.get_1d({Purpose::light_choice, bounce_, branch});
+      const float u = shared_.lights.needs_number()
+                          ? stream_.get_1d({Purpose::light_choice, bounce_, branch})
+                          : 0;
       const int index = shared_.lights.choose(branch, u);
       LightSample light = scene_.lights()[static_cast<std::size_t>(index)]->sample(
           position(), stream_.get_2d({Purpose::light_position, bounce_, branch}));
@@ -313,9 +317,7 @@ class PathWalk {
                           towards_previous_, Transport::radiance);
     }
     guidance_ = {};
-    if constexpr (!Recorder::kRecords) {
-      if (context_.guiding == nullptr) return;
-    }
+    if (!vertices_are_asked_for()) return;
     current_vertex_.roughness = scattering_->roughness();
     if (context_.guiding != nullptr) {
       arena_.reset();
@@ -343,6 +345,11 @@ class PathWalk {
     step->value *= 1 / survival;
     step->unguided_weight *= 1 / survival;
     return step;
+  }
+
+  /// Whether a guide or a record wants to know vertices.
+  bool vertices_are_asked_for() const {
+    return Recorder::kRecords || context_.guiding != nullptr;
   }
 
   /// How far along an escaping ray the stand-in for the environment lies: outside the scene.

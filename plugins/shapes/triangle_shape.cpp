@@ -24,6 +24,7 @@ TriangleShape::TriangleShape(TriangleMesh mesh, const std::string& name)
   }
   if (kept.empty()) throw InputError(name + " has no triangle with an area above zero");
   mesh_.triangles = std::move(kept);
+  mesh_.precompute();
 }
 
 ShapeSample TriangleShape::sample(Vec2 u) const {
