@@ -1,9 +1,8 @@
 #include "progress_bar.h"
 
-#include <unistd.h>
-
 #include <cstdio>
 #include <string>
+#include <unistd.h>
 
 #include <fmt/format.h>
 
@@ -35,10 +34,9 @@ void ProgressBar::show(const Progress& p) {
   drawn_ = true;
   const int filled = static_cast<int>(p.fraction * kBarWidth);
   const std::string iteration =
-      p.iteration_count > 1
-          ? fmt::format("{} {}/{}  ", p.training ? "training" : "rendering", p.iteration + 1,
-                        p.iteration_count)
-          : "";
+      p.iteration_count > 1 ? fmt::format("{} {}/{}  ", p.training ? "training" : "rendering",
+                                          p.iteration + 1, p.iteration_count)
+                            : "";
   const double left = p.fraction > 0 ? p.seconds * (1 / p.fraction - 1) : 0;
   fmt::print(stderr, "\r\x1b[K{}[{:=<{}}{: <{}}] {:3.0f}%  {:.1f} spp  {:.2f} Mrays/s  {} left",
              iteration, "", filled, "", kBarWidth - filled, 100 * p.fraction, p.samples_per_pixel,

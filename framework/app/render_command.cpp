@@ -1,7 +1,6 @@
-#include <unistd.h>
-
 #include <filesystem>
 #include <optional>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -35,15 +34,15 @@ void check_writable(const std::filesystem::path& file) {
   const std::filesystem::path folder =
       file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
   if (!std::filesystem::is_directory(folder)) {
-    throw InputError(fmt::format("{}: error: the folder '{}' does not exist", file.string(),
-                                 folder.string()));
+    throw InputError(
+        fmt::format("{}: error: the folder '{}' does not exist", file.string(), folder.string()));
   }
   if (std::filesystem::is_directory(file)) {
     throw InputError(fmt::format("{}: error: is a folder, not a file", file.string()));
   }
   if (access(folder.c_str(), W_OK) != 0) {
-    throw InputError(fmt::format("{}: error: the folder '{}' is not writable", file.string(),
-                                 folder.string()));
+    throw InputError(
+        fmt::format("{}: error: the folder '{}' is not writable", file.string(), folder.string()));
   }
 }
 
@@ -77,8 +76,7 @@ void report(const RenderResult& result, const RenderConfig& config) {
 int render(const RenderOptions& options) {
   set_log_quiet(options.quiet);
   const Registry registry = load_default_modules();
-  LoadedConfig loaded =
-      load_render_config(options.config.path, options.config.overrides, registry);
+  LoadedConfig loaded = load_render_config(options.config.path, options.config.overrides, registry);
   if (!options.output.empty()) loaded.config.output.image = options.output;
   check_writable(loaded.config.output.image);
   check_writable(loaded.config.output.model);

@@ -24,9 +24,12 @@ constexpr TargetMask operator|(TargetMask a, TargetMask b) {
 constexpr bool contains(TargetMask set, VertexKind kind) {
   const auto bits = static_cast<std::uint8_t>(set);
   switch (kind) {
-    case VertexKind::volume: return (bits & 2) != 0;
-    case VertexKind::environment: return (bits & 4) != 0;
-    default: return (bits & 1) != 0;
+    case VertexKind::volume:
+      return (bits & 2) != 0;
+    case VertexKind::environment:
+      return (bits & 4) != 0;
+    default:
+      return (bits & 1) != 0;
   }
 }
 
@@ -44,16 +47,16 @@ struct Proposal {
   /// its own direction. A smooth direction that turns out to be another event is a zero sample.
   EventMask events = EventMask::smooth;
   Reach reach = Reach::medium;
-  float distance = 0;                     ///< for Reach::distance [scene units]
-  TargetMask targets = TargetMask::all;   ///< another kind of next vertex is a zero sample
+  float distance = 0;                    ///< for Reach::distance [scene units]
+  TargetMask targets = TargetMask::all;  ///< another kind of next vertex is a zero sample
 };
 
 /// A next vertex as it was found: by tracing a proposal or an unguided sample, by next event
 /// estimation, or by the other end of a bidirectional path.
 struct ResolvedVertex {
-  Vec3 direction;       ///< unit, from the current vertex
-  float distance = 0;   ///< infinite for the environment [scene units]
-  Point3 position;      ///< meaningless for the environment
+  Vec3 direction;      ///< unit, from the current vertex
+  float distance = 0;  ///< infinite for the environment [scene units]
+  Point3 position;     ///< meaningless for the environment
   VertexKind kind = VertexKind::surface;
   Event event = Event::none;  ///< what the step is at the current vertex
   /// What the medium's own sampling contributes: the density [1/m] of stopping at `distance`

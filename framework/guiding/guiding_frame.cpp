@@ -55,8 +55,8 @@ class Mixture final : public GuidingDistribution {
 
 /// Collects what `ask(method)` returns for each method into one distribution.
 template <class Ask>
-Guidance combine(const std::vector<GuidingFrame::Method>& methods,
-                 const MixingFractions& fractions, Arena& arena, Ask&& ask) {
+Guidance combine(const std::vector<GuidingFrame::Method>& methods, const MixingFractions& fractions,
+                 Arena& arena, Ask&& ask) {
   Part* parts = arena.make_array<Part>(methods.size());
   std::size_t count = 0;
   float total = 0;

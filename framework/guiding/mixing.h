@@ -27,9 +27,10 @@ class MixingState {
   /// names the region of the model in force when the path was traced.
   virtual void absorb(const PathLog& log) = 0;
   /// Ends an iteration. The next model has `region_count` regions; region i came from
-  /// `origins[i]`; empty origins mean that regions are as before. Returns the fractions to use next.
-  virtual std::shared_ptr<const MixingFractions> update(
-      std::uint32_t region_count, std::span<const std::uint32_t> origins) = 0;
+  /// `origins[i]`; empty origins mean that regions are as before. Returns the fractions to use
+  /// next.
+  virtual std::shared_ptr<const MixingFractions> update(std::uint32_t region_count,
+                                                        std::span<const std::uint32_t> origins) = 0;
 };
 
 /// Contract: how guided and unguided sampling share the samples.

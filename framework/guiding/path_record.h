@@ -21,8 +21,8 @@ struct RecordedVertex {
   VertexKind kind = VertexKind::surface;
   Event event = Event::none;  ///< what the path did here; none where it ended
   float roughness = 1;
-  float eta = 1;                    ///< relative index of refraction of the surface
-  std::uint32_t parent = kNoVertex; ///< index of the previous vertex within the path
+  float eta = 1;                     ///< relative index of refraction of the surface
+  std::uint32_t parent = kNoVertex;  ///< index of the previous vertex within the path
 
   Rgb throughput;    ///< f/p of everything before this vertex, sensor weight included
   Rgb local_weight;  ///< f/p of the step from here; black when the step was a zero sample
@@ -51,16 +51,16 @@ struct RecordedLightSample {
   Vec3 direction;            ///< unit, from the vertex
   Rgb contribution;          ///< f/p of the connection times its MIS weight, without throughput
   float mis_weight = 1;
-  float light_pdf = 0;       ///< of the light sample [1/sr]; the choice of light included
-  float scattering_pdf = 0;  ///< of reaching it by scattering, guide included [1/sr]
-  Event event = Event::none; ///< what the connection is at the vertex
+  float light_pdf = 0;        ///< of the light sample [1/sr]; the choice of light included
+  float scattering_pdf = 0;   ///< of reaching it by scattering, guide included [1/sr]
+  Event event = Event::none;  ///< what the connection is at the vertex
 };
 
 /// One recorded path. Spans are valid as long as the log.
 struct PathView {
   std::span<const RecordedVertex> vertices;  ///< [0] lies on the lens (or on the light)
   std::span<const RecordedLightSample> light_samples;
-  Vec2 film;                                      ///< film position [pixels]
+  Vec2 film;  ///< film position [pixels]
   Transport transport = Transport::radiance;
 };
 
@@ -68,7 +68,7 @@ struct PathView {
 struct RecordNeeds {
   bool light_samples = false;  ///< next event estimates
   bool reverse_pdfs = false;
-  bool light_paths = false;    ///< paths begun at lights
+  bool light_paths = false;  ///< paths begun at lights
 };
 
 /// The recorded paths of one work unit, in order of their keys; paths of value zero included.

@@ -36,8 +36,7 @@ void TrainingSchedule::describe(Schema<TrainingSchedule>& s) {
           "final one by inverse variance");
 }
 
-std::vector<Iteration> TrainingSchedule::divide(const Budget& budget,
-                                                std::uint32_t granule) const {
+std::vector<Iteration> TrainingSchedule::divide(const Budget& budget, std::uint32_t granule) const {
   const bool keeps = images == TrainingImages::combine;
   std::vector<Iteration> all;
   if (budget.seconds) {

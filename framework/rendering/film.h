@@ -83,8 +83,8 @@ class Film {
   FilmTile make_tile(PixelRect pixels) const { return {pixels, pixels_, *filter_}; }
 
   void merge(const FilmTile& tile);
-  /// Closes a pass of `samples` a pixel: folds it into mean and variance. The samples of a pass that
-  /// was cut short (`complete` false) count in the mean only, and not at all where splats need
+  /// Closes a pass of `samples` a pixel: folds it into mean and variance. The samples of a pass
+  /// that was cut short (`complete` false) count in the mean only, and not at all where splats need
   /// every pixel to have started the same number of paths.
   void end_pass(double samples, bool complete = true);
   /// Adds the passes of another film of the same size and filter; both between passes.

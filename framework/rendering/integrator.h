@@ -27,8 +27,8 @@ struct WorkUnit {
 /// Counts of what a work unit did.
 struct RenderCounters {
   std::uint64_t paths = 0;
-  std::uint64_t rays = 0;          ///< radiance and shadow rays
-  std::uint64_t invalid_paths = 0; ///< of NaN or infinite value; left out of the image
+  std::uint64_t rays = 0;           ///< radiance and shadow rays
+  std::uint64_t invalid_paths = 0;  ///< of NaN or infinite value; left out of the image
 
   RenderCounters& operator+=(const RenderCounters& other);
 };
@@ -81,9 +81,9 @@ class PreparedIntegrator {
 
 /// What an integrator offers; checked against what learners and guiders need.
 struct IntegratorTraits {
-  RecordNeeds records;        ///< what it can record
-  bool guided = false;        ///< asks guiders at vertices
-  bool guided_camera = false; ///< asks camera guiders
+  RecordNeeds records;         ///< what it can record
+  bool guided = false;         ///< asks guiders at vertices
+  bool guided_camera = false;  ///< asks camera guiders
 };
 
 /// Contract: how light transport is estimated. Knows no guiding method by name.

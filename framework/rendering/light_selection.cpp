@@ -4,8 +4,7 @@
 
 namespace pharos {
 
-LightSelector::LightSelector(const Scene& scene, LightSelection selection)
-    : selection_(selection) {
+LightSelector::LightSelector(const Scene& scene, LightSelection selection) : selection_(selection) {
   const std::size_t count = scene.lights().size();
   if (count == 0) return;
   if (selection == LightSelection::all) {

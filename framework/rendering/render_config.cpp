@@ -62,8 +62,7 @@ void RenderConfig::describe(Schema<RenderConfig>& s) {
   s.field("scene", &RenderConfig::scene, "A scene file, or a scene in place").required();
   s.field("sensor", &RenderConfig::sensor, "Camera, instead of the scene's");
   s.field("film", &RenderConfig::film, "Size and filter of the image");
-  s.field("sampler", &RenderConfig::sampler, "Where random numbers come from")
-      .otherwise("default");
+  s.field("sampler", &RenderConfig::sampler, "Where random numbers come from").otherwise("default");
   s.field("integrator", &RenderConfig::integrator, "How light transport is estimated")
       .otherwise("default");
   s.field("budget", &RenderConfig::budget, "How long to render: spp or seconds").required();

@@ -21,12 +21,12 @@ struct FilmSettings {
 };
 
 struct OutputSettings {
-  std::string image;          ///< EXR, relative to the current folder; the PNG stands beside it
+  std::string image;  ///< EXR, relative to the current folder; the PNG stands beside it
   std::vector<Layer> aovs;
-  std::string model;          ///< learned model of the first method; empty: not written
+  std::string model;  ///< learned model of the first method; empty: not written
   bool png = true;
-  float exposure = 0;         ///< of the PNG [stops]
-  bool filmic = true;         ///< of the PNG
+  float exposure = 0;  ///< of the PNG [stops]
+  bool filmic = true;  ///< of the PNG
 
   static void describe(Schema<OutputSettings>& schema);
 };

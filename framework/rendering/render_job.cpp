@@ -11,7 +11,8 @@ namespace {
 
 /// Passes an iteration is divided into: enough for an estimate of variance.
 constexpr std::uint32_t kPasses = 16;
-/// Most samples a pixel in a pass: bounds how long a work unit takes, and so how soon a render stops.
+/// Most samples a pixel in a pass: bounds how long a work unit takes, and so how soon a render
+/// stops.
 constexpr std::uint32_t kPassSamples = 64;
 /// The same for passes whose paths are recorded: bounds the memory of logs.
 constexpr std::uint32_t kRecordedPassSamples = 4;
@@ -90,8 +91,8 @@ class RenderJob::Implementation {
       : config_(config),
         scene_(with_sensor(config.scene, config.sensor)),
         sensor_(scene_.sensor().prepare(config.film.width, config.film.height)),
-        integrator_(config.integrator->prepare(
-            {scene_, *sensor_, config.film.width, config.film.height})),
+        integrator_(
+            config.integrator->prepare({scene_, *sensor_, config.film.width, config.film.height})),
         tiles_(tiles_of(config.film.width, config.film.height, config.film.tile)) {
     const GuidingSettings* guiding = config.integrator->guiding();
     const TrainingSchedule untrained{.iterations = 0};
@@ -208,7 +209,8 @@ class RenderJob::Implementation {
         first_sample + size * (static_cast<double>(pixels) / static_cast<double>(film_area()));
     double total = 0, before = 0;
     for (std::uint32_t i = 0; i < iterations_.size(); ++i) {
-      const double work = iterations_[i].samples > 0 ? iterations_[i].samples : iterations_[i].seconds;
+      const double work =
+          iterations_[i].samples > 0 ? iterations_[i].samples : iterations_[i].seconds;
       total += work;
       if (i < index) before += work;
     }

@@ -46,8 +46,8 @@ struct RenderResult {
   double samples_per_pixel = 0;
   RenderCounters counters;
   RenderTimes times;
-  bool stopped = false;         ///< ended early through RenderControl::stop
-  std::size_t model_bytes = 0;  ///< of the learned models
+  bool stopped = false;                       ///< ended early through RenderControl::stop
+  std::size_t model_bytes = 0;                ///< of the learned models
   std::shared_ptr<const GuidingModel> model;  ///< of the first method; null: none
   std::optional<PathKey> first_invalid;       ///< a path of NaN or infinite value
 };

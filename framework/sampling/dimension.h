@@ -23,7 +23,8 @@ enum class Purpose : std::uint8_t {
 inline constexpr int kPurposeCount = 13;
 
 /// Names one primary number of a path by meaning: purpose, number of the path vertex it is asked
-/// at (0 on the lens), and a branch that tells several of a kind apart (lights, numbers of a guide).
+/// at (0 on the lens), and a branch that tells several of a kind apart (lights, numbers of a
+/// guide).
 struct Dimension {
   Purpose purpose;
   std::uint16_t bounce = 0;

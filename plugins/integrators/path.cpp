@@ -1,9 +1,10 @@
 // path: unidirectional path tracing.
 //
-// Paths start at the sensor. At every vertex that scatters smoothly the light is sampled (next event
-// estimation), then the path goes on by the BSDF or phase function, or by the guide if there is one;
-// what both ways can find is weighted by multiple importance sampling over the full density of the
-// mixture (Veach 1997, ch. 9). Media are sampled by distance. Guides may choose the first vertex.
+// Paths start at the sensor. At every vertex that scatters smoothly the light is sampled (next
+// event estimation), then the path goes on by the BSDF or phase function, or by the guide if there
+// is one; what both ways can find is weighted by multiple importance sampling over the full density
+// of the mixture (Veach 1997, ch. 9). Media are sampled by distance. Guides may choose the first
+// vertex.
 //
 //     integrator:
 //       type: path
@@ -51,9 +52,7 @@ class PreparedPath final : public PreparedIntegrator {
     return {sample.radiance, path_text(log[0], sample.radiance)};
   }
 
-  std::unique_ptr<const IntegrandProbe> probe() const override {
-    return make_path_probe(shared_);
-  }
+  std::unique_ptr<const IntegrandProbe> probe() const override { return make_path_probe(shared_); }
 
  private:
   template <class Recorder>

@@ -62,7 +62,7 @@ class PathProbe final : public IntegrandProbe {
     RenderCounters counters;
     if (dimension.purpose == Purpose::light_position) {
       // A light sample at vertex b belongs to paths of b + 1 segments.
-      LightProbeRecorder recorder(dimension);
+      LightProbeRecorder recorder({dimension.bounce, dimension.branch});
       PathWalk walk(shared_, context, stream, arena, counters, recorder);
       walk.run(static_cast<std::uint16_t>(dimension.bounce + 1));
       return recorder.sum();

@@ -1,14 +1,30 @@
 #pragma once
 
 #include <pharos/guiding/path_record.h>
-#include <pharos/sampling/dimension.h>
+#include <pharos/rendering/scatter_step.h>
+#include <pharos/scene/emitter.h>
+#include <pharos/scene/sensor.h>
 
 namespace pharos {
 
-/// What a PathWalk reports to. Nobody listens here: everything compiles to nothing.
+/// Which of a path's light samples: at which vertex, in which branch.
+struct LightSampleId {
+  std::uint16_t bounce = 0, branch = 0;
+  friend bool operator==(LightSampleId, LightSampleId) = default;
+};
+
+/// What a PathWalk reports to, call by call along the path. Nobody listens here: everything
+/// compiles to nothing. Other recorders replace what they want to hear.
 struct SilentRecorder {
+  /// Whether vertices must be described in full.
   static constexpr bool kRecords = false;
-  void light_contribution(std::uint16_t, std::uint16_t, Rgb) {}
+
+  void lens(const LensPoint&, Vec2) {}
+  void arrival(const GuidingVertex&, Rgb) {}
+  void emission(Rgb) {}
+  void light(LightSampleId, const LightSample&, Event, const StepDensity&, float, Rgb, Rgb) {}
+  void scattering(const LocalScattering&, float, const Guidance&) {}
+  void step(const ScatterStep&, const StepDensity&, const Guidance&, Rgb, VertexKind) {}
 };
 
 /// Writes a PathLog.
@@ -17,40 +33,91 @@ class LogRecorder {
   static constexpr bool kRecords = true;
   explicit LogRecorder(PathLog& log) : log_(log) {}
 
-  void begin(Vec2 film) {
+  /// The path begins; `film` in pixels.
+  void lens(const LensPoint& lens, Vec2 film) {
     log_.begin_path(film, Transport::radiance);
     current_ = kNoVertex;
+    arrival({.position = lens.position,
+             .normal = lens.normal,
+             .shading_normal = lens.normal,
+             .kind = VertexKind::sensor},
+            Rgb(1));
   }
-  void arrive(RecordedVertex vertex) {
-    vertex.parent = current_;
-    current_ = log_.add(vertex);
+
+  /// A vertex is reached.
+  void arrival(const GuidingVertex& vertex, Rgb throughput) {
+    current_ = log_.add({.position = vertex.position,
+                         .normal = vertex.normal,
+                         .shading_normal = vertex.shading_normal,
+                         .kind = vertex.kind,
+                         .parent = current_,
+                         .throughput = throughput});
   }
-  RecordedVertex& current() { return log_.vertex(current_); }
-  void light_sample(RecordedLightSample sample) {
-    sample.vertex = current_;
-    sample.light.parent = current_;
-    log_.add(sample);
+
+  /// Emission of the vertex, times its MIS weight.
+  void emission(Rgb radiance) { current().emission += radiance; }
+
+  /// Light found by next event estimation; `contribution` without throughput.
+  void light(LightSampleId, const LightSample& light, Event event, const StepDensity& density,
+             float mis_weight, Rgb contribution, Rgb) {
+    log_.add({.vertex = current_,
+              .light = {.position = light.point.position,
+                        .normal = light.point.normal,
+                        .shading_normal = light.point.shading.n,
+                        .kind = light.kind,
+                        .parent = current_,
+                        .emission = light.radiance},
+              .direction = light.direction,
+              .contribution = contribution,
+              .mis_weight = mis_weight,
+              .light_pdf = light.pdf,
+              .scattering_pdf = density.total,
+              .event = event});
   }
-  void light_contribution(std::uint16_t, std::uint16_t, Rgb) {}
+
+  /// The path is about to go on from the vertex.
+  void scattering(const LocalScattering& scattering, float roughness, const Guidance& guidance) {
+    RecordedVertex& here = current();
+    here.roughness = roughness;
+    if (scattering.is_surface()) here.eta = scattering.bsdf().relative_ior();
+    here.guidable = !scattering.purely_discrete();
+    here.region = guidance.region;
+    here.unguided_fraction = guidance.unguided_fraction;
+  }
+
+  /// The step from the vertex, once its `target` is known.
+  void step(const ScatterStep& step, const StepDensity& density, const Guidance& guidance,
+            Rgb weight, VertexKind target) {
+    RecordedVertex& here = current();
+    here.event = step.event;
+    here.direction = step.direction;
+    here.local_weight = weight;
+    here.unguided_pdf = density.unguided;
+    here.guided_pdf = density.guided;
+    here.unguided_fraction = guidance.unguided_fraction;
+    here.measure = measure_of(step.event, target);
+  }
 
  private:
+  RecordedVertex& current() { return log_.vertex(current_); }
+
   PathLog& log_;
   std::uint32_t current_ = kNoVertex;
 };
 
-/// Keeps the contribution of one light sample, for the integrand probe.
-class LightProbeRecorder {
+/// Keeps the contribution of one light sample, throughput included, for the integrand probe.
+class LightProbeRecorder : public SilentRecorder {
  public:
-  static constexpr bool kRecords = false;
-  explicit LightProbeRecorder(Dimension dimension) : dimension_(dimension) {}
+  explicit LightProbeRecorder(LightSampleId wanted) : wanted_(wanted) {}
 
-  void light_contribution(std::uint16_t bounce, std::uint16_t branch, Rgb value) {
-    if (bounce == dimension_.bounce && branch == dimension_.branch) sum_ += value;
+  void light(LightSampleId id, const LightSample&, Event, const StepDensity&, float,
+             Rgb contribution, Rgb throughput) {
+    if (id == wanted_) sum_ += throughput * contribution;
   }
   Rgb sum() const { return sum_; }
 
  private:
-  Dimension dimension_;
+  LightSampleId wanted_;
   Rgb sum_;
 };
 

@@ -7,24 +7,36 @@ namespace {
 
 const char* kind_name(VertexKind kind) {
   switch (kind) {
-    case VertexKind::sensor: return "sensor";
-    case VertexKind::surface: return "surface";
-    case VertexKind::volume: return "volume";
-    case VertexKind::environment: return "environment";
-    case VertexKind::light: return "light";
+    case VertexKind::sensor:
+      return "sensor";
+    case VertexKind::surface:
+      return "surface";
+    case VertexKind::volume:
+      return "volume";
+    case VertexKind::environment:
+      return "environment";
+    case VertexKind::light:
+      return "light";
   }
   return "?";
 }
 
 const char* event_name(Event event) {
   switch (event) {
-    case Event::none: return "end";
-    case Event::smooth_reflect: return "smooth reflect";
-    case Event::smooth_transmit: return "smooth transmit";
-    case Event::discrete_reflect: return "discrete reflect";
-    case Event::discrete_transmit: return "discrete transmit";
-    case Event::pass_through: return "pass through";
-    case Event::scatter: return "scatter";
+    case Event::none:
+      return "end";
+    case Event::smooth_reflect:
+      return "smooth reflect";
+    case Event::smooth_transmit:
+      return "smooth transmit";
+    case Event::discrete_reflect:
+      return "discrete reflect";
+    case Event::discrete_transmit:
+      return "discrete transmit";
+    case Event::pass_through:
+      return "pass through";
+    case Event::scatter:
+      return "scatter";
   }
   return "?";
 }
@@ -44,8 +56,8 @@ std::string path_text(const PathView& path, Rgb radiance) {
   std::size_t light = 0;
   for (std::uint32_t i = 0; i < path.vertices.size(); ++i) {
     const RecordedVertex& v = path.vertices[i];
-    out += fmt::format("{:3} {:<11} at {}  throughput {}\n", i, kind_name(v.kind),
-                       text(v.position), text(v.throughput));
+    out += fmt::format("{:3} {:<11} at {}  throughput {}\n", i, kind_name(v.kind), text(v.position),
+                       text(v.throughput));
     if (!is_black(v.emission)) out += fmt::format("      emission {}\n", text(v.emission));
     for (; light < path.light_samples.size() && path.light_samples[light].vertex == i; ++light) {
       const RecordedLightSample& s = path.light_samples[light];
@@ -54,10 +66,11 @@ std::string path_text(const PathView& path, Rgb radiance) {
     }
     out += fmt::format("      {}", event_name(v.event));
     if (v.event != Event::none) {
-      out += fmt::format(" to {}  weight {}  pdf {:.6g} (unguided {:.6g}, guided {:.6g}, "
-                         "unguided fraction {:.3g})",
-                         text(v.direction), text(v.local_weight), v.pdf(), v.unguided_pdf,
-                         v.guided_pdf, v.unguided_fraction);
+      out += fmt::format(
+          " to {}  weight {}  pdf {:.6g} (unguided {:.6g}, guided {:.6g}, "
+          "unguided fraction {:.3g})",
+          text(v.direction), text(v.local_weight), v.pdf(), v.unguided_pdf, v.guided_pdf,
+          v.unguided_fraction);
     }
     out += '\n';
   }

@@ -16,9 +16,9 @@ namespace pharos {
 /// What one path found.
 struct PathSample {
   Rgb radiance;
-  Vec2 film;            ///< [pixels]
+  Vec2 film;  ///< [pixels]
   Features features;
-  bool splat = false;   ///< the camera was guided: `radiance` is a splat's contribution
+  bool splat = false;  ///< the camera was guided: `radiance` is a splat's contribution
 };
 
 /// One path from the sensor, vertex by vertex:
@@ -60,7 +60,7 @@ class PathWalk {
   /// A vertex that the path has reached.
   struct Arrival {
     VertexKind kind = VertexKind::sensor;
-    SurfacePoint surface;  ///< `position` is valid for volume vertices too
+    SurfacePoint surface;            ///< `position` is valid for volume vertices too
     const Medium* medium = nullptr;  ///< that the path came through
   };
 
@@ -84,7 +84,7 @@ class PathWalk {
     current_vertex_.position = lens.position;
     current_vertex_.normal = current_vertex_.shading_normal = lens.normal;
     towards_previous_ = lens.normal;
-    if constexpr (Recorder::kRecords) record_lens(lens);
+    recorder_.lens(lens, result_.film);
 
     Ray ray = target.sensor.ray(lens, {result_.film.x / size.x, result_.film.y / size.y});
     ScatterStep step{.direction = ray.direction, .event = Event::smooth_reflect};
@@ -96,8 +96,7 @@ class PathWalk {
 
   /// Camera guiding: the mixture of uniform film positions and the guide's directions. A path of
   /// any pixel may then land in any other, so all contributions become splats.
-  std::optional<ScatterStep> guided_first_step(const LensPoint& lens, ScatterStep step,
-                                               Vec2 size) {
+  std::optional<ScatterStep> guided_first_step(const LensPoint& lens, ScatterStep step, Vec2 size) {
     const PreparedSensor& sensor = shared_.target.sensor;
     result_.splat = true;
     guidance_ = context_.guiding->query_camera(sensor, lens, arena_);
@@ -169,8 +168,7 @@ class PathWalk {
   bool travel(const ScatterStep& step, Ray& ray, Arrival& to, ResolvedVertex& resolved,
               Rgb& transmittance) const {
     const Medium& medium = *to.medium;
-    DistanceSample stop{.t = step.distance,
-                        .scattered = step.reach == Proposal::Reach::distance};
+    DistanceSample stop{.t = step.distance, .scattered = step.reach == Proposal::Reach::distance};
     if (step.reach == Proposal::Reach::medium) {
       stop = medium.sample(ray, stream_.get_1d({Purpose::distance_choice, bounce_}),
                            stream_.get_1d({Purpose::distance, bounce_}));
@@ -192,13 +190,14 @@ class PathWalk {
 
   void weight_step(const ScatterStep& step, const ResolvedVertex& resolved, Rgb transmittance) {
     density_ = step_density(guidance_, resolved, step.unguided_pdf);
-    const bool plain = guidance_.distribution == nullptr && arrivals_[1 - current_].medium == nullptr;
-    const Rgb weight = plain ? step.unguided_weight
+    const bool plain =
+        guidance_.distribution == nullptr && arrivals_[1 - current_].medium == nullptr;
+    const Rgb weight = plain                ? step.unguided_weight
                        : density_.total > 0 ? step.value * transmittance / density_.total
                                             : Rgb();
     arrived_discretely_ = bounce_ == 0 || is_discrete(step.event);
     throughput_ *= weight;
-    if constexpr (Recorder::kRecords) record_step(step, weight);
+    recorder_.step(step, density_, guidance_, weight, arrivals_[1 - current_].kind);
   }
 
   void note_arrival(const Ray& ray) {
@@ -215,7 +214,7 @@ class PathWalk {
                           .normal = here.surface.shading.n,
                           .depth = ray.t_max};
     }
-    if constexpr (Recorder::kRecords) record_arrival();
+    recorder_.arrival(current_vertex_, throughput_);
   }
 
   // --- light ----------------------------------------------------------------------------------
@@ -249,7 +248,7 @@ class PathWalk {
     const bool alone = arrived_discretely_ || !settings_.next_event_estimation;
     const float weight = alone ? 1.0f : mis_weight(settings_.mis, density_.total, light_pdf());
     radiance_ += weight * throughput_ * radiance;
-    if constexpr (Recorder::kRecords) recorder_.current().emission += weight * radiance;
+    recorder_.emission(weight * radiance);
   }
 
   void add_light_samples() {
@@ -293,8 +292,8 @@ class PathWalk {
     const float weight =
         light.discrete ? 1.0f : mis_weight(settings_.mis, light.pdf, density.total);
     radiance_ += weight * throughput_ * value;
-    recorder_.light_contribution(bounce_, branch, weight * throughput_ * value);
-    if constexpr (Recorder::kRecords) record_light(light, weight * value, weight, density, resolved);
+    recorder_.light({bounce_, branch}, light, resolved.event, density, weight, weight * value,
+                    throughput_);
   }
 
   /// Ends a shadow ray just before the light's surface, by as much as surfaces' positions are
@@ -331,7 +330,7 @@ class PathWalk {
                                   .medium = here.medium});
       guidance_ = context_.guiding->query(*query_, arena_);
     }
-    if constexpr (Recorder::kRecords) record_scattering();
+    recorder_.scattering(*scattering_, current_vertex_.roughness, guidance_);
   }
 
   std::optional<ScatterStep> next_step() {
@@ -348,66 +347,10 @@ class PathWalk {
   }
 
   /// Whether a guide or a record wants to know vertices.
-  bool vertices_are_asked_for() const {
-    return Recorder::kRecords || context_.guiding != nullptr;
-  }
+  bool vertices_are_asked_for() const { return Recorder::kRecords || context_.guiding != nullptr; }
 
   /// How far along an escaping ray the stand-in for the environment lies: outside the scene.
   float environment_distance() const { return 2 * scene_.bounds().diagonal(); }
-
-  // --- recording ------------------------------------------------------------------------------
-
-  void record_lens(const LensPoint& lens) {
-    recorder_.begin(result_.film);
-    recorder_.arrive({.position = lens.position,
-                      .normal = lens.normal,
-                      .shading_normal = lens.normal,
-                      .kind = VertexKind::sensor,
-                      .throughput = Rgb(1)});
-  }
-
-  void record_arrival() {
-    recorder_.arrive({.position = current_vertex_.position,
-                      .normal = current_vertex_.normal,
-                      .shading_normal = current_vertex_.shading_normal,
-                      .kind = current_vertex_.kind,
-                      .throughput = throughput_});
-  }
-
-  void record_scattering() {
-    RecordedVertex& here = recorder_.current();
-    here.roughness = current_vertex_.roughness;
-    if (scattering_->is_surface()) here.eta = scattering_->bsdf().relative_ior();
-    here.guidable = !scattering_->purely_discrete();
-    here.region = guidance_.region;
-    here.unguided_fraction = guidance_.unguided_fraction;
-  }
-
-  void record_step(const ScatterStep& step, Rgb weight) {
-    RecordedVertex& here = recorder_.current();
-    here.event = step.event;
-    here.direction = step.direction;
-    here.local_weight = weight;
-    here.unguided_pdf = density_.unguided;
-    here.guided_pdf = density_.guided;
-    here.measure = measure_of(step.event, arrivals_[1 - current_].kind);
-    if (bounce_ == 0) here.unguided_fraction = guidance_.unguided_fraction;
-  }
-
-  void record_light(const LightSample& light, Rgb contribution, float weight,
-                    const StepDensity& density, const ResolvedVertex& resolved) {
-    recorder_.light_sample({.light = {.position = light.point.position,
-                                      .normal = light.point.normal,
-                                      .shading_normal = light.point.shading.n,
-                                      .kind = light.kind,
-                                      .emission = light.radiance},
-                            .direction = light.direction,
-                            .contribution = contribution,
-                            .mis_weight = weight,
-                            .light_pdf = light.pdf,
-                            .scattering_pdf = density.total,
-                            .event = resolved.event});
-  }
 
   const PathScene& shared_;
   const Scene& scene_;
@@ -428,7 +371,7 @@ class PathWalk {
   Vec3 towards_previous_;
   Point3 from_position_;  ///< of the previous vertex
   bool arrived_discretely_ = true;
-  StepDensity density_;   ///< of the step that led here
+  StepDensity density_;  ///< of the step that led here
   GuidingVertex previous_, current_vertex_{.kind = VertexKind::sensor};
   std::optional<LocalScattering> scattering_;
   std::optional<GuidingQuery> query_;

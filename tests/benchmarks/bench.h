@@ -17,8 +17,8 @@ struct Measurement {
   double high() const;
 };
 
-/// A group of measurements that is run as one, interleaved where it compares. `repeats` is how often
-/// each figure is measured.
+/// A group of measurements that is run as one, interleaved where it compares. `repeats` is how
+/// often each figure is measured.
 using Benchmark = std::function<std::vector<Measurement>(int repeats)>;
 
 std::vector<Measurement> bench_rays(int repeats);

@@ -26,9 +26,8 @@ RawEmbree::RawEmbree(const Scene& scene) : handles_(new Handles) {
         rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                 sizeof(Point3), mesh->positions.size());
     std::memcpy(positions, mesh->positions.data(), mesh->positions.size() * sizeof(Point3));
-    void* triangles =
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                3 * sizeof(std::uint32_t), mesh->triangles.size());
+    void* triangles = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                              3 * sizeof(std::uint32_t), mesh->triangles.size());
     std::memcpy(triangles, mesh->triangles.data(),
                 mesh->triangles.size() * 3 * sizeof(std::uint32_t));
     rtcCommitGeometry(geometry);
@@ -48,9 +47,18 @@ std::size_t RawEmbree::intersect_all(std::span<const Ray> rays) const {
   std::size_t hits = 0;
   for (const Ray& ray : rays) {
     RTCRayHit query;
-    query.ray = {ray.origin.x,    ray.origin.y,    ray.origin.z,    0,
-                 ray.direction.x, ray.direction.y, ray.direction.z, 0,
-                 ray.t_max,       ~0u,             0,               0};
+    query.ray = {ray.origin.x,
+                 ray.origin.y,
+                 ray.origin.z,
+                 0,
+                 ray.direction.x,
+                 ray.direction.y,
+                 ray.direction.z,
+                 0,
+                 ray.t_max,
+                 ~0u,
+                 0,
+                 0};
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
 #if PHAROS_EMBREE_MAJOR >= 4

@@ -6,8 +6,8 @@
 
 namespace pharos::bench {
 
-/// The triangles of a scene in an Embree scene of their own, built as Pharos builds its own and asked
-/// without anything around it.
+/// The triangles of a scene in an Embree scene of their own, built as Pharos builds its own and
+/// asked without anything around it.
 class RawEmbree {
  public:
   explicit RawEmbree(const Scene& scene);

@@ -1,12 +1,11 @@
 // The path tracer's rays a second over Embree's own rate in the same scene, interleaved. The path
-// tracer runs at depth 10 without roulette and counts all radiance and shadow rays. Embree's rate is
-// that of rtcIntersect1 on rays from random points of the scene's box into random directions, made
-// beforehand, on as many threads.
-
-#include <unistd.h>
+// tracer runs at depth 10 without roulette and counts all radiance and shadow rays. Embree's rate
+// is that of rtcIntersect1 on rays from random points of the scene's box into random directions,
+// made beforehand, on as many threads.
 
 #include <chrono>
 #include <filesystem>
+#include <unistd.h>
 
 #include <fmt/format.h>
 

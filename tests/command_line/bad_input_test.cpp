@@ -57,7 +57,8 @@ TEST_CASE("mistyped values") {
 TEST_CASE("values out of range") {
   check_refused(with("film: { width: 0 }\n"), "bad.yaml:3:16: error: ");
   check_refused(with("film: { width: 0 }\n"), ">= 1");
-  check_refused(with("integrator: { type: path, max_depth: 99999999 }\n"), "bad.yaml:3:38: error: ");
+  check_refused(with("integrator: { type: path, max_depth: 99999999 }\n"),
+                "bad.yaml:3:38: error: ");
   check_refused(with("output: { image: picture.jpg }\n"), ".exr");
 }
 

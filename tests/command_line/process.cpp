@@ -1,12 +1,11 @@
 #include "process.h"
 
-#include <stdlib.h>
-#include <sys/wait.h>
-
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <sstream>
+#include <stdlib.h>
+#include <sys/wait.h>
 
 #include <fmt/format.h>
 
@@ -25,8 +24,7 @@ Outcome run_shell(const std::string& command, const std::filesystem::path& folde
   const std::string line = fmt::format("cd '{}' && {} > '{}' 2> '{}'", folder.string(), command,
                                        out.string(), err.string());
   const int status = std::system(line.c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_and_remove(out),
-          read_and_remove(err)};
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_and_remove(out), read_and_remove(err)};
 }
 
 }  // namespace

@@ -11,9 +11,10 @@ namespace pharos::testing {
 namespace {
 
 std::string small_render() {
-  return fmt::format("scene: {}/cornell-box/scene.yaml\nfilm: {{ width: 40, height: 30 }}\n"
-                     "budget: {{ spp: 4 }}\noutput: {{ aovs: [albedo, depth, variance] }}\n",
-                     PHAROS_SCENES);
+  return fmt::format(
+      "scene: {}/cornell-box/scene.yaml\nfilm: {{ width: 40, height: 30 }}\n"
+      "budget: {{ spp: 4 }}\noutput: {{ aovs: [albedo, depth, variance] }}\n",
+      PHAROS_SCENES);
 }
 
 TEST_CASE("render writes EXR and PNG and says what it did") {

@@ -40,8 +40,8 @@ film: { width: 32, height: 32, filter: box }
 
 inline std::string path_config(const std::string& scene, int depth, const std::string& guiding,
                                int spp, const std::string& sampler = "independent") {
-  return scene +
-         fmt::format("integrator:\n  type: path\n  max_depth: {}\n{}\nsampler: {}\n"
+  return scene + fmt::format(
+                     "integrator:\n  type: path\n  max_depth: {}\n{}\nsampler: {}\n"
                      "budget: {{ spp: {} }}\n",
                      depth, guiding.empty() ? "" : "  guiding: " + guiding, sampler, spp);
 }
@@ -51,8 +51,7 @@ inline std::string path_config(const std::string& scene, int depth, const std::s
 inline double furnace_t(const std::string& config, double expected, int runs = 12) {
   const Estimate found = mean_over_seeds(config, runs);
   CHECK(4 * found.standard_error < 0.01 * expected);
-  const double t =
-      (found.mean - expected) / std::max(found.standard_error, 1e-6 * expected);
+  const double t = (found.mean - expected) / std::max(found.standard_error, 1e-6 * expected);
   MESSAGE("mean " << found.mean << " +- " << found.standard_error << ", expected " << expected);
   return t;
 }

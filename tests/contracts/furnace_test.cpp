@@ -1,8 +1,8 @@
 // Every kind of guide, driven through the integrator in furnaces that must stay exact.
 
-#include <cmath>
-
 #include "furnace.h"
+
+#include <cmath>
 
 namespace pharos::testing {
 namespace {
@@ -38,8 +38,7 @@ TEST_CASE("furnace: a deliberately bad guide is noisy, not wrong") {
 
 TEST_CASE("furnace: a density off by 3 % is seen") {
   const std::string guider = "{ type: stub_direction, pdf_scale: 1.03 }";
-  const std::string config =
-      path_config(kDiffuseScene, 4, pair("stub_direction", guider), 128);
+  const std::string config = path_config(kDiffuseScene, 4, pair("stub_direction", guider), 128);
   CHECK(furnace_t(config, kDiffuseFurnace, 24) < -kLimit);
 }
 

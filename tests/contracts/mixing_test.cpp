@@ -8,11 +8,11 @@ namespace pharos::testing {
 namespace {
 
 TEST_CASE("regions double and keep what was learned for them") {
-  const LoadedConfig loaded = config_from(path_config(
-      kDiffuseScene, 4,
-      "{ learner: { type: stub_direction, refine: true }, guider: stub_direction, "
-      "mixing: stub_learned }",
-      8));
+  const LoadedConfig loaded = config_from(
+      path_config(kDiffuseScene, 4,
+                  "{ learner: { type: stub_direction, refine: true }, guider: stub_direction, "
+                  "mixing: stub_learned }",
+                  8));
   const GuidingSettings& settings = *loaded.config.integrator->guiding();
   GuidingState state(settings, {.region = {{-1, -1, -1}, {1, 1, 1}}, .seed = 1});
   CHECK(state.frame() == nullptr);

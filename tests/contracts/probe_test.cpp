@@ -87,9 +87,9 @@ TEST_CASE("with all lights every light has a branch of its own") {
   const std::string config = path_config(kDiffuseScene, 2, "", 1);
   const Prepared p(config + "# two lights\n");
   CHECK(p.integrator->probe()->light_branches() == 1);
-  LoadedConfig loaded = config_from(
-      kDiffuseScene +
-      "integrator: { type: path, light_selection: all }\nsampler: independent\nbudget: { spp: 1 }\n");
+  LoadedConfig loaded = config_from(kDiffuseScene +
+                                    "integrator: { type: path, light_selection: all }\nsampler: "
+                                    "independent\nbudget: { spp: 1 }\n");
   const auto all = loaded.config.integrator->prepare({p.scene, *p.sensor, 16, 16});
   const auto probe = all->probe();
   CHECK(probe->light_branches() == 2);

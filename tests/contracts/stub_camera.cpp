@@ -1,5 +1,5 @@
-// Stub (d): a method that guides the first vertex only, and so the pixel: directions uniform in a cone
-// about the view direction. Everything it touches ends in the film's splat layer.
+// Stub (d): a method that guides the first vertex only, and so the pixel: directions uniform in a
+// cone about the view direction. Everything it touches ends in the film's splat layer.
 
 #include <pharos/config/registry.h>
 #include <pharos/core/warp.h>
@@ -51,8 +51,7 @@ struct CameraGuiderSettings {
     s.field("cone_degrees", &CameraGuiderSettings::cone_degrees, "Half-angle of the cone")
         .unit("degrees")
         .above(0);
-    s.field("pdf_scale", &CameraGuiderSettings::pdf_scale,
-            "Planted fault: factor on the density");
+    s.field("pdf_scale", &CameraGuiderSettings::pdf_scale, "Planted fault: factor on the density");
   }
 };
 

@@ -1,6 +1,6 @@
-// Stub (a): a direction-only method. Its model is a histogram of incident radiance over direction in
-// each of a row of cells along x; the cells double in number with every iteration, which is what the
-// learned mixing policy (e) must follow.
+// Stub (a): a direction-only method. Its model is a histogram of incident radiance over direction
+// in each of a row of cells along x; the cells double in number with every iteration, which is what
+// the learned mixing policy (e) must follow.
 
 #include <algorithm>
 #include <cmath>

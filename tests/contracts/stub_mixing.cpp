@@ -34,8 +34,8 @@ class StubMixingState final : public MixingState {
     });
   }
 
-  std::shared_ptr<const MixingFractions> update(
-      std::uint32_t region_count, std::span<const std::uint32_t> origins) override {
+  std::shared_ptr<const MixingFractions> update(std::uint32_t region_count,
+                                                std::span<const std::uint32_t> origins) override {
     for (Region& region : regions_) {
       if (region.total > 0) {
         region.fraction = static_cast<float>(std::clamp(region.unguided / region.total, 0.1, 0.9));

@@ -1,5 +1,5 @@
-// Stub (g), the model: one isotropic Gaussian of target vertices in each octant of the region, offered
-// through the neutral SpatialMixture contract. The guiders live in another module.
+// Stub (g), the model: one isotropic Gaussian of target vertices in each octant of the region,
+// offered through the neutral SpatialMixture contract. The guiders live in another module.
 
 #include <algorithm>
 #include <array>
@@ -84,7 +84,6 @@ class MixtureState final : public TableState {
   }
 
  private:
-
   Bounds3 region_;
 };
 

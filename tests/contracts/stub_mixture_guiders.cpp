@@ -1,6 +1,7 @@
-// Stub (g), the guiders: two ways to sample any model that offers SpatialMixture. `stub_exact` draws a
-// point from a Gaussian and keeps its direction, with the exact density of such directions;
-// `stub_projected` draws in the plane through the mean and projects (Schuessler et al. 2022, sec. 5.2).
+// Stub (g), the guiders: two ways to sample any model that offers SpatialMixture. `stub_exact`
+// draws a point from a Gaussian and keeps its direction, with the exact density of such directions;
+// `stub_projected` draws in the plane through the mean and projects (Schuessler et al. 2022,
+// sec. 5.2).
 
 #include <cmath>
 

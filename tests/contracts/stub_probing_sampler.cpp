@@ -1,6 +1,6 @@
-// Stub (f): a sampler that looks at the light-position integrand of pixel blocks before rendering and
-// shifts each block's numbers, on the torus, by where the integrand is brightest. Uniform numbers stay
-// uniform under a shift, so nothing may change but noise.
+// Stub (f): a sampler that looks at the light-position integrand of pixel blocks before rendering
+// and shifts each block's numbers, on the torus, by where the integrand is brightest. Uniform
+// numbers stay uniform under a shift, so nothing may change but noise.
 
 #include <cmath>
 #include <vector>

@@ -1,6 +1,6 @@
-// Stub (b): a method that splats contributions along whole path segments, those that leave the scene
-// included, into a grid over the region, and sends rays towards the grid's mass. The density of a
-// direction is an integral along the ray through every voxel.
+// Stub (b): a method that splats contributions along whole path segments, those that leave the
+// scene included, into a grid over the region, and sends rays towards the grid's mass. The density
+// of a direction is an integral along the ray through every voxel.
 
 #include <algorithm>
 #include <cmath>

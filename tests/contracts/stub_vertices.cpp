@@ -1,6 +1,6 @@
-// Stub (c): a method that proposes whole vertices. It looks at the previous vertex, proposes positions
-// in space (in a medium) and on the surface behind them, distances, and discrete events; and it declines
-// by the path's prefix. Its model is the region's box.
+// Stub (c): a method that proposes whole vertices. It looks at the previous vertex, proposes
+// positions in space (in a medium) and on the surface behind them, distances, and discrete events;
+// and it declines by the path's prefix. Its model is the region's box.
 
 #include <algorithm>
 #include <cmath>

@@ -95,9 +95,9 @@ TEST_CASE("replay runs the very path") {
 }
 
 TEST_CASE("replay knows what guides later iterations") {
-  const std::string config =
-      cornell("budget: { spp: 2 }\nintegrator: { type: path, guiding: { learner: stub_direction, "
-              "guider: stub_direction, training: { iterations: 1 } } }\n");
+  const std::string config = cornell(
+      "budget: { spp: 2 }\nintegrator: { type: path, guiding: { learner: stub_direction, "
+      "guider: stub_direction, training: { iterations: 1 } } }\n");
   const RenderResult result = render(config);
   const LoadedConfig loaded = config_from(config);
   RenderJob job(loaded.config);

@@ -19,14 +19,13 @@ std::vector<Image> renders(const std::string& scene, int depth, int spp,
                            const std::string& sampler) {
   std::vector<Image> images;
   for (int seed = 1; seed <= kRenders; ++seed) {
-    images.push_back(
-        render(fmt::format("scene: {}/{}/scene.yaml\n"
-                           "film: {{ width: 128, height: 128, filter: box }}\n"
-                           "sampler: {}\n"
-                           "integrator: {{ type: path, max_depth: {} }}\n"
-                           "budget: {{ spp: {} }}\nseed: {}\n",
-                           PHAROS_SCENES, scene, sampler, depth, spp, seed))
-            .image);
+    images.push_back(render(fmt::format("scene: {}/{}/scene.yaml\n"
+                                        "film: {{ width: 128, height: 128, filter: box }}\n"
+                                        "sampler: {}\n"
+                                        "integrator: {{ type: path, max_depth: {} }}\n"
+                                        "budget: {{ spp: {} }}\nseed: {}\n",
+                                        PHAROS_SCENES, scene, sampler, depth, spp, seed))
+                         .image);
   }
   return images;
 }

@@ -1,9 +1,8 @@
 // The same config and seed give the same bits for any number of threads, learned models included.
 
-#include <unistd.h>
-
 #include <filesystem>
 #include <sstream>
+#include <unistd.h>
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -34,9 +33,10 @@ void check_same_bits(const std::string& config) {
 }
 
 std::string cornell(const std::string& rest) {
-  return fmt::format("scene: {}/cornell-box/scene.yaml\nbudget: {{ spp: 16 }}\n"
-                     "film: {{ width: 80, height: 64, filter: gaussian }}\n{}",
-                     PHAROS_SCENES, rest);
+  return fmt::format(
+      "scene: {}/cornell-box/scene.yaml\nbudget: {{ spp: 16 }}\n"
+      "film: {{ width: 80, height: 64, filter: gaussian }}\n{}",
+      PHAROS_SCENES, rest);
 }
 
 TEST_CASE("same bits: cornell-box, both samplers") {

@@ -1,8 +1,9 @@
 // What can be tested without a scene; renders are tested in tests/integration and tests/contracts.
 
+#include "../path.h"
+
 #include <doctest/doctest.h>
 
-#include "../path.h"
 #include "../path_text.h"
 
 namespace pharos {

@@ -1,6 +1,6 @@
-#include <doctest/doctest.h>
-
 #include "stripes.h"
+
+#include <doctest/doctest.h>
 
 TEST_CASE("stripes alternate") {
   const Stripes stripes({.first = pharos::Rgb(1), .second = pharos::Rgb(0), .count = 4});

@@ -1,0 +1,113 @@
+// Who may include whom (docs/architecture.md): arrows run one way.
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The framework's folders from bottom to top: each includes itself and those before it.
+const std::vector<std::string> kLayers{"core",    "statistics", "config",      "scene", "sampling",
+                                       "guiding", "rendering",  "experiments", "app"};
+
+std::size_t layer(const std::string& folder) {
+  return static_cast<std::size_t>(std::find(kLayers.begin(), kLayers.end(), folder) -
+                                  kLayers.begin());
+}
+
+struct Include {
+  fs::path file;     ///< relative to the project's root
+  std::string name;  ///< what stands between the brackets or quotes
+};
+
+/// Every #include in the sources below a folder, out-of-tree projects left out.
+std::vector<Include> includes_below(const std::string& folder) {
+  std::vector<Include> all;
+  const fs::path root = PHAROS_SOURCE;
+  for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
+    const std::string extension = entry.path().extension();
+    if (extension != ".h" && extension != ".cpp") continue;
+    std::ifstream in(entry.path());
+    for (std::string line; std::getline(in, line);) {
+      if (line.rfind("#include ", 0) != 0) continue;
+      const std::size_t begin = line.find_first_of("<\"") + 1;
+      const std::size_t end = line.find_first_of(">\"", begin);
+      all.push_back({fs::relative(entry.path(), root), line.substr(begin, end - begin)});
+    }
+  }
+  return all;
+}
+
+bool starts_with(const std::string& text, const std::string& start) {
+  return text.rfind(start, 0) == 0;
+}
+
+/// "scene" for <pharos/scene/shape.h>; empty for other includes.
+std::string framework_folder(const std::string& include) {
+  if (!starts_with(include, "pharos/")) return {};
+  return include.substr(7, include.find('/', 7) - 7);
+}
+
+TEST_CASE("the framework's folders include only those below them") {
+  std::size_t seen = 0;
+  for (const Include& include : includes_below("framework")) {
+    CAPTURE(include.file.string());
+    CAPTURE(include.name);
+    const std::string from = std::next(include.file.begin())->string();
+    const std::string to = framework_folder(include.name);
+    if (to.empty() || from == "tests") continue;
+    REQUIRE(layer(from) < kLayers.size());
+    CHECK(layer(to) <= layer(from));
+    ++seen;
+  }
+  CHECK(seen > 100);
+}
+
+TEST_CASE("plugins and modules include the framework and their own folder only") {
+  std::size_t seen = 0;
+  for (const std::string group : {"plugins", "modules"}) {
+    for (const Include& include : includes_below(group)) {
+      CAPTURE(include.file.string());
+      CAPTURE(include.name);
+      CHECK(framework_folder(include.name) != "app");
+      CHECK_FALSE(starts_with(include.name, "../../"));
+      CHECK(include.name.find("plugins/") == std::string::npos);
+      CHECK(include.name.find("modules/") == std::string::npos);
+      ++seen;
+    }
+  }
+  CHECK(seen > 100);
+}
+
+TEST_CASE("one file knows yaml-cpp, one knows Embree, one OpenImageIO") {
+  for (const Include& include : includes_below("framework")) {
+    const std::string file = include.file.generic_string();
+    if (starts_with(include.name, "yaml-cpp/")) CHECK(file == "framework/config/yaml.cpp");
+    if (starts_with(include.name, "embree")) CHECK(file == "framework/scene/accelerator.cpp");
+    if (starts_with(include.name, "OpenImageIO/")) CHECK(file == "framework/core/image.cpp");
+  }
+}
+
+TEST_CASE("the framework names no method") {
+  for (const auto& entry :
+       fs::recursive_directory_iterator(fs::path(PHAROS_SOURCE) / "framework")) {
+    if (!entry.is_regular_file()) continue;
+    std::ifstream in(entry.path());
+    std::string text{std::istreambuf_iterator<char>(in), {}};
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    for (const char* method : {"focal", "triplet", "pavmm", "sd-tree", "vmf"}) {
+      CAPTURE(entry.path().string());
+      CAPTURE(method);
+      CHECK(text.find(method) == std::string::npos);
+    }
+  }
+}
+
+}  // namespace
