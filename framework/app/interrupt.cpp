@@ -1,6 +1,7 @@
 #include "interrupt.h"
 
 #include <csignal>
+#include <ctime>
 
 namespace pharos {
 namespace {
@@ -8,9 +9,25 @@ namespace {
 std::atomic<bool> interrupted{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "set from a signal handler");
 
+/// Signals of one cause may come in pairs (to the process and to its group, as timeout(1) sends
+/// them): only one that comes later than this counts as a second.
+constexpr std::time_t kSecondSignalSeconds = 1;
+volatile std::sig_atomic_t first_signal_at = 0;
+
+std::time_t monotonic_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return now.tv_sec;
+}
+
 void handle(int signal) {
-  interrupted = true;
-  std::signal(signal, SIG_DFL);
+  const std::time_t now = monotonic_seconds();
+  if (!interrupted.exchange(true)) {
+    first_signal_at = static_cast<std::sig_atomic_t>(now);
+  } else if (now - first_signal_at > kSecondSignalSeconds) {
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+  }
 }
 
 }  // namespace
