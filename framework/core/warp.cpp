@@ -23,25 +23,7 @@ Vec3 from_cylinder(float z, float sin_theta, float u) {
   return {sin_theta * std::cos(phi), sin_theta * std::sin(phi), z};
 }
 
-/// Concentric squares become circles: the signed radius and the angle.
-struct Polar {
-  float radius, angle;
-};
-Polar polar_from_square(Vec2 u) {
-  const float x = 2 * u.x - 1, y = 2 * u.y - 1;
-  if (x == 0 && y == 0) return {0, 0};
-  if (std::abs(x) > std::abs(y)) return {x, kPi / 4 * (y / x)};
-  return {y, kPi / 2 - kPi / 4 * (x / y)};
-}
-Vec2 disk_from_polar(Polar p) {
-  return {p.radius * std::cos(p.angle), p.radius * std::sin(p.angle)};
-}
-
 }  // namespace
-
-Vec2 disk_from_square(Vec2 u) {
-  return disk_from_polar(polar_from_square(u));
-}
 
 Vec2 square_from_disk(Vec2 p) {
   const float radius = std::sqrt(p.x * p.x + p.y * p.y);
@@ -55,14 +37,6 @@ Vec2 square_from_disk(Vec2 p) {
     x = y * std::atan(p.x / p.y) * (4 / kPi);
   }
   return {primary(0.5f * (x + 1)), primary(0.5f * (y + 1))};
-}
-
-Vec3 cosine_hemisphere_from_square(Vec2 u) {
-  const Polar polar = polar_from_square(u);
-  const Vec2 p = disk_from_polar(polar);
-  // (1 - r)(1 + r) rather than 1 - r^2 keeps the digits of grazing directions.
-  const float r = std::abs(polar.radius);
-  return {p.x, p.y, safe_sqrt((1 - r) * (1 + r))};
 }
 
 Vec2 square_from_cosine_hemisphere(Vec3 direction) {

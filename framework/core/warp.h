@@ -8,8 +8,32 @@
 /// `square_from_X` undoes the warp.
 namespace pharos::warp {
 
+/// Polar coordinates of the concentric map: squares about the centre become circles.
+struct ConcentricPoint {
+  float radius;  ///< signed, in [-1, 1]
+  Vec2 direction;
+};
+
+/// The concentric map of `u` (Shirley and Chiu 1997). Its angle lies within 45 degrees of an axis,
+/// where short Taylor series give sine and cosine to float precision.
+inline ConcentricPoint concentric_from_square(Vec2 u) {
+  const float x = 2 * u.x - 1, y = 2 * u.y - 1;
+  const bool along_x = std::abs(x) > std::abs(y);
+  const float radius = along_x ? x : y;
+  if (radius == 0) return {0, {1, 0}};
+  const float t = kPi / 4 * ((along_x ? y : x) / radius), t2 = t * t;
+  const float s =
+      t * (1 + t2 * (-1.0f / 6 + t2 * (1.0f / 120 + t2 * (-1.0f / 5040 + t2 / 362880))));
+  const float c =
+      1 + t2 * (-0.5f + t2 * (1.0f / 24 + t2 * (-1.0f / 720 + t2 * (1.0f / 40320 - t2 / 3628800))));
+  return {radius, along_x ? Vec2{c, s} : Vec2{s, c}};
+}
+
 /// Unit disk, area-preserving concentric map (Shirley and Chiu 1997). Density 1/pi [1/unit area].
-Vec2 disk_from_square(Vec2 u);
+inline Vec2 disk_from_square(Vec2 u) {
+  const ConcentricPoint p = concentric_from_square(u);
+  return p.radius * p.direction;
+}
 /// Inverse of disk_from_square.
 Vec2 square_from_disk(Vec2 p);
 constexpr float disk_pdf() {
@@ -17,7 +41,12 @@ constexpr float disk_pdf() {
 }
 
 /// Cosine-weighted direction about +z. Density cosine_hemisphere_pdf [1/sr].
-Vec3 cosine_hemisphere_from_square(Vec2 u);
+inline Vec3 cosine_hemisphere_from_square(Vec2 u) {
+  const ConcentricPoint p = concentric_from_square(u);
+  const Vec2 foot = p.radius * p.direction;
+  // (1 - r)(1 + r) rather than 1 - r^2 keeps the digits of grazing directions.
+  return {foot.x, foot.y, safe_sqrt((1 - p.radius) * (1 + p.radius))};
+}
 /// Inverse of cosine_hemisphere_from_square for unit directions with z >= 0.
 Vec2 square_from_cosine_hemisphere(Vec3 direction);
 constexpr float cosine_hemisphere_pdf(float cos_theta) {

@@ -9,8 +9,8 @@
 namespace pharos {
 namespace {
 
-/// Passes an iteration is divided into: enough for an estimate of variance.
-constexpr std::uint32_t kPasses = 16;
+/// Passes an iteration is divided into at least: enough for an estimate of variance.
+constexpr std::uint32_t kPasses = 8;
 /// Most samples a pixel in a pass: bounds how long a work unit takes, and so how soon a render
 /// stops.
 constexpr std::uint32_t kPassSamples = 64;
@@ -61,11 +61,11 @@ class PassSizes {
   PassSizes(const Iteration& iteration, std::uint32_t granule)
       : iteration_(iteration), granule_(granule), limit_(largest(iteration, granule)) {}
 
-  /// The next pass after `done` samples and `elapsed` seconds; 0: the iteration is over. Timed
+  /// The next pass after `done` samples with `seconds_left`; 0: the iteration is over. Timed
   /// iterations start small and double while a pass takes less than a 64th of the time.
-  std::uint32_t next(std::uint32_t done, double elapsed, double last_pass) {
+  std::uint32_t next(std::uint32_t done, double seconds_left, double last_pass) {
     if (iteration_.samples > 0) return std::min(limit_, iteration_.samples - done);
-    if (done > 0 && elapsed >= iteration_.seconds) return 0;
+    if (done > 0 && seconds_left <= 0) return 0;
     if (done > 0 && last_pass * 64 < iteration_.seconds) timed_ = std::min(2 * timed_, limit_);
     return timed_;
   }
@@ -133,6 +133,7 @@ class RenderJob::Implementation {
     watch_ = {};
     result_ = {};
     combiner_ = {};
+    last_image_ = Film(config_.film.width, config_.film.height, config_.film.filter).layers();
     const GuidingSettings* settings = config_.integrator->guiding();
     guiding_ = settings == nullptr ? nullptr
                                    : std::make_unique<GuidingState>(
@@ -153,10 +154,10 @@ class RenderJob::Implementation {
     PassSizes sizes(iteration, config_.sampler->preferred_samples());
     std::uint32_t done = 0;
     double last_pass = 0;
-    while (const std::uint32_t size = sizes.next(done, watch.seconds(), last_pass)) {
+    const double deadline = work_up_to(index + 1);
+    while (const std::uint32_t size = sizes.next(done, deadline - watch_.seconds(), last_pass)) {
       const Stopwatch pass_watch;
-      const bool complete = run_pass(index, done, size, film, watch);
-      if (!complete) break;
+      if (!run_pass(index, done, size, film)) break;
       done += size;
       last_pass = pass_watch.seconds();
     }
@@ -175,8 +176,7 @@ class RenderJob::Implementation {
   }
 
   /// Renders `size` samples of every pixel; false when it was cut short.
-  bool run_pass(std::uint32_t index, std::uint32_t first_sample, std::uint32_t size, Film& film,
-                const Stopwatch& iteration_watch) {
+  bool run_pass(std::uint32_t index, std::uint32_t first_sample, std::uint32_t size, Film& film) {
     const IterationContext shared = context(iterations_[index].training);
     const auto produce = [&](std::size_t i) {
       WorkResult work{.film = film.make_tile(tiles_[i])};
@@ -190,37 +190,38 @@ class RenderJob::Implementation {
       result_.counters += work.counters;
       if (!result_.first_invalid) result_.first_invalid = work.first_invalid;
       pixels += tiles_[i].area();
-      report(index, first_sample, size, pixels, iteration_watch);
+      report(index, first_sample + size * share_of_film(pixels));
     };
     parallel_ordered(tiles_.size(), produce, consume, [&](std::size_t) { return !stopped(); });
-    const double share = static_cast<double>(pixels) / static_cast<double>(film_area());
-    film.end_pass(size * share, pixels == film_area());
-    return pixels == film_area();
+    const bool complete = share_of_film(pixels) == 1;
+    film.end_pass(size * share_of_film(pixels), complete);
+    return complete;
   }
 
-  std::uint64_t film_area() const {
-    return static_cast<std::uint64_t>(config_.film.width) * config_.film.height;
+  double share_of_film(std::uint64_t pixels) const {
+    return static_cast<double>(pixels) /
+           (static_cast<double>(config_.film.width) * config_.film.height);
   }
 
-  void report(std::uint32_t index, std::uint32_t first_sample, std::uint32_t size,
-              std::uint64_t pixels, const Stopwatch& iteration_watch) const {
-    if (!control_.on_progress) return;
-    const double samples =
-        first_sample + size * (static_cast<double>(pixels) / static_cast<double>(film_area()));
-    double total = 0, before = 0;
-    for (std::uint32_t i = 0; i < iterations_.size(); ++i) {
-      const double work =
-          iterations_[i].samples > 0 ? iterations_[i].samples : iterations_[i].seconds;
-      total += work;
-      if (i < index) before += work;
+  /// The budget of the iterations before `end`: samples a pixel, or seconds since the start. What
+  /// updates take in between is taken off the iterations that follow them.
+  double work_up_to(std::size_t end) const {
+    double work = 0;
+    for (std::size_t i = 0; i < end; ++i) {
+      work += iterations_[i].samples > 0 ? iterations_[i].samples : iterations_[i].seconds;
     }
-    const Iteration& now = iterations_[index];
-    const double here =
-        now.samples > 0 ? samples : std::min(iteration_watch.seconds(), now.seconds);
+    return work;
+  }
+
+  /// Tells how far it is after `samples` a pixel of iteration `index`.
+  void report(std::uint32_t index, double samples) const {
+    if (!control_.on_progress) return;
+    const double done =
+        iterations_[index].samples > 0 ? work_up_to(index) + samples : watch_.seconds();
     control_.on_progress({.iteration = index,
                           .iteration_count = static_cast<std::uint32_t>(iterations_.size()),
-                          .training = now.training,
-                          .fraction = (before + here) / total,
+                          .training = iterations_[index].training,
+                          .fraction = std::min(done / work_up_to(iterations_.size()), 1.0),
                           .seconds = watch_.seconds(),
                           .samples_per_pixel = result_.samples_per_pixel + samples,
                           .rays = result_.counters.rays});

@@ -8,8 +8,6 @@
 
 #include "quad.h"
 
-#include <utility>
-
 namespace pharos {
 namespace {
 
@@ -30,13 +28,17 @@ void Quad::Settings::describe(Schema<Settings>& s) {
 
 Quad::Quad(const Settings& settings)
     : TriangleShape(transformed(unit_square(), settings.to_world, settings.flip_normals), "quad"),
-      wound_backwards_(settings.to_world.flips_handedness() != settings.flip_normals) {}
+      corner_(settings.to_world.point({-1, -1, 0})),
+      edge_u_(settings.to_world.vector({2, 0, 0})),
+      edge_v_(settings.to_world.vector({0, 2, 0})),
+      common_(mesh()->surface_point(0, 0.25f, 0.5f)) {}
 
 ShapeSample Quad::sample(Vec2 u) const {
-  const bool first = u.x >= u.y;  // the triangle below the diagonal from corner 0 to corner 2
-  Vec2 b = first ? Vec2{u.x - u.y, u.y} : Vec2{u.x, u.y - u.x};
-  if (wound_backwards_) std::swap(b.x, b.y);
-  return sample_at(first ? 0 : 1, b);
+  SurfacePoint point = common_;
+  point.position = corner_ + u.x * edge_u_ + u.y * edge_v_;
+  point.uv = u;
+  point.primitive = u.x >= u.y ? 0 : 1;  // below or above the diagonal
+  return {.point = point, .pdf = 1 / area()};
 }
 
 }  // namespace pharos

@@ -21,7 +21,9 @@ class Quad : public TriangleShape {
   ShapeSample sample(Vec2 u) const override;
 
  private:
-  bool wound_backwards_;
+  Point3 corner_;        ///< where u = (0, 0)
+  Vec3 edge_u_, edge_v_;
+  SurfacePoint common_;  ///< what all points share
 };
 
 }  // namespace pharos

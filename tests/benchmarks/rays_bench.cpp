@@ -83,7 +83,7 @@ std::vector<Measurement> bench_rays(int repeats) {
   std::vector<Measurement> all = bench_scene(
       "cornell-box",
       fmt::format("scene: {}/cornell-box/scene.yaml\nfilm: {{ width: 256, height: 256, filter: box "
-                  "}}\nbudget: {{ spp: 16 }}\n{}",
+                  "}}\nbudget: {{ spp: 64 }}\n{}",
                   PHAROS_SCENES, kPath),
       repeats);
 
@@ -98,7 +98,7 @@ scene:
   emitters: [ {{ type: constant, radiance: 0.3 }} ]
   sensor: {{ type: perspective, fov: 40, to_world: {{ look_at: {{ origin: [0, 0, -4], target: [0, 0, 0], up: [0, 1, 0] }} }} }}
 film: {{ width: 256, height: 256, filter: box }}
-budget: {{ spp: 16 }}
+budget: {{ spp: 64 }}
 )",
                                         mesh.string());
   for (Measurement& m : bench_scene("spheres-300k", field + kPath, repeats)) all.push_back(m);
