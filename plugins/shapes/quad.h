@@ -21,7 +21,7 @@ class Quad : public TriangleShape {
   ShapeSample sample(Vec2 u) const override;
 
  private:
-  Point3 corner_;        ///< where u = (0, 0)
+  Point3 corner_;  ///< where u = (0, 0)
   Vec3 edge_u_, edge_v_;
   SurfacePoint common_;  ///< what all points share
 };
