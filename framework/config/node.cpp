@@ -16,7 +16,7 @@ bool is_letter_or_digit(char c) {
 
 /// True for texts that YAML surely reads back as the same scalar without quotes.
 bool is_plain(std::string_view text) {
-  constexpr std::array<std::string_view, 5> special{"", "~", "null", "Null", "NULL"};
+  constexpr std::array<std::string_view, 4> special{"", "null", "Null", "NULL"};
   if (std::find(special.begin(), special.end(), text) != special.end()) return false;
   const std::size_t sign = text[0] == '-' || text[0] == '+' ? 1 : 0;
   const char first = sign < text.size() ? text[sign] : ' ';

@@ -162,6 +162,12 @@ TEST_CASE("named components are shared, and win over plugins") {
   CHECK(build("7", {named("7", 5)}).paint->value() == 5);
 }
 
+TEST_CASE("a name of another contract is not meant") {
+  const BuildContext::Named tool{"tool", "red", std::make_shared<const Hammer>(NoSettings{})};
+  CHECK(build("red", {tool, named("red", 5)}).paint->value() == 5);
+  CHECK(error("red", {tool}) == "a.yaml:1:1: error: unknown paint 'red'; known: " + kNames);
+}
+
 TEST_CASE("the word `default` stands for what a contract chose, if it chose") {
   CHECK(error("default") == "a.yaml:1:1: error: unknown paint 'default'; known: " + kNames);
   Registry registry = paints();
