@@ -4,7 +4,7 @@ install(TARGETS pharos pharos_options EXPORT pharos-targets
         LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(TARGETS pharos-program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY framework/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pharos
-        FILES_MATCHING PATTERN "*.h" PATTERN "tests" EXCLUDE)
+        FILES_MATCHING PATTERN "*.h" PATTERN "tests" EXCLUDE PATTERN "app" EXCLUDE)
 if(PHAROS_TESTS)
   install(TARGETS pharos-test-main EXPORT pharos-targets
           ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})

@@ -36,7 +36,7 @@ function(pharos_add_module name)
     install(TARGETS ${name} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/pharos/plugins)
   endif()
 
-  if(arg_TESTS AND (PHAROS_TESTS OR NOT DEFINED PHAROS_TESTS))
+  if(arg_TESTS AND TARGET pharos::test_main)
     find_package(doctest REQUIRED)
     add_executable(test-${name} ${arg_TESTS})
     target_link_libraries(test-${name} PRIVATE ${name}-objects pharos::test_main ${warnings})

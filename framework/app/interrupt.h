@@ -4,8 +4,8 @@
 
 namespace pharos {
 
-/// While it lives, the first SIGINT or SIGTERM sets a flag; another one, a second or more later, ends
-/// the program at once.
+/// While it lives, the first SIGINT or SIGTERM sets a flag; another one, a second or more later,
+/// ends the program at once.
 class InterruptGuard {
  public:
   InterruptGuard();

@@ -36,8 +36,6 @@ struct GuidingSettings {
   /// The methods, however they were given. Throws InputError when none or both ways were used, or
   /// when a learner's model is not what its guider samples, naming both.
   std::vector<GuidingMethod> resolved_methods() const;
-  /// Union of what all learners and the mixing policy need recorded.
-  RecordNeeds record_needs() const;
 };
 
 /// What is known about where to go from a vertex.
@@ -87,7 +85,6 @@ class GuidingState {
 
   /// The newest model of method `i`; null before the first.
   std::shared_ptr<const GuidingModel> model(std::size_t i) const;
-  std::size_t method_count() const;
   /// Of all models [bytes].
   std::size_t model_bytes() const;
 

@@ -35,15 +35,4 @@ std::vector<GuidingMethod> GuidingSettings::resolved_methods() const {
   return in_place ? std::vector<GuidingMethod>{{learner, guider, 1.0f}} : methods;
 }
 
-RecordNeeds GuidingSettings::record_needs() const {
-  RecordNeeds all;
-  for (const GuidingMethod& method : resolved_methods()) {
-    const RecordNeeds needs = method.learner->traits().records;
-    all.light_samples |= needs.light_samples;
-    all.reverse_pdfs |= needs.reverse_pdfs;
-    all.light_paths |= needs.light_paths;
-  }
-  return all;
-}
-
 }  // namespace pharos

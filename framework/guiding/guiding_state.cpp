@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <numeric>
 
 #include <pharos/core/error.h>
@@ -19,14 +20,20 @@ struct GuidingState::Method {
     bound = model == nullptr ? nullptr : settings.guider->bind(model);
   }
 
-  /// Appends where each of this model's regions came from, numbered from `first` on.
-  void append_origins(std::uint32_t first, std::vector<std::uint32_t>& origins) const {
+  /// Appends where each of this model's regions came from among the `old_regions` before it, which
+  /// are numbered from `first` on. Regions of a first model all come from the one there was.
+  void append_origins(std::uint32_t first, std::uint32_t old_regions,
+                      std::vector<std::uint32_t>& origins) const {
     std::vector<std::uint32_t> own =
         model == nullptr ? std::vector<std::uint32_t>{} : model->region_origins();
     if (own.empty()) {
-      own.resize(region_count());
-      std::iota(own.begin(), own.end(), 0u);
+      own.assign(region_count(), 0u);
+      if (old_regions == region_count()) std::iota(own.begin(), own.end(), 0u);
     }
+    const bool fits = own.size() == region_count() &&
+                      std::all_of(own.begin(), own.end(),
+                                  [&](std::uint32_t origin) { return origin < old_regions; });
+    if (!fits) throw RunError("the model '" + model->name() + "' misstates its regions' origins");
     for (const std::uint32_t origin : own) origins.push_back(first + origin);
   }
 };
@@ -60,7 +67,7 @@ void GuidingState::update(std::uint32_t iteration, bool last) {
   for (Method& method : methods_) {
     const std::uint32_t old_regions = method.region_count();
     method.take(method.state->update(iteration, last));
-    method.append_origins(first_old_region, origins);
+    method.append_origins(first_old_region, old_regions, origins);
     first_old_region += old_regions;
   }
   fractions_ = mixing_->update(static_cast<std::uint32_t>(origins.size()), origins);
@@ -86,10 +93,6 @@ void GuidingState::rebuild_frame() {
 
 std::shared_ptr<const GuidingModel> GuidingState::model(std::size_t i) const {
   return methods_[i].model;
-}
-
-std::size_t GuidingState::method_count() const {
-  return methods_.size();
 }
 
 std::size_t GuidingState::model_bytes() const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <iosfwd>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -31,6 +32,11 @@ class MixingState {
   /// next.
   virtual std::shared_ptr<const MixingFractions> update(std::uint32_t region_count,
                                                         std::span<const std::uint32_t> origins) = 0;
+
+  /// As for LearningState.
+  virtual void save(std::ostream& out) const = 0;
+  virtual void load(std::istream& in) = 0;
+  virtual void merge(const MixingState& other) = 0;
 };
 
 /// Contract: how guided and unguided sampling share the samples.
@@ -38,8 +44,6 @@ class MixingPolicy : public Component {
  public:
   static constexpr std::string_view contract_name = "mixing";
 
-  /// Whether paths must be recorded for it.
-  virtual bool learns() const = 0;
   virtual std::unique_ptr<MixingState> begin() const = 0;
 };
 

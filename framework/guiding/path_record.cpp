@@ -23,6 +23,14 @@ std::uint32_t PathLog::add(const RecordedVertex& vertex) {
   return static_cast<std::uint32_t>(vertices_.size() - 1 - paths_.back().first_vertex);
 }
 
+void PathLog::blacken_last_path() {
+  for (std::size_t i = paths_.back().first_vertex; i < vertices_.size(); ++i) {
+    vertices_[i].throughput = vertices_[i].local_weight = Rgb();
+    vertices_[i].emission = vertices_[i].full_emission = Rgb();
+  }
+  light_samples_.resize(paths_.back().first_light_sample);
+}
+
 void PathLog::clear() {
   paths_.clear();
   vertices_.clear();

@@ -36,7 +36,8 @@ struct RecordedVertex {
   bool guidable = false;                   ///< a guide was or could have been asked here
   float reverse_pdf = 0;                   ///< of the step back to `parent`, on request
 
-  Rgb emission;  ///< radiance leaving here towards `parent`, times its MIS weight
+  Rgb emission;       ///< radiance leaving here towards `parent`, times its MIS weight
+  Rgb full_emission;  ///< the same without MIS weight
 
   /// The density that the step was drawn with.
   float pdf() const {
@@ -82,6 +83,10 @@ class PathLog {
   /// Adds a vertex to the path begun last; returns its index within the path.
   std::uint32_t add(const RecordedVertex& vertex);
   void add(const RecordedLightSample& sample) { light_samples_.push_back(sample); }
+  /// Makes the path begun last one of value zero: its light was NaN or infinite.
+  void blacken_last_path();
+  /// Where the path begun last lies on the film [pixels], once that is known.
+  void set_film(Vec2 film) { paths_.back().film = film; }
   /// A vertex of the path begun last, to complete it.
   RecordedVertex& vertex(std::uint32_t index) {
     return vertices_[paths_.back().first_vertex + index];

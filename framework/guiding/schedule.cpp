@@ -51,7 +51,7 @@ std::vector<Iteration> TrainingSchedule::divide(const Budget& budget, std::uint3
     all.push_back({.seconds = *budget.seconds - training});
     return all;
   }
-  const auto wanted = static_cast<std::uint32_t>(std::floor(*budget.spp * double{share}));
+  const auto wanted = static_cast<std::uint32_t>(std::floor(*budget.spp * share));
   std::uint32_t left = *budget.spp;
   for (const std::uint32_t size : training_granules(schedule, iterations, wanted / granule)) {
     all.push_back({.samples = size * granule, .training = true, .keeps_image = keeps});

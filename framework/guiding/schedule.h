@@ -37,7 +37,7 @@ struct Iteration {
 struct TrainingSchedule {
   ScheduleKind schedule = ScheduleKind::uniform;
   std::uint32_t iterations = 15;  ///< of training
-  float share = 0.5f;             ///< of the budget spent on training
+  double share = 0.5;             ///< of the budget spent on training
   TrainingImages images = TrainingImages::discard;
 
   static void describe(Schema<TrainingSchedule>& schema);

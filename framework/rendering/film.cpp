@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <pharos/rendering/film.h>
 
@@ -34,6 +35,30 @@ PixelRect footprint(Vec2 film, float radius, const PixelRect& bounds) {
 
 Vec2 offset_from_center(Vec2 film, int x, int y) {
   return {film.x - (static_cast<float>(x) + 0.5f), film.y - (static_cast<float>(y) + 0.5f)};
+}
+
+/// The share of a filter's integral that falls on the film when the film goes on for `margins`
+/// whole pixels to the left, right, top and bottom of the pixel's own; by the midpoint rule.
+float share_on_film(const Filter& filter, const std::array<int, 4>& margins) {
+  constexpr int kSteps = 64;
+  const float radius = filter.radius(), step = 2 * radius / kSteps;
+  double inside = 0, all = 0;
+  for (int i = 0; i < kSteps; ++i) {
+    for (int j = 0; j < kSteps; ++j) {
+      const Vec2 offset{step * (static_cast<float>(i) + 0.5f) - radius,
+                        step * (static_cast<float>(j) + 0.5f) - radius};
+      const float weight = filter.evaluate(offset);
+      const auto reaches = [](float distance, int margin) {
+        return distance <= static_cast<float>(margin) + 0.5f;
+      };
+      all += weight;
+      if (reaches(-offset.x, margins[0]) && reaches(offset.x, margins[1]) &&
+          reaches(-offset.y, margins[2]) && reaches(offset.y, margins[3])) {
+        inside += weight;
+      }
+    }
+  }
+  return static_cast<float>(inside / all);
 }
 
 /// The pixel a film position lies in, kept inside `bounds`.
@@ -104,8 +129,14 @@ void Film::merge(const FilmTile& tile) {
       sum.samples += source.samples;
     }
   }
+  if (!tile.splats_.empty() && splat_norms_.empty()) find_splat_norms();
   for (const FilmTile::Splat& splat : tile.splats_) add_splat(splat);
   pass_has_splats_ |= !tile.splats_.empty();
+  for (const FilmTile::Landing& landing : tile.landings_) {
+    FilmTile::Pixel& pixel = pass_[pixel_index(landing.film, pixels_)].sum;
+    pixel.features += landing.features;
+    pixel.samples += 1;
+  }
   pass_paths_ += tile.paths_;
 }
 
@@ -114,7 +145,27 @@ void Film::add_splat(const FilmTile::Splat& splat) {
   for (int y = reach.y0; y < reach.y1; ++y) {
     for (int x = reach.x0; x < reach.x1; ++x) {
       const float weight = filter_->evaluate(offset_from_center(splat.film, x, y));
-      pass_[pixels_.index(x, y)].splats += (weight / filter_->integral()) * splat.contribution;
+      const std::size_t i = pixels_.index(x, y);
+      pass_[i].splats += (weight * splat_norms_[i]) * splat.contribution;
+    }
+  }
+}
+
+void Film::find_splat_norms() {
+  splat_norms_.assign(pixels_.area(), 1 / filter_->integral());
+  const int reach = static_cast<int>(std::ceil(filter_->radius() - 0.5f));
+  // Pixels as far from all four borders, as far as the filter reaches, share their norm.
+  std::map<std::array<int, 4>, float> known;
+  for (int y = 0; y < height(); ++y) {
+    for (int x = 0; x < width(); ++x) {
+      const std::array<int, 4> margins{std::min(x, reach), std::min(width() - 1 - x, reach),
+                                       std::min(y, reach), std::min(height() - 1 - y, reach)};
+      if (*std::min_element(margins.begin(), margins.end()) == reach) continue;
+      const auto [entry, is_new] = known.try_emplace(margins, 0.0f);
+      if (is_new) {
+        entry->second = 1 / (filter_->integral() * share_on_film(*filter_, margins));
+      }
+      splat_norms_[pixels_.index(x, y)] = entry->second;
     }
   }
 }

@@ -47,6 +47,8 @@ class FilmTile {
   /// A contribution f/p in units of (pixel value) x (number of paths started): light tracing and
   /// camera guiding. Positions off the film have no effect.
   void add_splat(Vec2 film, Rgb contribution) { splats_.push_back({film, contribution}); }
+  /// What a splat's path saw first; counts as a sample of the pixel it landed in.
+  void add_features(Vec2 film, const Features& features) { landings_.push_back({film, features}); }
   /// Counts paths started; splats are divided by the film's total.
   void count_paths(std::uint64_t n) { paths_ += static_cast<double>(n); }
 
@@ -63,10 +65,16 @@ class FilmTile {
     Rgb contribution;
   };
 
+  struct Landing {
+    Vec2 film;
+    Features features;
+  };
+
   PixelRect inner_, bordered_;
   const Filter* filter_;
   std::vector<Pixel> pixels_;
   std::vector<Splat> splats_;
+  std::vector<Landing> landings_;
   double paths_ = 0;
 };
 
@@ -94,6 +102,8 @@ class Film {
   /// pixel's mean, per channel; infinite before two passes) and `samples`.
   Image layers() const;
   double samples_per_pixel() const { return samples_; }
+  /// Passes that were not cut short.
+  int complete_passes() const { return complete_passes_; }
 
  private:
   struct Pixel {
@@ -106,12 +116,16 @@ class Film {
     Rgb squares;  ///< sum of weight x squared deviation
   };
   static Rgb value(const Pixel& pixel, double paths);
+  void find_splat_norms();
   void add_splat(const FilmTile::Splat& splat);
 
   PixelRect pixels_;
   Ref<Filter> filter_;
   std::vector<Pixel> total_, pass_;
   std::vector<Moments> moments_;
+  /// One over the filter's integral over the film, as seen from each pixel: light that falls beside
+  /// the film is not there to be filtered in. Empty until there are splats.
+  std::vector<float> splat_norms_;
   double samples_ = 0, total_paths_ = 0, pass_paths_ = 0;
   bool pass_has_splats_ = false;
   double complete_samples_ = 0;  ///< a pixel, of the passes in `moments_`

@@ -1,5 +1,5 @@
+#include <algorithm>
 #include <array>
-#include <cmath>
 
 #include <pharos/rendering/image_combiner.h>
 
@@ -8,15 +8,6 @@ namespace {
 
 /// Weights of the two colours of the checkerboard.
 using ParityWeights = std::array<double, 2>;
-
-double total_samples(const Image& image) {
-  const int channel = image.channel_index("samples.N");
-  double sum = 0;
-  for (int y = 0; y < image.height(); ++y) {
-    for (int x = 0; x < image.width(); ++x) sum += image.pixel(x, y)[channel];
-  }
-  return sum;
-}
 
 /// Inverse of the mean variance of the complementary colour.
 ParityWeights inverse_variances(const Image& image) {
@@ -27,40 +18,32 @@ ParityWeights inverse_variances(const Image& image) {
       sums[static_cast<std::size_t>((x + y + 1) % 2)] += mean(image.rgb(x, y, channel));
     }
   }
-  return {1 / sums[0], 1 / sums[1]};
-}
-
-bool usable(const ParityWeights& w) {
-  return std::isfinite(w[0]) && std::isfinite(w[1]) && w[0] > 0 && w[1] > 0;
-}
-
-std::vector<ParityWeights> weights_of(const std::vector<Image>& images) {
-  std::vector<ParityWeights> weights;
-  bool all_usable = true;
-  for (const Image& image : images) {
-    weights.push_back(inverse_variances(image));
-    all_usable &= usable(weights.back());
-  }
-  if (all_usable) return weights;
-  weights.clear();
-  for (const Image& image : images) {
-    const double samples = total_samples(image);
-    weights.push_back({samples, samples});
-  }
-  return weights;
+  // An image without any noise is black or constant; no weight may be infinite for that.
+  constexpr double kSmallest = 1e-30;
+  return {1 / std::max(sums[0], kSmallest), 1 / std::max(sums[1], kSmallest)};
 }
 
 }  // namespace
 
+void ImageCombiner::add(const Film& film) {
+  images_.push_back({film.layers(), film.samples_per_pixel(), film.complete_passes() > 1});
+}
+
 Image ImageCombiner::combine() const {
-  if (images_.size() == 1) return images_.front();
-  const std::vector<ParityWeights> weights = weights_of(images_);
+  if (images_.size() == 1) return images_.front().layers;
+  const bool by_variance = std::all_of(images_.begin(), images_.end(),
+                                       [](const Weighted& w) { return w.knows_variance; });
+  std::vector<ParityWeights> weights;
+  for (const Weighted& w : images_) {
+    weights.push_back(by_variance ? inverse_variances(w.layers)
+                                  : ParityWeights{w.samples, w.samples});
+  }
   ParityWeights totals{0, 0};
   for (const ParityWeights& w : weights) {
     totals[0] += w[0];
     totals[1] += w[1];
   }
-  const Image& first = images_.front();
+  const Image& first = images_.front().layers;
   const int variance = first.channel_index("variance.R");
   const int samples = first.channel_index("samples.N");
   Image result(first.width(), first.height(), first.channels());
@@ -72,7 +55,7 @@ Image ImageCombiner::combine() const {
         for (int c = 0; c < first.channel_count(); ++c) {
           const bool is_variance = c >= variance && c < variance + 3;
           const float factor = c == samples ? 1.0f : is_variance ? share * share : share;
-          result.pixel(x, y)[c] += factor * images_[i].pixel(x, y)[c];
+          result.pixel(x, y)[c] += factor * images_[i].layers.pixel(x, y)[c];
         }
       }
     }

@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <string>
 
+#include <pharos/core/error.h>
 #include <pharos/rendering/light_selection.h>
 
 namespace pharos {
@@ -8,7 +10,11 @@ LightSelector::LightSelector(const Scene& scene, LightSelection selection) : sel
   const std::size_t count = scene.lights().size();
   if (count == 0) return;
   if (selection == LightSelection::all) {
-    branches_ = static_cast<std::uint16_t>(std::min<std::size_t>(count, 0xffff));
+    if (count > 0xffff) {
+      throw InputError("light_selection 'all' takes at most 65535 lights, the scene has " +
+                       std::to_string(count));
+    }
+    branches_ = static_cast<std::uint16_t>(count);
     probability_.assign(count, 1.0f);
     return;
   }

@@ -2,6 +2,9 @@
 #include <cmath>
 #include <limits>
 
+#include <fmt/format.h>
+
+#include <pharos/core/error.h>
 #include <pharos/core/parallel.h>
 #include <pharos/rendering/image_combiner.h>
 #include <pharos/rendering/render_job.h>
@@ -11,11 +14,14 @@ namespace {
 
 /// Passes an iteration is divided into at least: enough for an estimate of variance.
 constexpr std::uint32_t kPasses = 8;
-/// Most samples a pixel in a pass: bounds how long a work unit takes, and so how soon a render
-/// stops.
-constexpr std::uint32_t kPassSamples = 64;
-/// The same for passes whose paths are recorded: bounds the memory of logs.
-constexpr std::uint32_t kRecordedPassSamples = 4;
+/// Most samples a pixel in a work unit: bounds how long it takes, and so how soon a render stops.
+constexpr std::uint32_t kUnitSamples = 64;
+/// The same for units whose paths are recorded: bounds the memory of logs.
+constexpr std::uint32_t kRecordedUnitSamples = 4;
+
+std::uint32_t unit_samples(const Iteration& iteration) {
+  return iteration.training ? kRecordedUnitSamples : kUnitSamples;
+}
 
 class Stopwatch {
  public:
@@ -72,10 +78,10 @@ class PassSizes {
 
  private:
   static std::uint32_t largest(const Iteration& iteration, std::uint32_t granule) {
-    if (iteration.training) return round_up(kRecordedPassSamples, granule);
+    const std::uint32_t most = unit_samples(iteration);
     const std::uint32_t wanted =
-        iteration.samples == 0 ? kPassSamples : (iteration.samples + kPasses - 1) / kPasses;
-    return round_up(std::min(wanted, kPassSamples), granule);
+        iteration.samples == 0 ? most : (iteration.samples + kPasses - 1) / kPasses;
+    return round_up(std::min(wanted, most), granule);
   }
 
   const Iteration& iteration_;
@@ -119,8 +125,16 @@ class RenderJob::Implementation {
   }
 
   PathTrace replay(const PathKey& key) {
+    if (key.iteration >= iterations_.size()) {
+      throw InputError(fmt::format("there is no iteration {}: this render has {}", key.iteration,
+                                   iterations_.size()));
+    }
+    if (key.iteration > 0 && config_.budget.seconds) {
+      throw InputError(
+          "training by a time budget cannot be repeated: only iteration 0 can be replayed");
+    }
     begin({});
-    for (std::uint32_t i = 0; i < key.iteration && i < iterations_.size(); ++i) run_iteration(i);
+    for (std::uint32_t i = 0; i < key.iteration; ++i) run_iteration(i);
     return integrator_->replay(key, context(false));
   }
 
@@ -133,6 +147,7 @@ class RenderJob::Implementation {
     watch_ = {};
     result_ = {};
     combiner_ = {};
+    has_image_ = false;
     last_image_ = Film(config_.film.width, config_.film.height, config_.film.filter).layers();
     const GuidingSettings* settings = config_.integrator->guiding();
     guiding_ = settings == nullptr ? nullptr
@@ -163,8 +178,10 @@ class RenderJob::Implementation {
     }
     (iteration.training ? result_.times.training : result_.times.rendering) += watch.seconds();
     result_.samples_per_pixel += film.samples_per_pixel();
-    last_image_ = film.layers();
-    if (iteration.keeps_image && film.samples_per_pixel() > 0) combiner_.add(last_image_);
+    // A film that was stopped within its first pass has holes: it serves only if there is no other.
+    if (film.complete_passes() > 0 || !has_image_) last_image_ = film.layers();
+    has_image_ |= film.complete_passes() > 0;
+    if (iteration.keeps_image && film.complete_passes() > 0) combiner_.add(film);
     if (iteration.training && !stopped()) update_guiding(index);
   }
 
@@ -178,30 +195,38 @@ class RenderJob::Implementation {
   /// Renders `size` samples of every pixel; false when it was cut short.
   bool run_pass(std::uint32_t index, std::uint32_t first_sample, std::uint32_t size, Film& film) {
     const IterationContext shared = context(iterations_[index].training);
+    // Large passes are cut into chunks: chunk by chunk, each over all tiles.
+    const std::uint32_t chunk = unit_samples(iterations_[index]);
+    const std::size_t chunks = (size + chunk - 1) / chunk;
+    const auto unit = [&](std::size_t i) {
+      const auto done = static_cast<std::uint32_t>(i / tiles_.size()) * chunk;
+      return WorkUnit{.pixels = tiles_[i % tiles_.size()],
+                      .iteration = index,
+                      .first_sample = first_sample + done,
+                      .sample_count = std::min(chunk, size - done)};
+    };
     const auto produce = [&](std::size_t i) {
-      WorkResult work{.film = film.make_tile(tiles_[i])};
-      integrator_->render({tiles_[i], index, first_sample, size}, shared, work);
+      WorkResult work{.film = film.make_tile(unit(i).pixels)};
+      integrator_->render(unit(i), shared, work);
       return work;
     };
-    std::uint64_t pixels = 0;
+    double pixel_samples = 0;
     const auto consume = [&](std::size_t i, WorkResult& work) {
       film.merge(work.film);
       if (shared.record) guiding_->absorb(work.log);
       result_.counters += work.counters;
       if (!result_.first_invalid) result_.first_invalid = work.first_invalid;
-      pixels += tiles_[i].area();
-      report(index, first_sample + size * share_of_film(pixels));
+      pixel_samples += static_cast<double>(unit(i).pixels.area()) * unit(i).sample_count;
+      report(index, first_sample + pixel_samples / film_area());
     };
-    parallel_ordered(tiles_.size(), produce, consume, [&](std::size_t) { return !stopped(); });
-    const bool complete = share_of_film(pixels) == 1;
-    film.end_pass(size * share_of_film(pixels), complete);
+    parallel_ordered(chunks * tiles_.size(), produce, consume,
+                     [&](std::size_t) { return !stopped(); });
+    const bool complete = pixel_samples == size * film_area();
+    film.end_pass(pixel_samples / film_area(), complete);
     return complete;
   }
 
-  double share_of_film(std::uint64_t pixels) const {
-    return static_cast<double>(pixels) /
-           (static_cast<double>(config_.film.width) * config_.film.height);
-  }
+  double film_area() const { return static_cast<double>(config_.film.width) * config_.film.height; }
 
   /// The budget of the iterations before `end`: samples a pixel, or seconds since the start. What
   /// updates take in between is taken off the iterations that follow them.
@@ -242,6 +267,7 @@ class RenderJob::Implementation {
   RenderResult result_;
   ImageCombiner combiner_;
   Image last_image_;
+  bool has_image_ = false;  ///< `last_image_` shows at least one whole pass
   std::unique_ptr<GuidingState> guiding_;
   std::shared_ptr<const GuidingFrame> frame_;
 };

@@ -73,6 +73,10 @@ class Scene {
 
   /// Box of all geometry and the sensor [scene units].
   const Bounds3& bounds() const { return bounds_; }
+  /// The stand-in for what is infinitely far away: outside the scene, along `direction`.
+  Point3 environment_point(Point3 from, Vec3 direction) const {
+    return from + 2 * bounds_.diagonal() * direction;
+  }
   /// Triangles and analytic primitives together.
   std::size_t primitive_count() const;
 

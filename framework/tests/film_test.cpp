@@ -90,6 +90,25 @@ TEST_CASE("splats keep their sum, and are divided by all paths") {
   }
 }
 
+TEST_CASE("evenly strewn splats make an even image, at the borders too") {
+  for (const float radius : {0.5f, 1.5f, 2.0f}) {
+    Film film(kSize, kSize, std::make_shared<Tent>(radius));
+    FilmTile tile = film.make_tile(kAll);
+    RandomStream random(4);
+    const int paths = 400000;
+    for (int i = 0; i < paths; ++i) {
+      tile.add_splat(static_cast<float>(kSize) * random.next_2d(), Rgb(kSize * kSize));
+    }
+    tile.count_paths(paths);
+    film.merge(tile);
+    film.end_pass(1);
+    const Image image = film.layers();
+    for (int y = 0; y < kSize; ++y) {
+      for (int x = 0; x < kSize; ++x) CHECK(image.rgb(x, y).r == doctest::Approx(1).epsilon(0.06));
+    }
+  }
+}
+
 TEST_CASE("a pass with splats that was cut short is dropped") {
   Film film(kSize, kSize, std::make_shared<Box>());
   for (const bool complete : {true, false}) {
@@ -143,15 +162,15 @@ TEST_CASE("selected layers follow the colour") {
   CHECK(image.pixel(0, 0)[4] == 2);
 }
 
-/// Layers of an image of mean one whose noise has the given standard deviation, from many passes.
-Image noisy(float sigma, std::uint64_t seed) {
+/// An image of mean one whose noise has the given standard deviation, from many passes.
+Film noisy(float sigma, std::uint64_t seed) {
   Film film(kSize, kSize, std::make_shared<Box>());
   for (std::uint64_t pass = 0; pass < 16; ++pass) {
     add_pass(film, 1, 1000 * seed + pass, [&](Vec2, RandomStream& random) {
       return Rgb(1 + sigma * std::sqrt(12.0f) * (random.next_1d() - 0.5f));
     });
   }
-  return film.layers();
+  return film;
 }
 
 TEST_CASE("images combine by inverse variance") {

@@ -12,7 +12,7 @@ std::uint32_t total(const std::vector<Iteration>& iterations) {
 }
 
 TEST_CASE("uniform training gets its share, the rest goes to the image") {
-  const TrainingSchedule schedule{.iterations = 15, .share = 0.5f};
+  const TrainingSchedule schedule{.iterations = 15, .share = 0.5};
   const auto iterations = schedule.divide({.spp = 512}, 1);
   REQUIRE(iterations.size() == 16);
   for (std::size_t i = 0; i < 15; ++i) {
@@ -55,7 +55,7 @@ TEST_CASE("small budgets make fewer iterations, never empty ones") {
 }
 
 TEST_CASE("seconds are divided in the same way") {
-  TrainingSchedule schedule{.iterations = 3, .share = 0.7f};
+  TrainingSchedule schedule{.iterations = 3, .share = 0.7};
   auto iterations = schedule.divide({.seconds = 10.0}, 1);
   REQUIRE(iterations.size() == 4);
   CHECK(iterations[0].seconds == doctest::Approx(7.0 / 3));

@@ -8,7 +8,7 @@ namespace pharos {
 
 void GaussianFilter::Settings::describe(Schema<Settings>& s) {
   s.field("stddev", &Settings::stddev, "Standard deviation").unit("pixels").above(0);
-  s.field("radius", &Settings::radius, "Half-width").unit("pixels").above(0);
+  s.field("radius", &Settings::radius, "Half-width").unit("pixels").at_least(0.5).at_most(16);
 }
 
 GaussianFilter::GaussianFilter(const Settings& settings)

@@ -80,9 +80,11 @@ class PreparedPath final : public PreparedIntegrator {
       ++result.counters.invalid_paths;
       if (!result.first_invalid) result.first_invalid = key;
       sample.radiance = {};
+      if (result.log.size() > 0) result.log.blacken_last_path();
     }
     if (sample.splat) {
       result.film.add_splat(sample.film, sample.radiance);
+      result.film.add_features(sample.film, sample.features);
     } else {
       result.film.add_sample(sample.film, sample.radiance, sample.features);
     }

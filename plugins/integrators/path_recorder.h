@@ -20,8 +20,9 @@ struct SilentRecorder {
   static constexpr bool kRecords = false;
 
   void lens(const LensPoint&, Vec2) {}
+  void film(Vec2) {}
   void arrival(const GuidingVertex&, Rgb) {}
-  void emission(Rgb) {}
+  void emission(Rgb, float) {}
   void light(LightSampleId, const LightSample&, Event, const StepDensity&, float, Rgb, Rgb) {}
   void scattering(const LocalScattering&, float, const Guidance&) {}
   void step(const ScatterStep&, const StepDensity&, const Guidance&, Rgb, VertexKind) {}
@@ -54,8 +55,14 @@ class LogRecorder {
                          .throughput = throughput});
   }
 
-  /// Emission of the vertex, times its MIS weight.
-  void emission(Rgb radiance) { current().emission += radiance; }
+  /// The guide chose another place on the film [pixels].
+  void film(Vec2 film) { log_.set_film(film); }
+
+  /// Emission of the vertex and its MIS weight.
+  void emission(Rgb radiance, float mis_weight) {
+    current().emission += mis_weight * radiance;
+    current().full_emission += radiance;
+  }
 
   /// Light found by next event estimation; `contribution` without throughput.
   void light(LightSampleId, const LightSample& light, Event event, const StepDensity& density,
@@ -95,6 +102,8 @@ class LogRecorder {
     here.unguided_pdf = density.unguided;
     here.guided_pdf = density.guided;
     here.unguided_fraction = guidance.unguided_fraction;
+    here.region = guidance.region;
+    here.guidable |= guidance.distribution != nullptr;
     here.measure = measure_of(step.event, target);
   }
 

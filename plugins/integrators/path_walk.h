@@ -85,6 +85,7 @@ class PathWalk {
     current_vertex_.normal = current_vertex_.shading_normal = lens.normal;
     towards_previous_ = lens.normal;
     recorder_.lens(lens, result_.film);
+    arena_.reset();
 
     Ray ray = target.sensor.ray(lens, {result_.film.x / size.x, result_.film.y / size.y});
     ScatterStep step{.direction = ray.direction, .event = Event::smooth_reflect};
@@ -113,6 +114,7 @@ class PathWalk {
     const std::optional<SensorResponse> response = sensor.response(lens, step.direction);
     if (!response) return std::nullopt;
     result_.film = {response->film.x * size.x, response->film.y * size.y};
+    recorder_.film(result_.film);
     step.unguided_pdf = response->direction_pdf;
     step.value = Rgb(response->direction_pdf * size.x * size.y);
     step.unguided_weight = Rgb(size.x * size.y);
@@ -146,7 +148,7 @@ class PathWalk {
     resolved.distance = ray.t_max;
     if (to.kind == VertexKind::environment) {
       to.surface = {};
-      to.surface.position = ray.origin + environment_distance() * ray.direction;
+      to.surface.position = scene_.environment_point(ray.origin, ray.direction);
     }
     resolved.position = to.surface.position;
     weight_step(step, resolved, transmittance);
@@ -158,7 +160,7 @@ class PathWalk {
     }
     towards_previous_ = -step.direction;
     current_ = 1 - current_;
-    ++bounce_;
+    if (++bounce_ == 1) first_throughput_ = max_component(throughput_);
     note_arrival(ray);
     return !is_black(throughput_);
   }
@@ -248,7 +250,7 @@ class PathWalk {
     const bool alone = arrived_discretely_ || !settings_.next_event_estimation;
     const float weight = alone ? 1.0f : mis_weight(settings_.mis, density_.total, light_pdf());
     radiance_ += weight * throughput_ * radiance;
-    recorder_.emission(weight * radiance);
+    recorder_.emission(radiance, weight);
   }
 
   void add_light_samples() {
@@ -260,6 +262,9 @@ class PathWalk {
       LightSample light = scene_.lights()[static_cast<std::size_t>(index)]->sample(
           position(), stream_.get_2d({Purpose::light_position, bounce_, branch}));
       light.pdf *= shared_.lights.probability(index);
+      if (light.kind == VertexKind::environment) {
+        light.point.position = scene_.environment_point(position(), light.direction);
+      }
       if (light.pdf > 0) add_light_sample(light, branch);
     }
   }
@@ -339,18 +344,25 @@ class PathWalk {
     if (!step || settings_.roulette == Roulette::off || bounce_ < settings_.roulette_depth) {
       return step;
     }
-    const float survival = std::min(settings_.roulette_limit, max_component(throughput_));
+    if (contains(EventMask::transmit, step->event)) note_refraction();
+    const float value = max_component(throughput_) * solid_angle_scale_ / first_throughput_;
+    const float survival = std::min(settings_.roulette_limit, value);
     if (stream_.get_1d({Purpose::roulette, bounce_}) >= survival) return std::nullopt;
     step->value *= 1 / survival;
     step->unguided_weight *= 1 / survival;
     return step;
   }
 
+  /// Radiance is compressed into smaller solid angles inside glass; roulette must not take that for
+  /// a loss.
+  void note_refraction() {
+    const float ratio = square(scattering_->bsdf().relative_ior());
+    const bool enters = dot(towards_previous_, arrival().surface.normal) > 0;
+    solid_angle_scale_ *= enters ? 1 / ratio : ratio;
+  }
+
   /// Whether a guide or a record wants to know vertices.
   bool vertices_are_asked_for() const { return Recorder::kRecords || context_.guiding != nullptr; }
-
-  /// How far along an escaping ray the stand-in for the environment lies: outside the scene.
-  float environment_distance() const { return 2 * scene_.bounds().diagonal(); }
 
   const PathScene& shared_;
   const Scene& scene_;
@@ -364,7 +376,9 @@ class PathWalk {
   PathSample result_;
   Rgb radiance_;
   Rgb throughput_{1};
-  std::uint16_t bounce_ = 0;  ///< number of the current vertex; 0 on the lens
+  float first_throughput_ = 1;   ///< of the step from the lens, guided or not
+  float solid_angle_scale_ = 1;  ///< undoes the compression of radiance by refraction so far
+  std::uint16_t bounce_ = 0;     ///< number of the current vertex; 0 on the lens
   // Two arrivals in turn: the scattering at one stays valid until the next has been weighted.
   std::array<Arrival, 2> arrivals_;
   int current_ = 0;

@@ -25,6 +25,10 @@ class FixedState final : public MixingState {
                                                 std::span<const std::uint32_t>) override {
     return fractions_;
   }
+  // There is nothing to remember.
+  void save(std::ostream&) const override {}
+  void load(std::istream&) override {}
+  void merge(const MixingState&) override {}
 
  private:
   std::shared_ptr<const MixingFractions> fractions_;

@@ -13,7 +13,6 @@ class FixedMixing final : public MixingPolicy {
   };
   explicit FixedMixing(const Settings& settings) : unguided_fraction_(settings.unguided_fraction) {}
 
-  bool learns() const override { return false; }
   std::unique_ptr<MixingState> begin() const override;
 
  private:

@@ -56,6 +56,18 @@ TEST_CASE("furnace (d): a guided first vertex, through the splat layer") {
   CHECK(std::abs(fog_t(pair("stub_camera", "stub_camera"))) < kLimit);
 }
 
+TEST_CASE("furnace (d): wide filters and combined images keep the splat layer exact") {
+  const std::string guiding =
+      "{ learner: stub_camera, guider: stub_camera, "
+      "training: { iterations: 2, images: combine } }";
+  std::string config = path_config(kDiffuseScene, 4, guiding, 32);
+  const std::string box = "filter: box";
+  config.replace(config.find(box), box.size(), "filter: { type: gaussian, radius: 2 }");
+  CHECK(std::abs(furnace_t(config, kDiffuseFurnace)) < kLimit);
+  const RenderResult result = render(config);
+  CHECK(result.image.pixel(16, 16)[result.image.channel_index("depth.Z")] > 0);
+}
+
 TEST_CASE("furnace (d): a camera density off by 3 % is seen") {
   const std::string guider = "{ type: stub_camera, pdf_scale: 1.03 }";
   const std::string config = path_config(kDiffuseScene, 1, pair("stub_camera", guider), 128);

@@ -38,7 +38,7 @@ class StubMixingState final : public MixingState {
                                                 std::span<const std::uint32_t> origins) override {
     for (Region& region : regions_) {
       if (region.total > 0) {
-        region.fraction = static_cast<float>(std::clamp(region.unguided / region.total, 0.1, 0.9));
+        region.fraction = std::clamp(region.unguided / region.total, 0.1, 0.9);
       }
     }
     std::vector<Region> next(region_count);
@@ -46,16 +46,35 @@ class StubMixingState final : public MixingState {
     for (std::uint32_t i = 0; i < region_count; ++i) {
       const std::uint32_t origin = origins.empty() ? i : origins[i];
       if (origin < regions_.size()) next[i].fraction = regions_[origin].fraction;
-      fractions.push_back(next[i].fraction);
+      fractions.push_back(static_cast<float>(next[i].fraction));
     }
     regions_ = std::move(next);
     return std::make_shared<RegionFractions>(std::move(fractions));
   }
 
+  void save(std::ostream& out) const override {
+    std::vector<double> table;
+    for (const Region& r : regions_) table.insert(table.end(), {r.total, r.unguided, r.fraction});
+    write_table(out, table);
+  }
+  void load(std::istream& in) override {
+    const std::vector<double> table = read_table(in, 3 * regions_.size());
+    for (std::size_t i = 0; i < regions_.size(); ++i) {
+      regions_[i] = {table[3 * i], table[3 * i + 1], table[3 * i + 2]};
+    }
+  }
+  void merge(const MixingState& other) override {
+    const auto& theirs = static_cast<const StubMixingState&>(other).regions_;
+    for (std::size_t i = 0; i < regions_.size(); ++i) {
+      regions_[i].total += theirs[i].total;
+      regions_[i].unguided += theirs[i].unguided;
+    }
+  }
+
  private:
   struct Region {
     double total = 0, unguided = 0;
-    float fraction = 0.5f;
+    double fraction = 0.5;
   };
   std::vector<Region> regions_;
 };
@@ -64,7 +83,6 @@ class StubMixing final : public MixingPolicy {
  public:
   using Settings = NoSettings;
   explicit StubMixing(Settings) {}
-  bool learns() const override { return true; }
   std::unique_ptr<MixingState> begin() const override {
     return std::make_unique<StubMixingState>();
   }
