@@ -81,7 +81,7 @@ class FilmTile {
 /// The image of one iteration: a weight-normalised layer of pixel samples plus a splat layer. Tiles
 /// are merged in the order of work units, by one thread at a time. Passes end with end_pass(); the
 /// variance of a pixel comes from the spread of its pass means, which is right for stratified
-/// samples and splats too.
+/// samples and splats too (and an upper bound where passes of one sequence complement each other).
 class Film {
  public:
   Film(int width, int height, Ref<Filter> filter);

@@ -7,6 +7,6 @@
 PHAROS_MODULE(registry) {
   registry.add<pharos::Diffuse>("diffuse", "Lambert's cosine law on the outer side");
   registry.add<pharos::RoughConductor>("rough_conductor", "GGX microfacets of a metal");
-  registry.add<pharos::Dielectric>("dielectric", "smooth glass: mirror reflection and refraction");
+  registry.add<pharos::Dielectric>("dielectric", "Smooth glass: mirror reflection and refraction");
   registry.set_default<pharos::Bsdf>("diffuse");
 }

@@ -4,7 +4,7 @@
 #include "gaussian.h"
 
 PHAROS_MODULE(registry) {
-  registry.add<pharos::BoxFilter>("box", "equal weight over a square");
-  registry.add<pharos::GaussianFilter>("gaussian", "a Gaussian that ends at zero");
+  registry.add<pharos::BoxFilter>("box", "Equal weight over a square");
+  registry.add<pharos::GaussianFilter>("gaussian", "A Gaussian that ends at zero");
   registry.set_default<pharos::Filter>("box");
 }

@@ -3,6 +3,6 @@
 #include "fixed.h"
 
 PHAROS_MODULE(registry) {
-  registry.add<pharos::FixedMixing>("fixed", "the same share of unguided samples everywhere");
+  registry.add<pharos::FixedMixing>("fixed", "The same share of unguided samples everywhere");
   registry.set_default<pharos::MixingPolicy>("fixed");
 }

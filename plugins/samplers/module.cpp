@@ -4,7 +4,7 @@
 #include "sobol.h"
 
 PHAROS_MODULE(registry) {
-  registry.add<pharos::IndependentSampler>("independent", "independent uniform numbers");
-  registry.add<pharos::SobolSampler>("sobol", "padded (0,2)-sequences with Owen scrambling");
+  registry.add<pharos::IndependentSampler>("independent", "Independent uniform numbers");
+  registry.add<pharos::SobolSampler>("sobol", "Padded (0,2)-sequences with Owen scrambling");
   registry.set_default<pharos::Sampler>("sobol");
 }

@@ -5,8 +5,8 @@
 #include "constant.h"
 
 PHAROS_MODULE(registry) {
-  registry.add<pharos::ConstantTexture>("constant", "the same colour everywhere");
-  registry.add<pharos::Checkerboard>("checkerboard", "two colours in squares");
-  registry.add<pharos::Bitmap>("bitmap", "an image file");
+  registry.add<pharos::ConstantTexture>("constant", "The same colour everywhere");
+  registry.add<pharos::Checkerboard>("checkerboard", "Two colours in squares");
+  registry.add<pharos::Bitmap>("bitmap", "An image file");
   registry.set_shorthand<pharos::Texture>("constant", "value");
 }
