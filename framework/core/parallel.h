@@ -1,8 +1,10 @@
 #pragma once
 
-#include <algorithm>
+#include <atomic>
 #include <cstddef>
+#include <exception>
 #include <memory>
+#include <optional>
 
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_pipeline.h>
@@ -13,29 +15,56 @@ namespace pharos {
 /// Runs `produce(i)` for i = 0, 1, … concurrently and `consume(i, result)` strictly in order of i,
 /// one at a time. What consume() folds is therefore the same for any number of threads. At most
 /// about four results a thread wait at once, so memory stays bounded. The loop ends at `count`,
-/// or early at the first i for which `keep_going(i)` is false; every i below that is consumed.
+/// or early at the first i for which `keep_going(i)` is false; every i below that is consumed. The
+/// first exception, by order of i, ends the loop and comes out of it.
 template <class Produce, class Consume, class KeepGoing>
 void parallel_ordered(std::size_t count, Produce&& produce, Consume&& consume,
                       KeepGoing&& keep_going) {
   using Result = decltype(produce(std::size_t{0}));
   struct Item {
     std::size_t index;
-    Result result;
+    std::optional<Result> result;
+    std::exception_ptr error;
   };
   using ItemPtr = std::shared_ptr<Item>;
   const auto tokens = 4 * static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
   std::size_t next = 0;
+  std::atomic<bool> failed{false};
+  std::exception_ptr first_error;  // by order of i
   const auto number = [&](tbb::flow_control& flow) -> std::size_t {
-    if (next < count && keep_going(next)) return next++;
+    if (next < count && !failed && keep_going(next)) return next++;
     flow.stop();
     return 0;
   };
-  const auto work = [&](std::size_t i) { return ItemPtr(new Item{i, produce(i)}); };
-  const auto fold = [&](const ItemPtr& item) { consume(item->index, item->result); };
+  // Exceptions must not pass through the pipeline: it forgets what is on its way.
+  const auto work = [&](std::size_t i) {
+    auto item = std::make_shared<Item>(Item{i, std::nullopt, nullptr});
+    try {
+      item->result.emplace(produce(i));
+    } catch (...) {
+      item->error = std::current_exception();
+      failed = true;
+    }
+    return item;
+  };
+  const auto fold = [&](const ItemPtr& item) {
+    if (first_error) return;
+    if (item->error) {
+      first_error = item->error;
+      return;
+    }
+    try {
+      consume(item->index, *item->result);
+    } catch (...) {
+      first_error = std::current_exception();
+      failed = true;
+    }
+  };
   tbb::parallel_pipeline(
       tokens, tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order, number) &
                   tbb::make_filter<std::size_t, ItemPtr>(tbb::filter_mode::parallel, work) &
                   tbb::make_filter<ItemPtr, void>(tbb::filter_mode::serial_in_order, fold));
+  if (first_error) std::rethrow_exception(first_error);
 }
 
 /// As above, always to the end.
