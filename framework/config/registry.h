@@ -20,6 +20,7 @@ struct PluginInfo {
   std::string summary;                    ///< one line of text
   std::string module;                     ///< name of the library that registered it
   std::vector<ParameterInfo> parameters;  ///< in the order of declaration
+  std::vector<std::string> examples;      ///< settings as YAML mappings, see Schema::example
   /// Parses and checks `node`, builds the component, and writes the resolved mapping.
   std::function<std::shared_ptr<Component>(const ConfigNode& node, BuildContext& context,
                                            ConfigNode& resolved)>
@@ -104,6 +105,7 @@ void Registry::add(std::string name, std::string summary) {
                   .summary = std::move(summary),
                   .module = current_module_,
                   .parameters = schema.parameters(),
+                  .examples = schema.examples(),
                   .build = {}};
   info.build = [schema = std::move(schema)](const ConfigNode& node, BuildContext& context,
                                             ConfigNode& resolved) {

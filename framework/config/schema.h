@@ -107,6 +107,13 @@ class Schema {
     return FieldOptions<T>(*info, *checks);
   }
 
+  /// Gives settings worth trying, as a YAML mapping on one line without `type`. The conformance
+  /// suites test a plugin with its defaults and with every example; the documentation shows them. A
+  /// plugin that cannot be built from its defaults needs one. Examples may name the files
+  /// `example.exr` (an image of the sphere of directions), `example.png` and `example.ply`.
+  void example(std::string yaml) { examples_.push_back(std::move(yaml)); }
+  const std::vector<std::string>& examples() const { return examples_; }
+
   std::vector<ParameterInfo> parameters() const {
     std::vector<ParameterInfo> all;
     for (const Field& f : fields_) all.push_back(*f.info);
@@ -153,6 +160,7 @@ class Schema {
   };
 
   std::vector<Field> fields_;
+  std::vector<std::string> examples_;
 };
 
 }  // namespace pharos
