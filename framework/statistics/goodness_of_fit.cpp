@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <bitset>
 #include <cmath>
 #include <numeric>
 #include <vector>
@@ -32,28 +33,49 @@ Point sphere_point(Vec3 d) {
   return {z >= 0 ? near_pole : 2 - near_pole, phi < 0 ? phi + kSphereRectangle.y1 : phi};
 }
 
-/// How much of a cell's extent its draws take up, along x and along y [1].
-Point spread(const Rectangle& area, std::span<const Point> draws) {
-  const auto [x0, x1] =
-      std::minmax_element(draws.begin(), draws.end(), [](Point a, Point b) { return a.x < b.x; });
-  const auto [y0, y1] =
-      std::minmax_element(draws.begin(), draws.end(), [](Point a, Point b) { return a.y < b.y; });
-  return {(x1->x - x0->x) / (area.x1 - area.x0), (y1->y - y0->y) / (area.y1 - area.y0)};
+/// How evenly draws fill a cell: the number of bins of a raster that hold any, over what so many
+/// even draws would be expected to hold. About 1 where they are even, small where they crowd.
+struct Filling {
+  double area = 1;      ///< over a square raster
+  double x = 1, y = 1;  ///< over its columns and rows
+};
+
+Filling filling(const Rectangle& area, std::span<const Point> draws) {
+  constexpr int kBins = 8;
+  std::bitset<kBins> columns, rows;
+  std::bitset<kBins * kBins> raster;
+  const auto bin = [](double low, double high, double at) {
+    const double relative = (at - low) / (high - low);
+    return static_cast<std::size_t>(std::clamp(static_cast<int>(kBins * relative), 0, kBins - 1));
+  };
+  for (const Point& p : draws) {
+    const std::size_t column = bin(area.x0, area.x1, p.x), row = bin(area.y0, area.y1, p.y);
+    columns.set(column);
+    rows.set(row);
+    raster.set(row * kBins + column);
+  }
+  const auto share = [&](std::size_t held, double bins) {
+    const double expected = bins * (1 - std::pow(1 - 1 / bins, static_cast<double>(draws.size())));
+    return static_cast<double>(held) / expected;
+  };
+  return {share(raster.count(), kBins * kBins), share(columns.count(), kBins),
+          share(rows.count(), kBins)};
 }
 
 /// Bisects `area` until a cell holds at most `max_pilot` pilot draws and these fill it roughly: a
-/// cell whose draws crowd in a corner would hide them from quadrature.
+/// cell whose draws crowd in parts of it would hide them from quadrature.
 void bisect(const Rectangle& area, std::span<Point> pilot, std::span<Point> tested,
             std::size_t max_pilot, int depth, std::vector<Cell>& cells) {
-  constexpr double kCrowded = 0.25;
+  constexpr double kCrowded = 0.5;
   constexpr int kMaxDepth = 80;  // both coordinates down to the digits of a float
-  const Point filled = pilot.size() < 2 ? Point{1, 1} : spread(area, pilot);
-  const bool crowded = std::min(filled.x, filled.y) < kCrowded;
-  if (depth == kMaxDepth || (pilot.size() <= max_pilot && !crowded)) {
+  const Filling filled = pilot.size() < 2 ? Filling{} : filling(area, pilot);
+  if (depth == kMaxDepth || (pilot.size() <= max_pilot && filled.area >= kCrowded)) {
     cells.push_back({area, pilot, static_cast<double>(tested.size())});
     return;
   }
-  const bool along_x = filled.x <= filled.y;
+  constexpr double kAlike = 0.1;
+  const bool alike = std::abs(filled.x - filled.y) < kAlike;
+  const bool along_x = alike ? depth % 2 == 0 : filled.x < filled.y;
   const auto [low, high] = bisected(area, along_x);
   const double middle = along_x ? high.x0 : high.y0;
   const auto cut = [&](std::span<Point> points) {

@@ -106,6 +106,30 @@ TEST_CASE("density fit: faults are seen") {
   CHECK(fit_direction_density(draw, half).outside_support > 1000);
 }
 
+TEST_CASE("density fit: scattered supports with sharp edges are integrated whole") {
+  // The square [-1,1]^2 at height h below the origin, uniform over its area: near the horizon it
+  // shows as four spikes about the corners, from the azimuth 0 to 2 pi.
+  std::vector<double> p_values;
+  for (const double height : {0.5, 0.1, 0.03}) {
+    const auto draw = [&](RandomStream& random) -> std::optional<Vec3> {
+      const Vec2 u = random.next_2d();
+      return normalize(Vec3{2 * u.x - 1, 2 * u.y - 1, -static_cast<float>(height)});
+    };
+    const auto density = [&](Vec3 d) -> double {
+      if (d.z >= 0) return 0;
+      const double t = height / -double{d.z};
+      const bool inside = std::abs(t * d.x) < 1 && std::abs(t * d.y) < 1;
+      return inside ? t * t / (4 * -double{d.z}) : 0;
+    };
+    const DensityFit fit = fit_direction_density(draw, density);
+    CAPTURE(height);
+    CHECK(fit.integral == doctest::Approx(1).epsilon(5e-4));
+    CHECK(fit.integral_error < 1e-3);
+    p_values.push_back(fit.chi_square.p_value);
+  }
+  for (const double p : holm_adjusted(p_values)) CHECK(p > 0.01);
+}
+
 TEST_CASE("density fit: draws without a result are part of the test") {
   const Lobe lobe{Frame{}, 3};
   const auto draw = [&](RandomStream& random) -> std::optional<Vec3> {
