@@ -67,7 +67,9 @@ class PreparedPath final : public PreparedIntegrator {
           key.sample = unit.first_sample + i;
           const SampleStream stream(context.sampler, key);
           PathWalk walk(shared_, context, stream, arena, result.counters, recorder);
-          deposit(walk.run(settings_.max_depth), key, result);
+          const PathSample sample = walk.run(settings_.max_depth);
+          if (planted(PlantedFault::zero_samples_dropped) && is_black(sample.radiance)) continue;
+          deposit(sample, key, result);
         }
       }
     }

@@ -10,6 +10,7 @@
 
 #include "path_recorder.h"
 #include "path_settings.h"
+#include "planted_fault.h"
 
 namespace pharos {
 
@@ -186,6 +187,7 @@ class PathWalk {
     } else {
       resolved.medium_density = medium.pass_probability(ray, ray.t_max);
     }
+    if (planted(PlantedFault::distance_density_forgotten)) resolved.medium_density = 1;
     transmittance = medium.transmittance(ray, ray.t_max);
     return true;
   }
@@ -248,7 +250,8 @@ class PathWalk {
   template <class LightPdf>
   void add_light(Rgb radiance, LightPdf&& light_pdf) {
     const bool alone = arrived_discretely_ || !settings_.next_event_estimation;
-    const float weight = alone ? 1.0f : mis_weight(settings_.mis, density_.total, light_pdf());
+    const float own = planted(PlantedFault::mis_without_guide) ? density_.unguided : density_.total;
+    const float weight = alone ? 1.0f : mis_weight(settings_.mis, own, light_pdf());
     radiance_ += weight * throughput_ * radiance;
     recorder_.emission(radiance, weight);
   }
@@ -261,7 +264,9 @@ class PathWalk {
       const int index = shared_.lights.choose(branch, u);
       LightSample light = scene_.lights()[static_cast<std::size_t>(index)]->sample(
           position(), stream_.get_2d({Purpose::light_position, bounce_, branch}));
-      light.pdf *= shared_.lights.probability(index);
+      if (!planted(PlantedFault::light_choice_forgotten)) {
+        light.pdf *= shared_.lights.probability(index);
+      }
       if (light.kind == VertexKind::environment) {
         light.point.position = scene_.environment_point(position(), light.direction);
       }
@@ -348,6 +353,7 @@ class PathWalk {
     const float value = max_component(throughput_) * solid_angle_scale_ / first_throughput_;
     const float survival = std::min(settings_.roulette_limit, value);
     if (stream_.get_1d({Purpose::roulette, bounce_}) >= survival) return std::nullopt;
+    if (planted(PlantedFault::roulette_unweighted)) return step;
     step->value *= 1 / survival;
     step->unguided_weight *= 1 / survival;
     return step;

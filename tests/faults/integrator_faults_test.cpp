@@ -1,0 +1,101 @@
+// The table of faults against furnaces: each fault planted into the integrator turns the tests red
+// that look where it acts, and no others.
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include "../contracts/furnace.h"
+
+namespace pharos::testing {
+namespace {
+
+/// A furnace with an exact answer: the mean of all pixels.
+struct Furnace {
+  std::string name, scene, settings;
+  double answer;
+};
+
+/// A shining square that covers half the height and half the width of what is seen.
+const std::string kCoveredScene = R"(
+scene:
+  shapes:
+    - { type: quad, to_world: [ { scale: 0.5 }, { rotate: { axis: [0, 1, 0], degrees: 180 } }, { translate: [0.1, 0.2, 1] } ],
+        material: { type: diffuse, reflectance: 0 }, emitter: { type: area, radiance: 1 } }
+  sensor: { type: perspective, fov: 90 }
+film: { width: 33, height: 33, filter: box }
+)";
+
+/// Walls that reflect 0.8 and emit 1 show 1 / (1 - 0.8).
+const std::string kRouletteScene = R"(
+scene:
+  materials:
+    wall: { type: diffuse, reflectance: 0.8 }
+  shapes:
+    - { type: sphere, radius: 1, flip_normals: true, material: wall, emitter: { type: area, radiance: 1 } }
+  sensor: { type: perspective, fov: 60, to_world: { translate: [0.2, 0.1, -0.3] } }
+film: { width: 32, height: 32, filter: box }
+)";
+
+std::vector<Furnace> furnaces() {
+  const std::string guiding =
+      "max_depth: 4, guiding: { learner: stub_direction, guider: stub_direction, "
+      "training: { iterations: 3 } }";
+  return {
+      {"unguided", kDiffuseScene, "max_depth: 4", kDiffuseFurnace},
+      {"guided", kDiffuseScene, guiding, kDiffuseFurnace},
+      {"half covered", kCoveredScene, "max_depth: 2", 0.25},
+      {"roulette", kRouletteScene, "max_depth: 200, roulette: throughput, roulette_depth: 2", 5},
+      {"glass in fog", kGlassInFogScene, "max_depth: 100", kGlassInFogFurnace}};
+}
+
+/// Whether a furnace's test is red under a fault.
+bool turns_red(const Furnace& furnace, const std::string& fault) {
+  const std::string config =
+      furnace.scene + fmt::format(
+                          "integrator: {{ type: faulty_path, fault: {}, path: {{ {} }} }}\n"
+                          "sampler: independent\nbudget: {{ spp: 32 }}\n",
+                          fault, furnace.settings);
+  return std::abs(furnace_t(config, furnace.answer)) > kLimit;
+}
+
+void check_row(const std::string& fault, const std::vector<bool>& expected) {
+  const std::vector<Furnace> all = furnaces();
+  REQUIRE(expected.size() == all.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    CAPTURE(fault);
+    CAPTURE(all[i].name);
+    CHECK(turns_red(all[i], fault) == expected[i]);
+  }
+}
+
+constexpr bool red = true;
+constexpr bool green = false;
+
+}  // namespace
+
+//                                       unguided guided covered roulette  fog
+
+TEST_CASE("no fault") {
+  check_row("none", {green, green, green, green, green});
+}
+TEST_CASE("fault: emission is weighted without the guide's density") {
+  check_row("mis_without_guide", {green, red, green, green, green});
+}
+TEST_CASE("fault: samples of value zero are dropped") {
+  check_row("zero_samples_dropped", {green, green, red, green, green});
+}
+TEST_CASE("fault: the probability of the light is forgotten") {
+  check_row("light_choice_forgotten", {red, red, green, green, green});
+}
+TEST_CASE("fault: survivors of roulette are not weighted") {
+  check_row("roulette_unweighted", {green, green, green, red, green});
+}
+TEST_CASE("fault: the density of distances is forgotten") {
+  check_row("distance_density_forgotten", {green, green, green, green, red});
+}
+
+}  // namespace pharos::testing
