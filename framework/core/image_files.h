@@ -1,0 +1,24 @@
+#pragma once
+
+#include <filesystem>
+
+#include <pharos/core/image.h>
+
+namespace pharos {
+
+/// Image files as OpenImageIO reads and writes them: the functions behind image.h. They live in a
+/// library of their own, libpharos_images, that is loaded when the first image is read or written:
+/// OpenImageIO brings some 250 libraries with it, which take longer to load than a small scene.
+struct ImageFiles {
+  Image (*read)(const std::filesystem::path& path, ColorSpace integer_formats);
+  Metadata (*read_metadata)(const std::filesystem::path& path);
+  void (*write_exr)(const Image& image, const std::filesystem::path& path,
+                    const Metadata& metadata);
+  void (*write_png)(const Image& image, const std::filesystem::path& path, float exposure,
+                    bool filmic);
+};
+
+}  // namespace pharos
+
+/// The entry point of libpharos_images.
+extern "C" const pharos::ImageFiles* pharos_image_files();
