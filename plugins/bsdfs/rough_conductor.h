@@ -4,27 +4,18 @@
 #include <pharos/scene/bsdf.h>
 #include <pharos/scene/texture.h>
 
+#include "metals.h"
 #include "microfacet.h"
 
 namespace pharos {
 
-/// How masking towards the sensor and shadowing towards the light go together.
-enum class Masking {
-  height_correlated,  ///< facets that are high are seen and lit more often (Heitz 2014)
-  separable,          ///< as if independent: darker, as older renderers have it
-};
-template <>
-struct EnumNames<Masking> {
-  static constexpr std::array<std::pair<std::string_view, Masking>, 2> names{
-      {{"height_correlated", Masking::height_correlated}, {"separable", Masking::separable}}};
-};
-
+/// See rough_conductor.cpp.
 class RoughConductor final : public Bsdf {
  public:
   struct Settings {
     float alpha = 0.1f;
-    Rgb eta{0.20f, 0.92f, 1.10f};
-    Rgb k{3.90f, 2.45f, 2.14f};
+    std::optional<Metal> material;
+    std::optional<Rgb> eta, k;
     Masking masking = Masking::height_correlated;
     Ref<Texture> specular_reflectance;
     static void describe(Schema<Settings>& s);
@@ -48,6 +39,7 @@ class RoughConductor final : public Bsdf {
   Reflection reflect(const SurfacePoint& point, Vec3 wo, Vec3 wi) const;
 
   Settings settings_;
+  ComplexIor ior_;
   GgxDistribution facets_;
   Rgb average_fresnel_;  ///< over the hemisphere, approximately [1]
 };

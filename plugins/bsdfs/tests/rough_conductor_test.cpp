@@ -10,11 +10,9 @@
 namespace pharos {
 namespace {
 
-/// A metal that reflects everything: the Fresnel term of a huge k is one.
 RoughConductor mirror_metal(float alpha, Masking masking) {
   return RoughConductor({.alpha = alpha,
-                         .eta = Rgb(1),
-                         .k = Rgb(1e4f),
+                         .material = Metal::ideal,
                          .masking = masking,
                          .specular_reflectance = test::uniform(Rgb(1))});
 }
@@ -38,13 +36,14 @@ TEST_CASE("rough conductor: the textbook formula") {
   const SurfacePoint point;
   const Vec3 wo = test::direction(35, 20), wi = test::direction(55, 130);
   const Vec3 m = normalize(wo + wi);
+  const ComplexIor copper = metal_ior(Metal::Cu);  // nothing else is stated
   for (const float alpha : {0.1f, 0.5f, 1.0f}) {
     const RoughConductor::Settings defaults{.alpha = alpha,
                                             .specular_reflectance = test::uniform(Rgb(0.9f))};
     RoughConductor::Settings separable = defaults;
     separable.masking = Masking::separable;
     const double lo = lambda(wo, alpha), li = lambda(wi, alpha);
-    const double fresnel = conductor_fresnel(dot(wo, m), defaults.eta.g, defaults.k.g);
+    const double fresnel = conductor_fresnel(dot(wo, m), copper.eta.g, copper.k.g);
     const double common = 0.9 * fresnel * ggx(m, alpha) / (4 * wo.z);
     CHECK(RoughConductor(defaults).evaluate(point, wo, wi, {}).value.g ==
           doctest::Approx(common / (1 + lo + li)).epsilon(1e-4));

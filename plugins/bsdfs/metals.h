@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include <pharos/config/schema.h>
+#include <pharos/core/rgb.h>
+
+namespace pharos {
+
+/// What a metal's surface may be made of. See metals.cpp for where the numbers come from.
+enum class Metal { Ag, Al, Au, Cr, Cu, Fe, Ni, Ti, ideal };
+template <>
+struct EnumNames<Metal> {
+  static constexpr std::array<std::pair<std::string_view, Metal>, 9> names{
+      {{"Ag", Metal::Ag},
+       {"Al", Metal::Al},
+       {"Au", Metal::Au},
+       {"Cr", Metal::Cr},
+       {"Cu", Metal::Cu},
+       {"Fe", Metal::Fe},
+       {"Ni", Metal::Ni},
+       {"Ti", Metal::Ti},
+       {"ideal", Metal::ideal}}};
+};
+
+/// A complex index of refraction eta - i k relative to vacuum, in linear Rec.709 channels.
+struct ComplexIor {
+  Rgb eta, k;
+};
+
+/// The index of `metal`; the ideal one reflects everything at every angle.
+ComplexIor metal_ior(Metal metal);
+
+/// The index that the parameters of describe_metal() state: that of a named metal, or `eta` and `k`
+/// together, or copper when nothing is given. Throws InputError for any other combination.
+ComplexIor stated_ior(std::optional<Metal> material, std::optional<Rgb> eta, std::optional<Rgb> k);
+
+/// Mean reflectance over the cosine-weighted hemisphere of incident directions [1], approximately.
+Rgb average_conductor_fresnel(const ComplexIor& ior);
+
+/// Declares the parameters `material`, `eta` and `k` of a BSDF of metal.
+template <class Settings>
+void describe_metal(Schema<Settings>& s) {
+  s.field("material", &Settings::material, "Measured metal; Cu where neither it nor eta, k stand");
+  s.field("eta", &Settings::eta, "Real part of the refractive index, with k instead of material")
+      .above(0);
+  s.field("k", &Settings::k, "Imaginary part of the refractive index, with eta").at_least(0);
+}
+
+}  // namespace pharos
