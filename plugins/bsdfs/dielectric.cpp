@@ -1,48 +1,57 @@
 // dielectric: the smooth interface of a clear medium. Light is mirrored with the share F of
 // Fresnel's equations and refracted by Snell's law with 1 - F. Along paths from the sensor
 // refracted values carry (n_o / n_i)^2, the invariance of radiance over n^2 (Veach 1997, eq. 5.13),
-// so that going in and out again changes nothing. The normal points outside.
+// so that going in and out again changes nothing. The normal points outside. The two factors tint
+// what goes either way; which way is chosen by F alone.
 //
-//     { type: dielectric, ior: 1.5 }
+//     { type: dielectric, ior: 1.5, specular_transmittance: [0.9, 1, 0.95] }
 #include "dielectric.h"
 
+#include "discrete_choice.h"
 #include "fresnel.h"
+#include "specular_factor.h"
 
 namespace pharos {
 
 void Dielectric::Settings::describe(Schema<Settings>& s) {
   s.field("ior", &Settings::ior, "Refractive index inside over outside").above(0);
+  describe_factor(s, "specular_reflectance", &Settings::specular_reflectance,
+                  "Factor on what is reflected");
+  describe_factor(s, "specular_transmittance", &Settings::specular_transmittance,
+                  "Factor on what is refracted");
+  s.example("{ ior: 0.75 }");
+  s.example("{ ior: 2.4, specular_reflectance: 0.9, specular_transmittance: [0.2, 0.7, 1] }");
 }
 
-DiscreteOutcomes Dielectric::discrete(const SurfacePoint&, Vec3 wo, ScatterOptions options) const {
-  DiscreteOutcomes outcomes;
-  if (wo.z == 0) return outcomes;
-  const float eta = wo.z > 0 ? ior_ : 1 / ior_;
+Dielectric::Dielectric(const Settings& settings)
+    : settings_(settings), average_fresnel_(average_dielectric_fresnel(settings.ior)) {}
+
+DiscreteOutcomes Dielectric::discrete(const SurfacePoint& point, Vec3 wo,
+                                      ScatterOptions options) const {
+  if (wo.z == 0) return {};
+  const float eta = wo.z > 0 ? settings_.ior : 1 / settings_.ior;
   const DielectricFresnel fresnel = dielectric_fresnel(std::min(1.0f, std::abs(wo.z)), eta);
   const float reflected = fresnel.reflectance, transmitted = 1 - fresnel.reflectance;
-  const bool reflects = reflected > 0 && contains(options.events, Event::discrete_reflect);
-  const bool transmits = transmitted > 0 && contains(options.events, Event::discrete_transmit);
-  if (reflects) {
-    outcomes.add(
-        {Event::discrete_reflect, {-wo.x, -wo.y, wo.z}, Rgb(reflected), transmits ? reflected : 1});
-  }
-  if (transmits) {
-    const Vec3 refracted{-wo.x / eta, -wo.y / eta, std::copysign(fresnel.cos_transmitted, -wo.z)};
-    const float scale = options.transport == Transport::radiance ? 1 / (eta * eta) : 1;
-    outcomes.add({Event::discrete_transmit, normalize(refracted), Rgb(scale * transmitted),
-                  reflects ? transmitted : 1});
-  }
-  return outcomes;
+  const Vec3 refracted{-wo.x / eta, -wo.y / eta, std::copysign(fresnel.cos_transmitted, -wo.z)};
+  const float scale = options.transport == Transport::radiance ? 1 / (eta * eta) : 1;
+  return allowed_outcomes(
+      {Event::discrete_reflect,
+       {-wo.x, -wo.y, wo.z},
+       reflected * settings_.specular_reflectance->evaluate(point),
+       reflected},
+      {Event::discrete_transmit, normalize(refracted),
+       scale * transmitted * settings_.specular_transmittance->evaluate(point), transmitted},
+      options.events);
 }
 
 std::optional<ScatterSample> Dielectric::sample(const SurfacePoint& point, Vec3 wo, float u_choice,
                                                 Vec2, ScatterOptions options) const {
-  const DiscreteOutcomes all = discrete(point, wo, options);
-  if (all.count == 0) return {};
-  const bool first = all.count == 1 || u_choice < all.outcomes[0].probability;
-  const DiscreteOutcome& chosen = all.outcomes[first ? 0 : 1];
-  return ScatterSample{chosen.direction, chosen.event, chosen.value / chosen.probability,
-                       chosen.probability};
+  return draw_outcome(discrete(point, wo, options), u_choice);
+}
+
+Rgb Dielectric::albedo(const SurfacePoint& point) const {
+  return average_fresnel_ * settings_.specular_reflectance->evaluate(point) +
+         (1 - average_fresnel_) * settings_.specular_transmittance->evaluate(point);
 }
 
 }  // namespace pharos

@@ -2,16 +2,19 @@
 
 #include <pharos/config/schema.h>
 #include <pharos/scene/bsdf.h>
+#include <pharos/scene/texture.h>
 
 namespace pharos {
 
+/// See dielectric.cpp.
 class Dielectric final : public Bsdf {
  public:
   struct Settings {
     float ior = 1.5f;
+    Ref<Texture> specular_reflectance, specular_transmittance;
     static void describe(Schema<Settings>& s);
   };
-  explicit Dielectric(const Settings& settings) : ior_(settings.ior) {}
+  explicit Dielectric(const Settings& settings);
 
   EventMask events() const override {
     return mask_of(Event::discrete_reflect) | mask_of(Event::discrete_transmit);
@@ -24,11 +27,12 @@ class Dielectric final : public Bsdf {
   DiscreteOutcomes discrete(const SurfacePoint& point, Vec3 wo,
                             ScatterOptions options) const override;
   float roughness(const SurfacePoint&) const override { return 0; }
-  float relative_ior() const override { return 1 / ior_; }
-  Rgb albedo(const SurfacePoint&) const override { return Rgb(1); }
+  float relative_ior() const override { return 1 / settings_.ior; }
+  Rgb albedo(const SurfacePoint& point) const override;
 
  private:
-  float ior_;  ///< inside over outside
+  Settings settings_;
+  float average_fresnel_;  ///< over the outer hemisphere [1]
 };
 
 }  // namespace pharos

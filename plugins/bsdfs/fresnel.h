@@ -27,6 +27,18 @@ inline DielectricFresnel dielectric_fresnel(float cos_incident, float eta) {
   return {0.5f * (s * s + p * p), cos_transmitted};
 }
 
+/// Mean of dielectric_fresnel over the cosine-weighted hemisphere of incident directions [1].
+inline float average_dielectric_fresnel(float eta) {
+  constexpr int kPoints = 64;
+  float sum = 0;
+  for (int i = 0; i < kPoints; ++i) {
+    // The square of the cosine is uniform.
+    const float cos_squared = (static_cast<float>(i) + 0.5f) / kPoints;
+    sum += dielectric_fresnel(std::sqrt(cos_squared), eta).reflectance;
+  }
+  return sum / kPoints;
+}
+
 /// Exact reflectance [1] of a conductor of complex index eta - i k seen from vacuum, unpolarised;
 /// `cos_incident` in [0, 1]. Real-valued form of the Fresnel equations with
 /// n_t cos_t = a - i b (Born and Wolf 1999, section 14.2).

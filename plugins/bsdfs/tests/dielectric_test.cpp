@@ -17,6 +17,12 @@ namespace {
 constexpr EventMask kReflect = EventMask::reflect;
 constexpr EventMask kTransmit = EventMask::transmit;
 
+Dielectric clear(float ior) {
+  return Dielectric({.ior = ior,
+                     .specular_reflectance = test::uniform(Rgb(1)),
+                     .specular_transmittance = test::uniform(Rgb(1))});
+}
+
 const DiscreteOutcome& outcome(const DiscreteOutcomes& all, Event event) {
   for (const DiscreteOutcome& o : all) {
     if (o.event == event) return o;
@@ -28,7 +34,7 @@ const DiscreteOutcome& outcome(const DiscreteOutcomes& all, Event event) {
 }  // namespace
 
 TEST_CASE("dielectric: directions") {
-  const Dielectric glass({.ior = 1.5f});
+  const Dielectric glass = clear(1.5f);
   const Vec3 wo = test::direction(30, 40);
   const DiscreteOutcomes all = glass.discrete({}, wo, {});
   REQUIRE(all.count == 2);
@@ -41,7 +47,7 @@ TEST_CASE("dielectric: directions") {
 }
 
 TEST_CASE("dielectric: energy, and the factor of compressed solid angle") {
-  const Dielectric glass({.ior = 1.5f});
+  const Dielectric glass = clear(1.5f);
   for (const double theta : {0.0, 30.0, 70.0, 89.0, 100.0, 150.0, 180.0}) {
     CAPTURE(theta);
     const Vec3 wo = test::direction(theta, -60);
@@ -61,7 +67,7 @@ TEST_CASE("dielectric: energy, and the factor of compressed solid angle") {
 }
 
 TEST_CASE("dielectric: through a slab and out again") {
-  const Dielectric glass({.ior = 1.7f});
+  const Dielectric glass = clear(1.7f);
   const Vec3 wo = test::direction(50, 10);
   for (const Transport transport : {Transport::radiance, Transport::importance}) {
     const auto in = glass.sample({}, wo, 0, {}, {transport, kTransmit});
@@ -82,7 +88,7 @@ TEST_CASE("dielectric: through a slab and out again") {
 }
 
 TEST_CASE("dielectric: conditioning on events") {
-  const Dielectric glass({.ior = 1.5f});
+  const Dielectric glass = clear(1.5f);
   for (const double theta : {10.0, 85.0, 120.0, 175.0}) {
     const Vec3 wo = test::direction(theta, 0);
     for (const EventMask mask : {EventMask::all, kReflect, kTransmit, EventMask::discrete}) {
@@ -104,7 +110,7 @@ TEST_CASE("dielectric: conditioning on events") {
 }
 
 TEST_CASE("dielectric: total internal reflection") {
-  const Dielectric glass({.ior = 1.5f});
+  const Dielectric glass = clear(1.5f);
   const Vec3 wo = test::direction(120, 0);  // inside, 60 degrees from the normal
   CHECK(glass.discrete({}, wo, {}).count == 1);
   const auto s = glass.sample({}, wo, 0.999f, {}, {});
@@ -116,7 +122,7 @@ TEST_CASE("dielectric: total internal reflection") {
 }
 
 TEST_CASE("dielectric: events come with their probabilities") {
-  const Dielectric glass({.ior = 1.5f});
+  const Dielectric glass = clear(1.5f);
   RandomStream random(11);
   constexpr int kSamples = 100'000;
   std::vector<double> p_values;
@@ -134,15 +140,34 @@ TEST_CASE("dielectric: events come with their probabilities") {
   for (const double p : statistics::holm_adjusted(p_values)) CHECK(p > 0.01);
 }
 
+TEST_CASE("dielectric: factors tint either way and leave the choice to Fresnel") {
+  const Rgb mirrored{0.9f, 0.5f, 0}, refracted{0.1f, 1, 0.3f};
+  const Dielectric tinted({.ior = 1.5f,
+                           .specular_reflectance = test::uniform(mirrored),
+                           .specular_transmittance = test::uniform(refracted)});
+  const Vec3 wo = test::direction(75, 20);
+  const DiscreteOutcomes plain = clear(1.5f).discrete({}, wo, {}),
+                         all = tinted.discrete({}, wo, {});
+  REQUIRE(all.count == 2);
+  for (int i = 0; i < 2; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    CHECK(all.outcomes[k].probability == plain.outcomes[k].probability);
+    CHECK(all.outcomes[k].value == plain.outcomes[k].value * (i == 0 ? mirrored : refracted));
+  }
+  test::check_samples(tinted, wo, {});
+  // The mean over the hemisphere of glass of index 1.5 is 0.0918.
+  CHECK(tinted.albedo({}).r == doctest::Approx(0.0918 * 0.9 + 0.9082 * 0.1).epsilon(5e-3));
+}
+
 TEST_CASE("dielectric: index-matched and level directions") {
-  const Dielectric air({.ior = 1});
+  const Dielectric air = clear(1);
   const Vec3 wo = test::direction(70, 0);
   const auto s = air.sample({}, wo, 0, {}, {});
   REQUIRE(s);
   CHECK(s->event == Event::discrete_transmit);
   CHECK(s->weight.g == doctest::Approx(1));
   CHECK(length(s->direction + wo) < 1e-6f);
-  const Dielectric glass({.ior = 1.5f});
+  const Dielectric glass = clear(1.5f);
   CHECK(glass.discrete({}, {1, 0, 0}, {}).count == 0);
   CHECK_FALSE(glass.sample({}, {1, 0, 0}, 0.5f, {}, {}));
   CHECK(glass.relative_ior() == doctest::Approx(1 / 1.5));

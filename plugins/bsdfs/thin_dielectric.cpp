@@ -1,0 +1,70 @@
+// thin_dielectric: a clear pane so thin that both of its faces are one surface, such as a window or
+// a soap film, the same medium on either side. With F by Fresnel's equations at each face, light
+// goes to and fro between them; the sum over all ways is
+//
+//     reflected  F + (1 - F)^2 F (1 + F^2 + F^4 + ...) = 2 F / (1 + F),
+//     transmitted   (1 - F)^2   (1 + F^2 + F^4 + ...) = (1 - F) / (1 + F)
+//
+// (Stokes 1862 for piles of plates; without interference). What is transmitted goes straight on,
+// undisplaced: the event is `pass_through`, with which shading normals have nothing to do.
+//
+//     { type: thin_dielectric, ior: 1.5, specular_transmittance: [0.9, 1, 0.95] }
+#include "thin_dielectric.h"
+
+#include "discrete_choice.h"
+#include "fresnel.h"
+#include "specular_factor.h"
+
+namespace pharos {
+namespace {
+
+/// What a pane reflects, given what one of its faces does [1].
+float with_interreflection(float fresnel) {
+  return 2 * fresnel / (1 + fresnel);
+}
+
+}  // namespace
+
+void ThinDielectric::Settings::describe(Schema<Settings>& s) {
+  s.field("ior", &Settings::ior, "Refractive index of the pane over its surroundings").above(0);
+  describe_factor(s, "specular_reflectance", &Settings::specular_reflectance,
+                  "Factor on what is reflected");
+  describe_factor(s, "specular_transmittance", &Settings::specular_transmittance,
+                  "Factor on what is transmitted");
+  s.example("{ ior: 0.75 }");
+  s.example("{ ior: 1.33, specular_reflectance: 0.9, specular_transmittance: [0.2, 0.7, 1] }");
+}
+
+ThinDielectric::ThinDielectric(const Settings& settings)
+    : settings_(settings),
+      average_reflected_(with_interreflection(average_dielectric_fresnel(settings.ior))) {}
+
+DiscreteOutcomes ThinDielectric::discrete(const SurfacePoint& point, Vec3 wo,
+                                          ScatterOptions options) const {
+  if (wo.z == 0) return {};
+  const float cosine = std::min(1.0f, std::abs(wo.z));
+  const float reflected =
+      with_interreflection(dielectric_fresnel(cosine, settings_.ior).reflectance);
+  const float transmitted = 1 - reflected;
+  return allowed_outcomes(
+      {Event::discrete_reflect,
+       {-wo.x, -wo.y, wo.z},
+       reflected * settings_.specular_reflectance->evaluate(point),
+       reflected},
+      {Event::pass_through, -wo, transmitted * settings_.specular_transmittance->evaluate(point),
+       transmitted},
+      options.events);
+}
+
+std::optional<ScatterSample> ThinDielectric::sample(const SurfacePoint& point, Vec3 wo,
+                                                    float u_choice, Vec2,
+                                                    ScatterOptions options) const {
+  return draw_outcome(discrete(point, wo, options), u_choice);
+}
+
+Rgb ThinDielectric::albedo(const SurfacePoint& point) const {
+  return average_reflected_ * settings_.specular_reflectance->evaluate(point) +
+         (1 - average_reflected_) * settings_.specular_transmittance->evaluate(point);
+}
+
+}  // namespace pharos
