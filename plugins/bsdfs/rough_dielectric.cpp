@@ -1,0 +1,154 @@
+// rough_dielectric: frosted glass, the interface of a clear medium made of GGX microfacets (Walter
+// et al. 2007, eqs. 20 and 21),
+//
+//     reflected   f = F(o.m) D(m) G2(o, i) / (4 cos(o) cos(i)),      m ~ o + i,
+//     refracted   f = (1 - F(o.m)) D(m) G2(o, i) |o.m| |i.m|
+//                     / (cos(o) cos(i) |o + eta i|^2),               m ~ -+(o + eta i),
+//
+// where eta is the index on the side of i over that on the side of o; this is for paths from the
+// sensor, paths from a light carry another eta^2 (conventions.md). Facets are drawn among those
+// visible from o, then F chooses the way; a set of allowed events conditions that choice alone.
+// What bounces between facets is lost, as usual. `masking: separable` is the product G1(o) G1(i) of
+// Walter et al., Mitsuba 0.6 among the renderers that have it.
+//
+// The nearer `ior` comes to one, the narrower is the refracted lobe, and at one it is a single
+// direction: alpha |ior - 1| of less than 1e-5, where single precision no longer resolves it, is
+// refused. `dielectric` and surfaces without material take over there.
+//
+//     { type: rough_dielectric, alpha: 0.2, ior: 1.5 }
+#include "rough_dielectric.h"
+
+#include <fmt/core.h>
+
+#include <pharos/core/error.h>
+
+#include "fresnel.h"
+#include "specular_factor.h"
+
+namespace pharos {
+namespace {
+
+/// Probability that a facet of reflectance `fresnel` mirrors, in a choice among `allowed` events.
+float reflect_probability(float fresnel, EventMask allowed) {
+  if (!contains(allowed, Event::smooth_reflect)) return 0;
+  return contains(allowed, Event::smooth_transmit) ? fresnel : 1;
+}
+/// The same for refraction.
+float refract_probability(float fresnel, EventMask allowed) {
+  if (!contains(allowed, Event::smooth_transmit)) return 0;
+  return contains(allowed, Event::smooth_reflect) ? 1 - fresnel : 1;
+}
+
+/// `w` as seen when `wo` is turned to lie above.
+Vec3 turned(Vec3 w, Vec3 wo) {
+  return {w.x, w.y, wo.z > 0 ? w.z : -w.z};
+}
+
+}  // namespace
+
+void RoughDielectric::Settings::describe(Schema<Settings>& s) {
+  s.field("alpha", &Settings::alpha, "GGX roughness").at_least(1e-4).at_most(1);
+  s.field("ior", &Settings::ior, "Refractive index inside over outside").above(0);
+  s.field("masking", &Settings::masking, "How masking and shadowing are combined");
+  describe_factor(s, "specular_reflectance", &Settings::specular_reflectance,
+                  "Factor on what is reflected");
+  describe_factor(s, "specular_transmittance", &Settings::specular_transmittance,
+                  "Factor on what is refracted");
+  s.example("{ alpha: 0.02, ior: 1.33 }");
+  s.example("{ alpha: 0.3, ior: 0.66, masking: separable }");
+  s.example(
+      "{ alpha: 1, ior: 2.4, specular_reflectance: 0.8, specular_transmittance: [0.2, 0.7, 1] }");
+  s.example("{ alpha: 0.2, ior: 1.02 }");
+}
+
+RoughDielectric::RoughDielectric(const Settings& settings)
+    : settings_(settings),
+      facets_(settings.alpha),
+      average_fresnel_(average_dielectric_fresnel(settings.ior)) {
+  constexpr float kNarrowest = 1e-5f;
+  const float width = settings.alpha * std::abs(settings.ior - 1);
+  if (!(width >= kNarrowest)) {
+    throw InputError(
+        fmt::format("rough_dielectric: alpha * |ior - 1| must be at least {:g}, got "
+                    "{:g}; dielectric is the limit",
+                    kNarrowest, width));
+  }
+}
+
+ScatterValue RoughDielectric::evaluate(const SurfacePoint& point, Vec3 wo, Vec3 wi,
+                                       ScatterOptions options) const {
+  if (wo.z == 0 || wi.z == 0) return {};
+  const Scattering s = scatter(point, turned(wo, wo), turned(wi, wo), eta_beyond(wo), options);
+  return {s.pdf * s.weight, s.pdf};
+}
+
+std::optional<ScatterSample> RoughDielectric::sample(const SurfacePoint& point, Vec3 wo,
+                                                     float u_choice, Vec2 u,
+                                                     ScatterOptions options) const {
+  if (wo.z == 0) return {};
+  const float eta = eta_beyond(wo);
+  const Vec3 above = turned(wo, wo);
+  const Vec3 m = facets_.sample_visible_normal(above, u);
+  const float cosine = std::clamp(dot(above, m), 0.0f, 1.0f);
+  const DielectricFresnel fresnel = dielectric_fresnel(cosine, eta);
+  const bool reflects = u_choice < reflect_probability(fresnel.reflectance, options.events);
+  if (!reflects && fresnel.reflectance == 1) return {};  // total reflection, which is not allowed
+  const Vec3 wi = normalize(reflects ? 2 * cosine * m - above
+                                     : (cosine / eta - fresnel.cos_transmitted) * m - above / eta);
+  // A facet may send light to where the surface as a whole is in the way.
+  if (reflects ? !(wi.z > 0) : !(wi.z < 0)) return {};
+  const Scattering s = scatter(point, above, wi, eta, options);
+  if (s.pdf == 0) return {};
+  return ScatterSample{turned(wi, wo), reflects ? Event::smooth_reflect : Event::smooth_transmit,
+                       s.weight, s.pdf};
+}
+
+RoughDielectric::Scattering RoughDielectric::scatter(const SurfacePoint& point, Vec3 wo, Vec3 wi,
+                                                     float eta, ScatterOptions options) const {
+  return wi.z > 0 ? reflect(point, wo, wi, eta, options.events)
+                  : refract(point, wo, wi, eta, options);
+}
+
+RoughDielectric::Scattering RoughDielectric::reflect(const SurfacePoint& point, Vec3 wo, Vec3 wi,
+                                                     float eta, EventMask events) const {
+  const Vec3 half = wo + wi;
+  const float squared = length_squared(half);
+  // Both directions so nearly level and opposite that no digit of the half vector is left.
+  constexpr float kDegenerate = 1e-12f;
+  if (squared < kDegenerate) return {};
+  const Vec3 m = half / std::sqrt(squared);
+  const float fresnel = dielectric_fresnel(std::min(1.0f, dot(wo, m)), eta).reflectance;
+  const float probability = reflect_probability(fresnel, events);
+  if (probability == 0) return {};
+  const float share = fresnel / probability * facets_.shadowing(wo, wi, settings_.masking);
+  return {share * settings_.specular_reflectance->evaluate(point),
+          probability * facets_.visible_reflection_pdf(wo, m)};
+}
+
+RoughDielectric::Scattering RoughDielectric::refract(const SurfacePoint& point, Vec3 wo, Vec3 wi,
+                                                     float eta, ScatterOptions options) const {
+  // The facet's normal lies on the side of the smaller index; before it is scaled its length is
+  // |o.m + eta i.m|.
+  const Vec3 normal = eta > 1 ? -(wo + eta * wi) : wo + eta * wi;
+  const float squared = length_squared(normal);
+  const Vec3 m = normal / std::sqrt(squared);
+  const float cos_o = dot(wo, m), cos_i = -dot(wi, m);
+  if (!(m.z > 0 && cos_o > 0 && cos_i > 0)) return {};
+  // From the thinner side, where cosines near total reflection are small and keep their digits.
+  const float fresnel = eta > 1 ? dielectric_fresnel(std::min(1.0f, cos_o), eta).reflectance
+                                : dielectric_fresnel(std::min(1.0f, cos_i), 1 / eta).reflectance;
+  const float probability = refract_probability(fresnel, options.events);
+  if (probability == 0) return {};
+  const float jacobian = eta * eta * cos_i / squared;  // of m by i (Walter et al. 2007, eq. 17)
+  const float scale = options.transport == Transport::radiance ? 1 / (eta * eta) : 1;
+  const float share = (1 - fresnel) / probability * facets_.shadowing(wo, wi, settings_.masking);
+  return {scale * share * settings_.specular_transmittance->evaluate(point),
+          probability * facets_.visible_normal_pdf(wo, m) * jacobian};
+}
+
+Rgb RoughDielectric::albedo(const SurfacePoint& point) const {
+  return average_fresnel_ * settings_.specular_reflectance->evaluate(point) +
+         (1 - average_fresnel_) * settings_.specular_transmittance->evaluate(point);
+}
+
+}  // namespace pharos
