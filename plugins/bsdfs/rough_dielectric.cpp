@@ -12,7 +12,7 @@
 // Walter et al., Mitsuba 0.6 among the renderers that have it.
 //
 // The nearer `ior` comes to one, the narrower is the refracted lobe, and at one it is a single
-// direction: alpha |ior - 1| of less than 1e-5, where single precision no longer resolves it, is
+// direction: alpha |ior - 1| of less than 3e-5, where single precision no longer resolves it, is
 // refused. `dielectric` and surfaces without material take over there.
 //
 //     { type: rough_dielectric, alpha: 0.2, ior: 1.5 }
@@ -65,7 +65,7 @@ RoughDielectric::RoughDielectric(const Settings& settings)
     : settings_(settings),
       facets_(settings.alpha),
       average_fresnel_(average_dielectric_fresnel(settings.ior)) {
-  constexpr float kNarrowest = 1e-5f;
+  constexpr float kNarrowest = 3e-5f;
   const float width = settings.alpha * std::abs(settings.ior - 1);
   if (!(width >= kNarrowest)) {
     throw InputError(
