@@ -70,12 +70,12 @@ TEST_CASE("metals: the colours of their spectra in daylight") {
       {Metal::Au, {1.035f, 0.730f, 0.364f}}, {Metal::Cr, {0.550f, 0.556f, 0.554f}},
       {Metal::Cu, {0.929f, 0.624f, 0.522f}}, {Metal::Fe, {0.529f, 0.513f, 0.494f}},
       {Metal::Ni, {0.696f, 0.641f, 0.563f}}, {Metal::Ti, {0.618f, 0.580f, 0.542f}}};
-  for (const auto& [metal, spectral] : colours) {
-    CAPTURE(static_cast<int>(metal));
-    const Rgb found = normal_reflectance(metal);
+  for (const Colour& colour : colours) {
+    CAPTURE(static_cast<int>(colour.metal));
+    const Rgb found = normal_reflectance(colour.metal);
     for (int c = 0; c < 3; ++c) {
-      const bool gold_red = metal == Metal::Au && c == 0;
-      CHECK(std::abs(found[c] - spectral[c]) < (gold_red ? 0.06f : 0.013f));
+      const bool gold_red = colour.metal == Metal::Au && c == 0;
+      CHECK(std::abs(found[c] - colour.spectral[c]) < (gold_red ? 0.06f : 0.013f));
       CHECK(found[c] < 1);
     }
   }
@@ -90,9 +90,9 @@ TEST_CASE("metals: the ideal one reflects everything at every angle") {
 }
 
 TEST_CASE("metals: the mean over the hemisphere") {
-  for (const auto& [name, metal] : EnumNames<Metal>::names) {
-    CAPTURE(name);
-    const ComplexIor ior = metal_ior(metal);
+  for (const auto& entry : EnumNames<Metal>::names) {
+    CAPTURE(entry.first);
+    const ComplexIor ior = metal_ior(entry.second);
     double sum = 0;
     constexpr int kPoints = 1000;  // of the squared cosine, which is uniform
     for (int i = 0; i < kPoints; ++i) {
