@@ -90,7 +90,7 @@ TEST_CASE("one file knows yaml-cpp, one knows Embree, one OpenImageIO") {
     const std::string file = include.file.generic_string();
     if (starts_with(include.name, "yaml-cpp/")) CHECK(file == "framework/config/yaml.cpp");
     if (starts_with(include.name, "embree")) CHECK(file == "framework/scene/accelerator.cpp");
-    if (starts_with(include.name, "OpenImageIO/")) CHECK(file == "framework/core/image.cpp");
+    if (starts_with(include.name, "OpenImageIO/")) CHECK(file == "framework/core/image_files.cpp");
   }
 }
 
