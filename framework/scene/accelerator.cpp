@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <new>
 #include <string>
@@ -17,6 +19,8 @@ namespace {
 
 #if PHAROS_EMBREE_MAJOR >= 4
 
+using QueryContext = RTCRayQueryContext;
+
 void find_nearest(RTCScene scene, RTCRayHit& query) {
   RTCIntersectArguments arguments;
   rtcInitIntersectArguments(&arguments);
@@ -30,6 +34,8 @@ void find_any(RTCScene scene, RTCRay& query) {
 }
 
 #else
+
+using QueryContext = RTCIntersectContext;
 
 void find_nearest(RTCScene scene, RTCRayHit& query) {
   RTCIntersectContext context;
@@ -63,6 +69,24 @@ Ray from_embree(const RTCRay& r) {
   return {{r.org_x, r.org_y, r.org_z}, {r.dir_x, r.dir_y, r.dir_z}, r.tfar};
 }
 
+/// Within an instance directions are not of unit length, though shapes rely on it; distances are
+/// then `scale` times Embree's.
+struct ShapeRay {
+  Ray ray;
+  float scale;
+};
+
+ShapeRay shape_ray(const RTCRay& query, const QueryContext& context) {
+  Ray ray = from_embree(query);
+  if (context.instID[0] == RTC_INVALID_GEOMETRY_ID) return {ray, 1};
+  const double size = std::hypot(double{query.dir_x}, double{query.dir_y}, double{query.dir_z});
+  const auto scaled = [&](float v) { return static_cast<float>(v / size); };
+  ray.direction = {scaled(query.dir_x), scaled(query.dir_y), scaled(query.dir_z)};
+  const float scale = static_cast<float>(size);
+  ray.t_max *= scale;
+  return {ray, scale};
+}
+
 void analytic_bounds(const RTCBoundsFunctionArguments* args) {
   const Bounds3 b =
       static_cast<const Shape*>(args->geometryUserPtr)->primitive_bounds(args->primID);
@@ -75,8 +99,9 @@ void analytic_intersect(const RTCIntersectFunctionNArguments* args) {
   auto& query = *reinterpret_cast<RTCRayHit*>(args->rayhit);
   PrimitiveHit hit;
   const auto* shape = static_cast<const Shape*>(args->geometryUserPtr);
-  if (!shape->intersect(from_embree(query.ray), args->primID, hit)) return;
-  query.ray.tfar = hit.t;
+  const ShapeRay local = shape_ray(query.ray, *args->context);
+  if (!shape->intersect(local.ray, args->primID, hit)) return;
+  query.ray.tfar = std::min(hit.t / local.scale, query.ray.tfar);
   query.hit.u = hit.coordinates.x;
   query.hit.v = hit.coordinates.y;
   query.hit.primID = args->primID;
@@ -89,7 +114,8 @@ void analytic_occluded(const RTCOccludedFunctionNArguments* args) {
   auto& query = *reinterpret_cast<RTCRay*>(args->ray);
   PrimitiveHit hit;
   const auto* shape = static_cast<const Shape*>(args->geometryUserPtr);
-  if (shape->intersect(from_embree(query), args->primID, hit)) query.tfar = -kInfinity;
+  const ShapeRay local = shape_ray(query, *args->context);
+  if (shape->intersect(local.ray, args->primID, hit)) query.tfar = -kInfinity;
 }
 
 RTCGeometry mesh_geometry(RTCDevice device, const TriangleMesh& mesh) {
@@ -119,6 +145,29 @@ RTCGeometry analytic_geometry(RTCDevice device, const Shape& shape) {
   return geometry;
 }
 
+RTCGeometry instance_geometry(RTCDevice device, RTCScene group, const Transform& to_world) {
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
+  rtcSetGeometryInstancedScene(geometry, group);
+  rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_ROW_MAJOR, to_world.matrix().data());
+  return geometry;
+}
+
+/// Commits `geometry` and leaves it to `scene`.
+void attach(RTCScene scene, RTCGeometry geometry, std::size_t id) {
+  rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometryByID(scene, geometry, static_cast<unsigned>(id));
+  rtcReleaseGeometry(geometry);
+}
+
+/// Embree's builders split their work by the concurrency of the arena they run in, and the order of
+/// primitives follows. An arena of one thread makes the hierarchy, and with it which of two
+/// coinciding surfaces is hit, a function of the scene alone.
+void commit(RTCScene scene) {
+  tbb::task_arena one_thread(1);
+  one_thread.execute([&] { rtcJoinCommitScene(scene); });
+}
+
 /// Keeps the first message of a build.
 void note_error(void* first, RTCError, const char* message) {
   auto& text = *static_cast<std::string*>(first);
@@ -135,34 +184,51 @@ void Scene::Accelerator::Release::operator()(RTCSceneTy* scene) const {
   rtcReleaseScene(scene);
 }
 
-Scene::Accelerator::Accelerator(const std::vector<SceneObject>& objects)
-    : device_(rtcNewDevice(nullptr)) {
+Scene::Accelerator::Accelerator(const SceneParts& parts) : device_(rtcNewDevice(nullptr)) {
   if (device_ == nullptr) {
     throw RunError("Embree does not start (error " + std::to_string(rtcGetDeviceError(nullptr)) +
                    ")");
   }
   std::string error;
   rtcSetDeviceErrorFunction(device_.get(), note_error, &error);
-  scene_.reset(rtcNewScene(device_.get()));
-  rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
-  rtcSetSceneBuildQuality(scene_.get(), RTC_BUILD_QUALITY_HIGH);
-  for (const SceneObject& object : objects) {
-    const Geometry known{object.shape->mesh(), object.shape.get()};
-    RTCGeometry geometry = known.mesh != nullptr ? mesh_geometry(device_.get(), *known.mesh)
-                                                 : analytic_geometry(device_.get(), *known.shape);
-    rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometryByID(scene_.get(), geometry, static_cast<unsigned>(geometries_.size()));
-    rtcReleaseGeometry(geometry);
-    geometries_.push_back(known);
-  }
-  // Embree's builders split their work by the concurrency of the arena they run in, and the order
-  // of primitives follows. An arena of one thread makes the hierarchy, and with it which of two
-  // coinciding surfaces is hit, a function of the scene alone.
-  tbb::task_arena one_thread(1);
-  one_thread.execute([&] { rtcJoinCommitScene(scene_.get()); });
+  scene_ = scene_of(parts.objects);
+  world_objects_ = static_cast<std::uint32_t>(geometries_.size());
+  add_instances(parts);
+  commit(scene_.get());
   rtcSetDeviceErrorFunction(device_.get(), nullptr, nullptr);
   if (!error.empty()) throw RunError("Embree cannot build the scene: " + error);
+}
+
+Scene::Accelerator::EmbreeScene Scene::Accelerator::scene_of(
+    const std::vector<SceneObject>& objects) {
+  EmbreeScene scene(rtcNewScene(device_.get()));
+  rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneBuildQuality(scene.get(), RTC_BUILD_QUALITY_HIGH);
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    const Geometry known{objects[i].shape->mesh(), objects[i].shape.get()};
+    attach(scene.get(),
+           known.mesh != nullptr ? mesh_geometry(device_.get(), *known.mesh)
+                                 : analytic_geometry(device_.get(), *known.shape),
+           i);
+    geometries_.push_back(known);
+  }
+  return scene;
+}
+
+void Scene::Accelerator::add_instances(const SceneParts& parts) {
+  std::vector<std::uint32_t> first_objects;
+  for (const SceneGroup& group : parts.groups) {
+    first_objects.push_back(static_cast<std::uint32_t>(geometries_.size()));
+    groups_.push_back(scene_of(group.objects));
+    commit(groups_.back().get());
+  }
+  instances_.reserve(parts.instances.size());
+  for (const SceneInstance& instance : parts.instances) {
+    RTCScene group = groups_[instance.group].get();
+    attach(scene_.get(), instance_geometry(device_.get(), group, instance.to_world),
+           world_objects_ + instances_.size());
+    instances_.push_back({Placement(instance.to_world), first_objects[instance.group]});
+  }
 }
 
 Scene::Accelerator::~Accelerator() = default;
@@ -174,8 +240,12 @@ inline float Scene::Accelerator::intersect(const Ray& ray, SurfacePoint& point) 
   query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   find_nearest(scene_.get(), query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return kInfinity;
-  const Geometry& geometry = geometries_[query.hit.geomID];
   const float t = query.ray.tfar;
+  if (query.hit.instID[0] != RTC_INVALID_GEOMETRY_ID) {
+    instance_point(ray, query, point);
+    return t;
+  }
+  const Geometry& geometry = geometries_[query.hit.geomID];
   // Built in place: copying this many small fields would wait for their stores.
   if (geometry.mesh != nullptr) {
     ::new (&point)
@@ -186,6 +256,30 @@ inline float Scene::Accelerator::intersect(const Ray& ray, SurfacePoint& point) 
   }
   point.object = query.hit.geomID;
   return t;
+}
+
+[[gnu::noinline]] void Scene::Accelerator::instance_point(const Ray& ray, const RTCRayHit& query,
+                                                          SurfacePoint& point) const {
+  const Instance& instance = instances_[query.hit.instID[0] - world_objects_];
+  const std::uint32_t object = instance.first_object + query.hit.geomID;
+  const Geometry& geometry = geometries_[object];
+  const std::uint32_t primitive = query.hit.primID;
+  const Vec2 b{query.hit.u, query.hit.v};
+  SurfacePoint local;
+  PlacementError error;
+  if (geometry.mesh != nullptr) {
+    local = geometry.mesh->surface_point(primitive, b.x, b.y);
+    error = instance.placement.error_at(local);
+    local.position = geometry.mesh->position_off_edges(primitive, b.x, b.y, error.margin);
+  } else {
+    const Placement::LocalRay to_shape = instance.placement.to_local(ray);
+    local = geometry.shape->surface_point(
+        to_shape.ray,
+        {.t = to_shape.scale * query.ray.tfar, .coordinates = b, .primitive = primitive});
+    error = instance.placement.error_at(local);
+  }
+  ::new (&point) SurfacePoint(instance.placement.to_world(local, error.world));
+  point.object = object;
 }
 
 inline bool Scene::Accelerator::occluded(const Ray& ray) const {

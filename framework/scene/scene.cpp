@@ -1,29 +1,58 @@
+#include <algorithm>
 #include <utility>
 
+#include <pharos/core/error.h>
 #include <pharos/scene/accelerator.h>
 #include <pharos/scene/scene.h>
 
 namespace pharos {
 namespace {
 
-Bounds3 geometry_bounds(const SceneParts& parts) {
+Bounds3 bounds_of(const std::vector<SceneObject>& objects) {
   Bounds3 box;
-  for (const SceneObject& object : parts.objects) box.add(object.shape->bounds());
+  for (const SceneObject& object : objects) box.add(object.shape->bounds());
   return box;
 }
 
-Bounds3 all_bounds(const SceneParts& parts) {
-  Bounds3 box = geometry_bounds(parts);
-  if (parts.sensor != nullptr) box.add(parts.sensor->position());
-  return box;
-}
-
-bool any_media(const SceneParts& parts) {
-  bool found = parts.medium != nullptr;
-  for (const SceneObject& o : parts.objects) {
-    found = found || o.interior != nullptr || o.exterior != nullptr;
+/// The box of a box in another space; empty for an empty one.
+Bounds3 transformed(const Bounds3& box, const Transform& to_world) {
+  Bounds3 all;
+  if (box.empty()) return all;
+  for (int corner = 0; corner < 8; ++corner) {
+    all.add(to_world.point({(corner & 1) != 0 ? box.high.x : box.low.x,
+                            (corner & 2) != 0 ? box.high.y : box.low.y,
+                            (corner & 4) != 0 ? box.high.z : box.low.z}));
   }
-  return found;
+  if (!is_finite(all.low) || !is_finite(all.high)) {
+    throw InputError("an instance lies beyond what a float can hold");
+  }
+  return all;
+}
+
+Bounds3 geometry_bounds(const SceneParts& parts) {
+  Bounds3 box = bounds_of(parts.objects);
+  std::vector<Bounds3> groups;
+  for (const SceneGroup& group : parts.groups) groups.push_back(bounds_of(group.objects));
+  for (const SceneInstance& i : parts.instances) box.add(transformed(groups[i.group], i.to_world));
+  return box;
+}
+
+Bounds3 with_sensor(Bounds3 box, const Sensor* sensor) {
+  if (sensor != nullptr) box.add(sensor->position());
+  return box;
+}
+
+/// As Scene::objects().
+std::vector<SceneObject> all_objects(const SceneParts& parts) {
+  std::vector<SceneObject> all = parts.objects;
+  for (const SceneGroup& group : parts.groups) {
+    all.insert(all.end(), group.objects.begin(), group.objects.end());
+  }
+  return all;
+}
+
+bool bounds_media(const SceneObject& o) {
+  return o.interior != nullptr || o.exterior != nullptr;
 }
 
 /// Where environments stand: around the geometry, or around nothing in particular.
@@ -36,20 +65,25 @@ EmitterSite site_around(const Bounds3& geometry) {
 }  // namespace
 
 Scene::Scene(SceneParts parts)
-    : parts_(std::move(parts)),
-      bounds_(all_bounds(parts_)),
-      accelerator_(std::make_unique<const Accelerator>(parts_.objects)),
-      has_media_(any_media(parts_)) {
+    : objects_(all_objects(parts)),
+      emitters_(std::move(parts.emitters)),
+      sensor_(std::move(parts.sensor)),
+      medium_(std::move(parts.medium)),
+      geometry_bounds_(geometry_bounds(parts)),
+      bounds_(with_sensor(geometry_bounds_, sensor_.get())),
+      accelerator_(std::make_unique<const Accelerator>(parts)),
+      has_media_(medium_ != nullptr ||
+                 std::any_of(objects_.begin(), objects_.end(), bounds_media)) {
   place_lights();
 }
 
 Scene::~Scene() = default;
 
 void Scene::place_lights() {
-  EmitterSite site = site_around(geometry_bounds(parts_));
-  object_lights_.assign(parts_.objects.size(), nullptr);
-  object_light_index_.assign(parts_.objects.size(), -1);
-  for (const SceneObject& object : parts_.objects) {
+  EmitterSite site = site_around(geometry_bounds_);
+  object_lights_.assign(objects_.size(), nullptr);
+  object_light_index_.assign(objects_.size(), -1);
+  for (const SceneObject& object : objects_) {
     if (object.emitter != nullptr) {
       site.shape = object.shape.get();
       lights_.push_back(object.emitter->place(site));
@@ -60,7 +94,7 @@ void Scene::place_lights() {
   }
   site.shape = nullptr;
   site.object = 0;
-  for (const Ref<Emitter>& emitter : parts_.emitters) {
+  for (const Ref<Emitter>& emitter : emitters_) {
     lights_.push_back(emitter->place(site));
     if (lights_.back()->is_environment()) {
       environment_lights_.push_back(static_cast<int>(lights_.size()) - 1);
@@ -70,7 +104,7 @@ void Scene::place_lights() {
 
 std::size_t Scene::primitive_count() const {
   std::size_t count = 0;
-  for (const SceneObject& object : parts_.objects) {
+  for (const SceneObject& object : objects_) {
     const TriangleMesh* mesh = object.shape->mesh();
     count += mesh != nullptr ? mesh->triangles.size() : object.shape->primitive_count();
   }

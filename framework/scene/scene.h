@@ -6,6 +6,7 @@
 
 #include <pharos/core/bounds.h>
 #include <pharos/core/ray.h>
+#include <pharos/core/transform.h>
 #include <pharos/scene/bsdf.h>
 #include <pharos/scene/emitter.h>
 #include <pharos/scene/medium.h>
@@ -23,9 +24,23 @@ struct SceneObject {
   Ref<Medium> exterior;  ///< on the side of the normal; null: empty
 };
 
+/// Objects in a space of their own, to be placed as a whole any number of times. None may have an
+/// emitter.
+struct SceneGroup {
+  std::vector<SceneObject> objects;
+};
+
+/// A group that stands somewhere. All instances of a group share its memory.
+struct SceneInstance {
+  std::uint32_t group = 0;  ///< index into SceneParts::groups
+  Transform to_world = {};
+};
+
 /// The parts of a scene.
 struct SceneParts {
-  std::vector<SceneObject> objects;
+  std::vector<SceneObject> objects;  ///< those that stand in the world themselves
+  std::vector<SceneGroup> groups;    ///< seen only where there are instances of them
+  std::vector<SceneInstance> instances;
   std::vector<Ref<Emitter>> emitters;  ///< those that stand alone
   Ref<Sensor> sensor;                  ///< null: none; Scene::sensor() must not be called
   Ref<Medium> medium;                  ///< around the sensor; null: empty
@@ -34,7 +49,8 @@ struct SceneParts {
 /// Geometry, materials and lights, ready for rays. Immutable and thread-safe.
 class Scene {
  public:
-  /// Builds the acceleration structure; the result does not depend on the number of threads.
+  /// Builds the acceleration structure; the result does not depend on the number of threads. Throws
+  /// InputError when an instance lies beyond what a float can hold.
   explicit Scene(SceneParts parts);
   ~Scene();
   Scene(const Scene&) = delete;
@@ -46,8 +62,10 @@ class Scene {
   /// Whether anything lies on the ray before ray.t_max.
   bool occluded(const Ray& ray) const;
 
-  const std::vector<SceneObject>& objects() const { return parts_.objects; }
-  const Bsdf& bsdf(const SurfacePoint& point) const { return *parts_.objects[point.object].bsdf; }
+  /// The objects that stand in the world themselves, then those of the groups, each once: the shape
+  /// of one that belongs to a group is in the group's space.
+  const std::vector<SceneObject>& objects() const { return objects_; }
+  const Bsdf& bsdf(const SurfacePoint& point) const { return *objects_[point.object].bsdf; }
   /// The light on the object that `point` lies on; null when it has none.
   const Light* light_at(const SurfacePoint& point) const { return object_lights_[point.object]; }
   /// Index into lights() of the light of an object; -1 when it has none.
@@ -58,7 +76,7 @@ class Scene {
   const Medium* medium_after(const SurfacePoint& point, Vec3 direction,
                              const Medium* current) const {
     if (!has_media_) return nullptr;
-    const SceneObject& o = parts_.objects[point.object];
+    const SceneObject& o = objects_[point.object];
     if (o.interior == nullptr && o.exterior == nullptr) return current;
     return dot(direction, point.normal) >= 0 ? o.exterior.get() : o.interior.get();
   }
@@ -66,9 +84,9 @@ class Scene {
   std::span<const std::unique_ptr<const Light>> lights() const { return lights_; }
   /// Indices into lights() of those that rays leaving the scene meet.
   std::span<const int> environment_lights() const { return environment_lights_; }
-  const Sensor& sensor() const { return *parts_.sensor; }
+  const Sensor& sensor() const { return *sensor_; }
   /// The medium around the sensor; null: empty.
-  const Medium* sensor_medium() const { return parts_.medium.get(); }
+  const Medium* sensor_medium() const { return medium_.get(); }
   bool has_media() const { return has_media_; }
 
   /// Box of all geometry and the sensor [scene units].
@@ -77,7 +95,7 @@ class Scene {
   Point3 environment_point(Point3 from, Vec3 direction) const {
     return from + 2 * bounds_.diagonal() * direction;
   }
-  /// Triangles and analytic primitives together.
+  /// Triangles and analytic primitives together; those of a group count once.
   std::size_t primitive_count() const;
 
  private:
@@ -85,7 +103,11 @@ class Scene {
 
   void place_lights();
 
-  SceneParts parts_;
+  std::vector<SceneObject> objects_;
+  std::vector<Ref<Emitter>> emitters_;
+  Ref<Sensor> sensor_;
+  Ref<Medium> medium_;
+  Bounds3 geometry_bounds_;
   Bounds3 bounds_;
   std::unique_ptr<const Accelerator> accelerator_;
   std::vector<std::unique_ptr<const Light>> lights_;

@@ -3,6 +3,7 @@
 #include <string>
 #include <utility>
 
+#include <pharos/scene/group_table.h>
 #include <pharos/scene/scene_loader.h>
 #include <pharos/scene/texture.h>
 
@@ -19,9 +20,25 @@ std::vector<ParameterInfo> keys_of(std::span<const char* const> names) {
 }
 
 void check_scene_keys(const ConfigNode& scene) {
-  static constexpr std::array<const char*, 7> names{"textures", "materials", "media", "shapes",
-                                                    "emitters", "sensor",    "medium"};
+  static constexpr std::array<const char*, 8> names{"textures", "materials", "media",  "shapes",
+                                                    "groups",   "emitters",  "sensor", "medium"};
   check_keys(scene, keys_of(names));
+}
+
+/// What an entry `type: instance` states.
+struct InstanceSettings {
+  std::string group;
+  Transform to_world = {};
+
+  static void describe(Schema<InstanceSettings>& s) {
+    s.field("group", &InstanceSettings::group, "Name of the group").required();
+    s.field("to_world", &InstanceSettings::to_world, "From the group's space to world space");
+  }
+};
+
+bool is_instance(const ConfigNode& entry) {
+  const ConfigNode* type = entry.find("type");
+  return type != nullptr && type->text() == "instance";
 }
 
 void check_emitter_place(const Emitter& emitter, const ConfigNode& node, bool on_shape) {
@@ -46,13 +63,13 @@ class SceneReader {
     read_named<Bsdf>("materials");
     read_named<Medium>("media");
     SceneParts parts;
-    read_list("shapes", [&](const ConfigNode& entry, ConfigNode& resolved) {
-      parts.objects.push_back(read_object(entry, resolved));
-    });
-    read_list("emitters", [&](const ConfigNode& entry, ConfigNode& resolved) {
-      parts.emitters.push_back(build<Emitter>(entry, resolved));
-      check_emitter_place(*parts.emitters.back(), entry, false);
-    });
+    read_groups();
+    groups_.place(read_entries("shapes", given("shapes"), resolved_), parts);
+    read_list("emitters", given("emitters"), resolved_,
+              [&](const ConfigNode& entry, ConfigNode& resolved) {
+                parts.emitters.push_back(build<Emitter>(entry, resolved));
+                check_emitter_place(*parts.emitters.back(), entry, false);
+              });
     parts.sensor = read_part<Sensor>("sensor", given("sensor"), resolved_);
     parts.medium = read_part<Medium>("medium", given("medium"), resolved_);
     return parts;
@@ -95,18 +112,69 @@ class SceneReader {
     resolved_.set(key, std::move(all));
   }
 
+  /// Reads the list at `list`, resolved under `key` of `resolved`.
   template <class ReadEntry>
-  void read_list(const char* key, const ReadEntry& read_entry) {
-    const ConfigNode list = given(key);
+  void read_list(const std::string& key, const ConfigNode& list, ConfigNode& resolved,
+                 const ReadEntry& read_entry) {
     if (list.is_null()) return;
-    if (!list.is_sequence()) fail_type(list, std::string("a list of ") + key);
+    if (!list.is_sequence()) fail_type(list, "a list of " + key);
     ConfigNode all = ConfigNode::sequence();
     for (const ConfigNode& entry : list.items()) {
-      ConfigNode resolved;
-      read_entry(entry, resolved);
-      all.items().push_back(std::move(resolved));
+      ConfigNode part;
+      read_entry(entry, part);
+      all.items().push_back(std::move(part));
     }
-    resolved_.set(key, std::move(all));
+    resolved.set(key, std::move(all));
+  }
+
+  EntryList read_entries(const std::string& key, const ConfigNode& list, ConfigNode& resolved) {
+    EntryList entries;
+    read_list(key, list, resolved, [&](const ConfigNode& entry, ConfigNode& part) {
+      if (is_instance(entry)) {
+        entries.instances.push_back(read_instance(entry, part));
+      } else {
+        entries.objects.push_back(read_object(entry, part));
+      }
+    });
+    return entries;
+  }
+
+  void read_groups() {
+    const ConfigNode dictionary = given("groups");
+    if (dictionary.is_null()) return;
+    if (!dictionary.is_mapping()) fail_type(dictionary, "a mapping from names to lists of shapes");
+    ConfigNode all = ConfigNode::mapping();
+    for (const ConfigNode::Entry& group : dictionary.entries()) {
+      if (!group.value.is_sequence()) fail_type(group.value, "a list of shapes");
+      for (const ConfigNode& entry : group.value.items()) check_group_entry(entry);
+      groups_.add(group.key, read_entries(group.key, group.value, all));
+    }
+    resolved_.set("groups", std::move(all));
+  }
+
+  /// What shines is drawn from by its place in the world, and there only once.
+  static void check_group_entry(const ConfigNode& entry) {
+    const ConfigNode* emitter = entry.find("emitter");
+    if (emitter == nullptr || emitter->is_null()) return;
+    throw InputError(entry.where_key("emitter"),
+                     "an emitter cannot stand in a group: list its shape under 'shapes'");
+  }
+
+  InstanceEntry read_instance(const ConfigNode& entry, ConfigNode& resolved) {
+    for (const char* key : kAttachments) {
+      if (entry.find(key) == nullptr) continue;
+      throw InputError(entry.where_key(key), "an instance has no '" + std::string(key) +
+                                                 "' of its own: state it in the group's entries");
+    }
+    static const Schema<InstanceSettings> schema = [] {
+      Schema<InstanceSettings> s;
+      InstanceSettings::describe(s);
+      return s;
+    }();
+    resolved = ConfigNode::mapping();
+    resolved.set("type", ConfigNode::scalar("instance"));
+    InstanceSettings settings = schema.read(entry, context_, resolved, "type");
+    return {std::move(settings.group), settings.to_world, entry.find("group")->where()};
   }
 
   /// The shape's plugin knows its own parameters only; the entry is checked here, so that a
@@ -142,6 +210,7 @@ class SceneReader {
   const ConfigNode& scene_;
   BuildContext& context_;
   ConfigNode& resolved_;
+  GroupTable groups_;
 };
 
 SceneParts read_mapping(const ConfigNode& scene, BuildContext& context, ConfigNode& resolved) {

@@ -101,22 +101,27 @@ void TriangleMesh::precompute() {
   for (std::uint32_t i = 0; i < triangles.size(); ++i) facts.push_back(facts_of(i));
 }
 
-Point3 TriangleMesh::position_off_edges(std::uint32_t triangle, Point3 position,
-                                        const std::array<float, 3>& weights,
-                                        const TriangleFacts& f) const {
+inline Point3 TriangleMesh::position_at(std::uint32_t triangle, const std::array<float, 3>& b,
+                                        const TriangleFacts& f, float margin) const {
+  const Point3 position =
+      to_float(Vec3d(f.origin) + (b[1] * Vec3d(f.edge1) + double{b[2]} * Vec3d(f.edge2)));
+  if (!(std::min(b[0], std::min(b[1], b[2])) < margin * f.edge_weight)) return position;
   const auto [i0, i1, i2] = triangles[triangle];
-  return position + step_off_edges({positions[i0], positions[i1], positions[i2]}, weights, f.normal,
-                                   length(cross(f.edge1, f.edge2)), f.error);
+  return position + step_off_edges({positions[i0], positions[i1], positions[i2]}, b, f.normal,
+                                   length(cross(f.edge1, f.edge2)), margin * f.error);
+}
+
+Point3 TriangleMesh::position_off_edges(std::uint32_t triangle, float b1, float b2,
+                                        float margin) const {
+  const TriangleFacts f = facts.empty() ? facts_of(triangle) : facts[triangle];
+  return position_at(triangle, {1 - b1 - b2, b1, b2}, f, margin / f.error);
 }
 
 SurfacePoint TriangleMesh::surface_point(std::uint32_t triangle, float b1, float b2) const {
   const TriangleFacts f = facts.empty() ? facts_of(triangle) : facts[triangle];
   const float b0 = 1 - b1 - b2;
   SurfacePoint point;
-  point.position = to_float(Vec3d(f.origin) + (b1 * Vec3d(f.edge1) + double{b2} * Vec3d(f.edge2)));
-  if (std::min(b0, std::min(b1, b2)) < f.edge_weight) {
-    point.position = position_off_edges(triangle, point.position, {b0, b1, b2}, f);
-  }
+  point.position = position_at(triangle, {b0, b1, b2}, f, 1);
   point.normal = f.normal;
   point.error = f.error;
   point.primitive = triangle;

@@ -40,14 +40,17 @@ struct TriangleMesh {
   /// out, the shading normal is the geometric one. The position keeps `error` away from the edges,
   /// so that origin_towards() does not slip past the neighbour at a concave edge.
   SurfacePoint surface_point(std::uint32_t triangle, float b1, float b2) const;
+  /// The position of surface_point(), kept `margin` away from the edges instead [scene units].
+  Point3 position_off_edges(std::uint32_t triangle, float b1, float b2, float margin) const;
   /// [scene units^2]
   float area(std::uint32_t triangle) const;
   Bounds3 bounds() const;
 
  private:
   TriangleFacts facts_of(std::uint32_t triangle) const;
-  Point3 position_off_edges(std::uint32_t triangle, Point3 position,
-                            const std::array<float, 3>& weights, const TriangleFacts& f) const;
+  /// Keeps a distance of `margin` times the triangle's `error` from the edges.
+  Point3 position_at(std::uint32_t triangle, const std::array<float, 3>& weights,
+                     const TriangleFacts& f, float margin) const;
 };
 
 /// Where a ray met a primitive, in the primitive's own terms.

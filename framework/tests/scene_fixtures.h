@@ -115,6 +115,32 @@ inline TriangleMesh square_at(float z) {
   return mesh;
 }
 
+/// A bumpy ball about the origin with smooth normals: closed, and concave in places.
+inline TriangleMesh bumpy_ball(std::uint32_t rings, float scale, Vec3 offset) {
+  TriangleMesh mesh;
+  const std::uint32_t spokes = 2 * rings;
+  for (std::uint32_t i = 0; i <= rings; ++i) {
+    for (std::uint32_t j = 0; j < spokes; ++j) {
+      const float theta = kPi * static_cast<float>(i) / static_cast<float>(rings);
+      const float phi = 2 * kPi * static_cast<float>(j) / static_cast<float>(spokes);
+      const bool pole = i == 0 || i == rings;
+      const float s = pole ? 0 : std::sin(theta);
+      const Vec3 d{s * std::cos(phi), s * std::sin(phi), std::cos(theta)};
+      const float radius = pole ? 1 : 1 + 0.1f * std::sin(9 * phi) * std::sin(7 * theta);
+      mesh.positions.push_back(scale * (radius * d + offset));
+      mesh.normals.push_back(d);
+    }
+  }
+  const auto at = [&](std::uint32_t i, std::uint32_t j) { return i * spokes + j % spokes; };
+  for (std::uint32_t i = 0; i < rings; ++i) {
+    for (std::uint32_t j = 0; j < spokes; ++j) {
+      if (i > 0) mesh.triangles.push_back({at(i, j), at(i + 1, j), at(i, j + 1)});
+      if (i + 1 < rings) mesh.triangles.push_back({at(i, j + 1), at(i + 1, j), at(i + 1, j + 1)});
+    }
+  }
+  return mesh;
+}
+
 inline Vec3 random_direction(RandomStream& random) {
   return normalize(warp::sphere_from_square(random.next_2d()));
 }

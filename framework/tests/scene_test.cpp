@@ -53,32 +53,6 @@ std::vector<TriangleMesh> soup(int triangles, int copies) {
   return std::vector<TriangleMesh>(static_cast<std::size_t>(copies), mesh);
 }
 
-/// A bumpy ball about the origin with smooth normals: closed, and concave in places.
-TriangleMesh bumpy_ball(std::uint32_t rings, float scale, Vec3 offset) {
-  TriangleMesh mesh;
-  const std::uint32_t spokes = 2 * rings;
-  for (std::uint32_t i = 0; i <= rings; ++i) {
-    for (std::uint32_t j = 0; j < spokes; ++j) {
-      const float theta = kPi * static_cast<float>(i) / static_cast<float>(rings);
-      const float phi = 2 * kPi * static_cast<float>(j) / static_cast<float>(spokes);
-      const bool pole = i == 0 || i == rings;
-      const float s = pole ? 0 : std::sin(theta);
-      const Vec3 d{s * std::cos(phi), s * std::sin(phi), std::cos(theta)};
-      const float radius = pole ? 1 : 1 + 0.1f * std::sin(9 * phi) * std::sin(7 * theta);
-      mesh.positions.push_back(scale * (radius * d + offset));
-      mesh.normals.push_back(d);
-    }
-  }
-  const auto at = [&](std::uint32_t i, std::uint32_t j) { return i * spokes + j % spokes; };
-  for (std::uint32_t i = 0; i < rings; ++i) {
-    for (std::uint32_t j = 0; j < spokes; ++j) {
-      if (i > 0) mesh.triangles.push_back({at(i, j), at(i + 1, j), at(i, j + 1)});
-      if (i + 1 < rings) mesh.triangles.push_back({at(i, j + 1), at(i + 1, j), at(i + 1, j + 1)});
-    }
-  }
-  return mesh;
-}
-
 Ray random_ray(RandomStream& random) {
   const Point3 origin = Point3{0.5f, 0.5f, 0.5f} + 2 * test::random_direction(random);
   const Point3 target{random.next_1d(), random.next_1d(), random.next_1d()};
@@ -154,7 +128,7 @@ TEST_CASE("analytic shapes answer primitive by primitive among meshes") {
 TEST_CASE("rays neither leak from a closed mesh nor meet the triangle they leave") {
   for (const float scale : {1e-4f, 1.0f, 1e4f}) {
     for (const Vec3 offset : {Vec3{0, 0, 0}, Vec3{-200, 210, 190}}) {
-      const Scene scene(test::parts_of({bumpy_ball(24, scale, offset)}));
+      const Scene scene(test::parts_of({test::bumpy_ball(24, scale, offset)}));
       RandomStream random(3);
       Ray ray{scale * offset, {0, 0, 1}};
       int leaks = 0, self_hits = 0;
@@ -179,7 +153,8 @@ TEST_CASE("rays neither leak from a closed mesh nor meet the triangle they leave
 }
 
 TEST_CASE("scaling a scene by a power of two scales every hit exactly") {
-  const std::vector<TriangleMesh> meshes = {soup(2000, 1)[0], bumpy_ball(20, 1, {0.5f, 0.5f, 0})};
+  const std::vector<TriangleMesh> meshes = {soup(2000, 1)[0],
+                                            test::bumpy_ball(20, 1, {0.5f, 0.5f, 0})};
   const Scene scene(test::parts_of(meshes));
   for (const float scale : {0x1p-14f, 0x1p13f}) {
     std::vector<TriangleMesh> scaled_meshes = meshes;

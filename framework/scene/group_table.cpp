@@ -1,0 +1,118 @@
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <pharos/scene/group_table.h>
+
+namespace pharos {
+namespace {
+
+/// Volumes that a map may multiply by: the inverse that Embree makes in float has all its terms.
+constexpr float kSmallestVolume = 1e-30f, kLargestVolume = 1e30f;
+
+/// Where an instance stands that is listed in something placed by `outer`.
+Transform composed(const Transform& outer, const InstanceEntry& entry) {
+  try {
+    const Transform map = outer * entry.to_world;
+    const Vec3 x = map.vector({1, 0, 0}), y = map.vector({0, 1, 0}), z = map.vector({0, 0, 1});
+    const float volume = abs_dot(cross(x, y), z);
+    if (volume >= kSmallestVolume && volume <= kLargestVolume) return map;
+  } catch (const InputError&) {  // elements that a float cannot hold
+  }
+  throw InputError(entry.where, "this instance is scaled beyond what a float can hold");
+}
+
+}  // namespace
+
+void GroupTable::add(std::string name, EntryList entries) {
+  by_name_.emplace(name, static_cast<std::uint32_t>(groups_.size()));
+  groups_.push_back({.name = std::move(name), .entries = std::move(entries)});
+}
+
+std::vector<std::uint32_t> GroupTable::targets_of(const EntryList& entries) const {
+  std::vector<std::uint32_t> targets;
+  targets.reserve(entries.instances.size());
+  for (const InstanceEntry& entry : entries.instances) {
+    const auto found = by_name_.find(entry.group);
+    if (found == by_name_.end()) {
+      std::vector<std::string> names;
+      for (const Group& group : groups_) names.push_back(group.name);
+      throw InputError(entry.where,
+                       fmt::format("unknown group '{}'{}; known: {}", one_line(entry.group, 60),
+                                   suggestion(entry.group, names), quoted_list(names)));
+    }
+    targets.push_back(found->second);
+  }
+  return targets;
+}
+
+void GroupTable::fail_circle(std::uint32_t group, const Location& where) const {
+  std::string circle;
+  for (auto i = std::find(chain_.begin(), chain_.end(), group); i != chain_.end(); ++i) {
+    circle += "'" + groups_[*i].name + "' contains ";
+  }
+  throw InputError(where, "groups go in a circle: " + circle + "'" + groups_[group].name + "'");
+}
+
+void GroupTable::count(std::uint32_t index) {
+  Group& group = groups_[index];
+  if (group.state == Group::Count::known) return;
+  group.state = Group::Count::running;
+  chain_.push_back(index);
+  group.count = group.entries.objects.empty() ? 0 : 1;
+  for (std::size_t i = 0; i < group.targets.size(); ++i) {
+    count_within(group, group.targets[i], group.entries.instances[i].where);
+  }
+  chain_.pop_back();
+  group.state = Group::Count::known;
+}
+
+void GroupTable::count_within(Group& outer, std::uint32_t index, const Location& where) {
+  Group& inner = groups_[index];
+  if (inner.state == Group::Count::running) fail_circle(index, where);
+  // Whichever way round the groups stand: not yet counted, or counted already.
+  if (chain_.size() < kDeepest) count(index);
+  outer.depth = std::max(outer.depth, inner.depth + 1);
+  if (inner.state != Group::Count::known || outer.depth > kDeepest) {
+    throw InputError(where, fmt::format("groups are nested more than {} levels deep", kDeepest));
+  }
+  outer.count = std::min(outer.count + inner.count, kMostInstances + 1);
+}
+
+void GroupTable::place(EntryList world, SceneParts& parts) {
+  const std::vector<std::uint32_t> targets = targets_of(world);
+  for (Group& group : groups_) group.targets = targets_of(group.entries);
+  for (std::uint32_t i = 0; i < groups_.size(); ++i) count(i);
+  std::uint64_t total = 0;
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    total += groups_[targets[i]].count;
+    if (total <= kMostInstances) continue;
+    throw InputError(world.instances[i].where,
+                     fmt::format("this makes more than {} instances, nested ones multiplied out",
+                                 kMostInstances));
+  }
+  parts.objects = std::move(world.objects);
+  parts.instances.reserve(total);
+  place_instances(world, targets, Transform(), parts);
+}
+
+void GroupTable::place_instances(const EntryList& entries,
+                                 const std::vector<std::uint32_t>& targets,
+                                 const Transform& to_world, SceneParts& parts) {
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    Group& group = groups_[targets[i]];
+    if (group.count == 0) continue;  // nor may what is empty be walked through again and again
+    const Transform map = composed(to_world, entries.instances[i]);
+    if (!group.entries.objects.empty()) {
+      if (group.index == kUnplaced) {
+        group.index = static_cast<std::uint32_t>(parts.groups.size());
+        parts.groups.push_back({group.entries.objects});
+      }
+      parts.instances.push_back({group.index, map});
+    }
+    place_instances(group.entries, group.targets, map, parts);
+  }
+}
+
+}  // namespace pharos
