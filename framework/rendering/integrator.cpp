@@ -18,7 +18,22 @@ void check_records(const RecordNeeds& offered, const GuidingMethod& method) {
   check(traits.records.light_paths, offered.light_paths, "light paths");
 }
 
-void check_method(const IntegratorTraits& offered, const GuidingMethod& method) {
+void check_camera(const IntegratorTraits& offered, const Sensor& sensor, const Guider& guider) {
+  if (!guider.traits().guides_camera) return;
+  if (!offered.guided_camera) {
+    throw InputError(
+        fmt::format("the guider '{}' guides the camera, which the integrator cannot follow",
+                    guider.plugin_name()));
+  }
+  if (sensor.sees_one_direction()) {
+    throw InputError(fmt::format(
+        "the guider '{}' guides the camera, but the sensor '{}' sees a single direction",
+        guider.plugin_name(), sensor.plugin_name()));
+  }
+}
+
+void check_method(const IntegratorTraits& offered, const Sensor& sensor,
+                  const GuidingMethod& method) {
   const LearnerTraits learner = method.learner->traits();
   const GuiderTraits guider = method.guider->traits();
   if (learner.model != guider.model) {
@@ -26,11 +41,7 @@ void check_method(const IntegratorTraits& offered, const GuidingMethod& method) 
         "the learner '{}' learns a '{}' model, but the guider '{}' samples a '{}' model",
         method.learner->plugin_name(), learner.model, method.guider->plugin_name(), guider.model));
   }
-  if (guider.guides_camera && !offered.guided_camera) {
-    throw InputError(
-        fmt::format("the guider '{}' guides the camera, which the integrator cannot follow",
-                    method.guider->plugin_name()));
-  }
+  check_camera(offered, sensor, *method.guider);
   check_records(offered.records, method);
 }
 
@@ -43,11 +54,11 @@ RenderCounters& RenderCounters::operator+=(const RenderCounters& other) {
   return *this;
 }
 
-void check_compatible(const Integrator& integrator) {
+void check_compatible(const Integrator& integrator, const Sensor& sensor) {
   if (integrator.guiding() == nullptr) return;
   const IntegratorTraits offered = integrator.traits();
   for (const GuidingMethod& method : integrator.guiding()->resolved_methods()) {
-    check_method(offered, method);
+    check_method(offered, sensor, method);
   }
 }
 

@@ -29,7 +29,8 @@ void check_together(const RenderConfig& config, const ConfigNode& node) {
     node.fail("there is no sensor: neither the scene nor the config has one");
   }
   try {
-    check_compatible(*config.integrator);
+    check_compatible(*config.integrator,
+                     config.sensor != nullptr ? *config.sensor : *config.scene.sensor);
   } catch (const InputError& error) {
     nearest_node(node, {"integrator", "guiding"}).fail(error.what());
   }

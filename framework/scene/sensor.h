@@ -30,9 +30,11 @@ class PreparedSensor {
 
   /// Uniform on the lens.
   virtual LensPoint sample_lens(Vec2 u) const = 0;
-  /// The ray from `lens` that belongs to a film position.
+  /// The ray from `lens` that belongs to a film position. Paths start at its origin, which is that
+  /// of `lens` unless Sensor::sees_one_direction().
   virtual Ray ray(const LensPoint& lens, Vec2 film) const = 0;
-  /// The film position that a direction from `lens` belongs to; empty off the film.
+  /// The film position that a direction from `lens` belongs to; empty off the film, and always for
+  /// sensors that see one direction.
   virtual std::optional<SensorResponse> response(const LensPoint& lens, Vec3 direction) const = 0;
 };
 
@@ -43,6 +45,9 @@ class Sensor : public Component {
 
   /// For a film of `width` x `height` pixels, both > 0.
   virtual std::unique_ptr<const PreparedSensor> prepare(int width, int height) const = 0;
+  /// True when all rays are parallel: film positions then choose where a ray starts instead of
+  /// where it goes, and there is no density over directions that a guide could mix with.
+  virtual bool sees_one_direction() const { return false; }
   /// A point of the lens; part of the scene's bounds.
   virtual Point3 position() const = 0;
 };

@@ -77,7 +77,9 @@ class PathWalk {
     const Vec2 size{static_cast<float>(target.width), static_cast<float>(target.height)};
     result_.film = {static_cast<float>(pixel % target.width) + in_pixel.x,
                     static_cast<float>(pixel / target.width) + in_pixel.y};
-    const LensPoint lens = target.sensor.sample_lens(stream_.get_2d({Purpose::lens}));
+    LensPoint lens = target.sensor.sample_lens(stream_.get_2d({Purpose::lens}));
+    const Ray ray = target.sensor.ray(lens, {result_.film.x / size.x, result_.film.y / size.y});
+    lens.position = ray.origin;
     Arrival& start = arrivals_[current_];
     start.surface.position = lens.position;
     start.surface.normal = lens.normal;
@@ -88,7 +90,6 @@ class PathWalk {
     recorder_.lens(lens, result_.film);
     arena_.reset();
 
-    Ray ray = target.sensor.ray(lens, {result_.film.x / size.x, result_.film.y / size.y});
     ScatterStep step{.direction = ray.direction, .event = Event::smooth_reflect};
     step.value = step.unguided_weight = Rgb(1);
     step.unguided_pdf = 1;

@@ -4,6 +4,8 @@
 
 #include <doctest/doctest.h>
 
+#include <pharos/core/error.h>
+
 #include "../path_text.h"
 
 namespace pharos {
@@ -27,6 +29,56 @@ TEST_CASE("path offers what guides need, and no guiding unless asked") {
   CHECK(path.traits().guided_camera);
   CHECK(path.traits().records.light_samples);
   CHECK_FALSE(path.traits().records.light_paths);
+}
+
+class IdleLearner final : public Learner {
+ public:
+  LearnerTraits traits() const override { return {.model = "none", .records = {}}; }
+  std::unique_ptr<LearningState> begin(const LearningContext&) const override { return nullptr; }
+  std::shared_ptr<const GuidingModel> load_model(std::istream&) const override { return nullptr; }
+};
+
+class IdleGuider final : public Guider {
+ public:
+  explicit IdleGuider(bool guides_camera) : guides_camera_(guides_camera) {}
+  GuiderTraits traits() const override {
+    return {.model = "none", .guides_camera = guides_camera_};
+  }
+  std::unique_ptr<const BoundGuider> bind(std::shared_ptr<const GuidingModel>) const override {
+    return nullptr;
+  }
+
+ private:
+  bool guides_camera_;
+};
+
+class StubSensor final : public Sensor {
+ public:
+  explicit StubSensor(bool one_direction) : one_direction_(one_direction) {}
+  std::unique_ptr<const PreparedSensor> prepare(int, int) const override { return nullptr; }
+  bool sees_one_direction() const override { return one_direction_; }
+  Point3 position() const override { return {}; }
+
+ private:
+  bool one_direction_;
+};
+
+TEST_CASE("guides of the camera are refused where the sensor sees a single direction") {
+  const auto message = [](bool guides_camera, bool one_direction) -> std::string {
+    PathSettings settings;
+    settings.guiding.emplace();
+    settings.guiding->learner = std::make_shared<const IdleLearner>();
+    settings.guiding->guider = std::make_shared<const IdleGuider>(guides_camera);
+    try {
+      check_compatible(PathIntegrator(settings), StubSensor(one_direction));
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "fits";
+  };
+  CHECK(message(true, true).find("sees a single direction") != std::string::npos);
+  CHECK(message(true, false) == "fits");
+  CHECK(message(false, true) == "fits");
 }
 
 TEST_CASE("a path's text tells of every vertex and light sample") {
