@@ -1,0 +1,62 @@
+// orthographic: a camera whose rays are parallel, for plans and elevations. They start in the local
+// plane z = 0 and run along local +z, with local +y up and, as the frame is right-handed, local +x
+// to the left. What lies behind the plane is not seen. `width` is that of the view, whose height
+// follows from the number of pixels; where `to_world` scales, both scale with it.
+//
+// Film positions choose where a ray starts, so there is no density over directions, and no guide
+// can choose the first vertex.
+//
+//     type: orthographic
+//     to_world: { look_at: { origin: [0, 0, 10], target: [0, 0, 0], up: [0, 1, 0] } }
+//     width: 4
+
+#include "orthographic.h"
+
+#include "film_window.h"
+
+namespace pharos {
+namespace {
+
+class PreparedOrthographic : public PreparedSensor {
+ public:
+  PreparedOrthographic(const OrthographicSensor::Settings& settings, float aspect)
+      : to_world_(settings.to_world),
+        window_(settings.width / 2, aspect),
+        center_{.position = to_world_.point({}), .normal = normalize(to_world_.vector({0, 0, 1}))} {
+  }
+
+  /// The centre stands for all points: a film position has its own.
+  LensPoint sample_lens(Vec2) const override { return center_; }
+
+  Ray ray(const LensPoint& lens, Vec2 film) const override {
+    const Vec2 local = window_.point(film);
+    return {to_world_.point({local.x, local.y, 0}), lens.normal};
+  }
+
+  std::optional<SensorResponse> response(const LensPoint&, Vec3) const override {
+    return std::nullopt;
+  }
+
+ private:
+  Transform to_world_;
+  FilmWindow window_;
+  LensPoint center_;
+};
+
+}  // namespace
+
+void OrthographicSensor::Settings::describe(Schema<Settings>& s) {
+  s.field("to_world", &Settings::to_world, "From the camera's space to world space");
+  s.field("width", &Settings::width, "Width of what is seen").unit("scene units").above(0);
+  s.example("{ width: 0.5 }");
+  s.example(
+      "{ width: 10, to_world: { look_at: { origin: [0, 5, 5], target: [0, 0, 0], "
+      "up: [0, 1, 0] } } }");
+}
+
+std::unique_ptr<const PreparedSensor> OrthographicSensor::prepare(int width, int height) const {
+  return std::make_unique<const PreparedOrthographic>(
+      settings_, static_cast<float>(width) / static_cast<float>(height));
+}
+
+}  // namespace pharos
