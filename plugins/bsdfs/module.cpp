@@ -1,11 +1,17 @@
 #include <pharos/config/module.h>
 
+#include "blend.h"
 #include "conductor.h"
 #include "dielectric.h"
 #include "diffuse.h"
+#include "diffuse_transmitter.h"
+#include "mask.h"
+#include "plastic.h"
 #include "rough_conductor.h"
 #include "rough_dielectric.h"
+#include "rough_plastic.h"
 #include "thin_dielectric.h"
+#include "two_sided.h"
 
 PHAROS_MODULE(registry) {
   registry.add<pharos::Diffuse>("diffuse", "Lambert's cosine law on the outer side");
@@ -14,5 +20,12 @@ PHAROS_MODULE(registry) {
   registry.add<pharos::Dielectric>("dielectric", "Smooth glass: mirror reflection and refraction");
   registry.add<pharos::RoughDielectric>("rough_dielectric", "GGX microfacets of a clear medium");
   registry.add<pharos::ThinDielectric>("thin_dielectric", "Clear pane without thickness");
+  registry.add<pharos::Plastic>("plastic", "A matt base under a smooth clear coat");
+  registry.add<pharos::RoughPlastic>("rough_plastic", "A matt base under a rough clear coat");
+  registry.add<pharos::DiffuseTransmitter>("diffuse_transmitter",
+                                           "Paper and leaves: Lambert's law on both sides");
+  registry.add<pharos::TwoSided>("two_sided", "Gives an opaque material a back");
+  registry.add<pharos::Mask>("mask", "A material with holes that light passes straight through");
+  registry.add<pharos::Blend>("blend", "Two materials mixed");
   registry.set_default<pharos::Bsdf>("diffuse");
 }

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <algorithm>
+
+#include <pharos/core/vec.h>
+
+namespace pharos {
+
+/// A random choice between two lobes. Passes its number on, so that samples stay stratified.
+class LobeChoice {
+ public:
+  /// In proportion to weights >= 0 of any unit. Where both are zero there is nothing to choose.
+  LobeChoice(float first, float second) {
+    const float sum = first + second;
+    if (sum <= 0) return;
+    first_ = first / sum;
+    second_ = second / sum;
+  }
+
+  /// Probabilities [1]; they add up to one, or are both zero.
+  float first() const { return first_; }
+  float second() const { return second_; }
+  bool nothing() const { return first_ == 0 && second_ == 0; }
+
+  /// Whether `u` in [0,1) chooses the first lobe. Leaves in `u` its place within the choice, which
+  /// is uniform on [0,1) again.
+  bool takes_first(float& u) const {
+    const bool first = u < first_;
+    u = first ? u / first_ : (u - first_) / second_;
+    u = std::min(u, kOneMinusEpsilon);
+    return first;
+  }
+
+ private:
+  float first_ = 0, second_ = 0;
+};
+
+}  // namespace pharos

@@ -1,0 +1,54 @@
+// mask: a material with holes, such as leaves cut out of a rectangle, or lace. The share 1 -
+// opacity of light passes straight through, as if nothing were there (the event `pass_through`);
+// the rest meets the nested material. In colour it filters what passes. Paths see light through the
+// holes; light samples do not, as to them every surface is closed.
+//
+//     type: mask
+//     opacity: { type: bitmap, file: leaf_alpha.png, color_space: linear }
+//     bsdf: { type: two_sided, bsdf: { type: diffuse, reflectance: [0.1, 0.4, 0.05] } }
+#include "mask.h"
+
+#include <pharos/config/registry.h>
+
+namespace pharos {
+namespace {
+
+/// A surface that is not there.
+class PassThrough final : public Bsdf {
+ public:
+  EventMask events() const override { return mask_of(Event::pass_through); }
+  ScatterValue evaluate(const SurfacePoint&, Vec3, Vec3, ScatterOptions) const override {
+    return {};
+  }
+  std::optional<ScatterSample> sample(const SurfacePoint&, Vec3 wo, float, Vec2,
+                                      ScatterOptions options) const override {
+    if (!contains(options.events, Event::pass_through)) return {};
+    return ScatterSample{-wo, Event::pass_through, Rgb(1), 1};
+  }
+  DiscreteOutcomes discrete(const SurfacePoint&, Vec3 wo, ScatterOptions options) const override {
+    DiscreteOutcomes outcomes;
+    if (contains(options.events, Event::pass_through)) {
+      outcomes.add({Event::pass_through, -wo, Rgb(1), 1});
+    }
+    return outcomes;
+  }
+  float roughness(const SurfacePoint&) const override { return 0; }
+  Rgb albedo(const SurfacePoint&) const override { return Rgb(1); }
+};
+
+}  // namespace
+
+void Mask::Settings::describe(Schema<Settings>& s) {
+  s.field("bsdf", &Settings::bsdf, "Material of what is not hole").otherwise("{ type: diffuse }");
+  s.field("opacity", &Settings::opacity, "Share of light that meets the material")
+      .otherwise("0.5")
+      .check("at most 1 everywhere", [](const Ref<Texture>& t) { return t->maximum() <= 1; });
+  s.example("{ opacity: [0.3, 0.6, 0.9], bsdf: { type: rough_conductor, alpha: 0.3 } }");
+  s.example("{ opacity: 0.8, bsdf: { type: dielectric, ior: 1.3 } }");
+  s.example("{ opacity: 0.7, bsdf: { type: mask, opacity: 0.4, bsdf: { type: plastic } } }");
+}
+
+Mask::Mask(const Settings& settings)
+    : MixedBsdf(std::make_shared<PassThrough>(), settings.bsdf, settings.opacity) {}
+
+}  // namespace pharos

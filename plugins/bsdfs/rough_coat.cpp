@@ -1,0 +1,53 @@
+#include "rough_coat.h"
+
+#include "fresnel.h"
+
+namespace pharos {
+
+RoughCoat::RoughCoat(float alpha, float ior) : facets_(alpha), ior_(ior) {
+  for (std::size_t i = 0; i <= kIntervals; ++i) {
+    const float x = static_cast<float>(i) / kIntervals;
+    transmittance_[i] = std::max(0.0f, 1 - reflectance(square(square(x))));
+  }
+}
+
+float RoughCoat::transmittance(float cosine) const {
+  const float x = kIntervals * std::sqrt(std::sqrt(std::min(1.0f, cosine)));
+  const std::size_t i = std::min(static_cast<std::size_t>(x), kIntervals - 1);
+  return lerp(transmittance_[i], transmittance_[i + 1], x - static_cast<float>(i));
+}
+
+RoughCoat::Reflection RoughCoat::reflect(Vec3 wo, Vec3 wi) const {
+  const Vec3 half = wo + wi;
+  const float squared = length_squared(half);
+  // Both directions so nearly level and opposite that no digit of the half vector is left.
+  constexpr float kDegenerate = 1e-12f;
+  if (squared < kDegenerate) return {};
+  const Vec3 m = half / std::sqrt(squared);
+  const float fresnel = dielectric_fresnel(std::min(1.0f, dot(wo, m)), ior_).reflectance;
+  return {fresnel * facets_.correlated_shadowing(wo, wi), facets_.visible_reflection_pdf(wo, m)};
+}
+
+Vec3 RoughCoat::sample(Vec3 wo, Vec2 u) const {
+  const Vec3 m = facets_.sample_visible_normal(wo, u);
+  return normalize(2 * dot(wo, m) * m - wo);
+}
+
+/// The mean of F G2 / G1 over visible normals, by the midpoint rule over their primary numbers.
+/// Half of the azimuths suffice, and points crowd where facets turn away from view.
+float RoughCoat::reflectance(float cosine) const {
+  constexpr int kPoints = 32;
+  const Vec3 wo{safe_sqrt((1 - cosine) * (1 + cosine)), 0, cosine};
+  double sum = 0;
+  for (int i = 0; i < kPoints; ++i) {
+    const float rest = 1 - (static_cast<float>(i) + 0.5f) / kPoints;
+    for (int j = 0; j < kPoints; ++j) {
+      const float half_turn = 0.5f * (static_cast<float>(j) + 0.5f) / kPoints;
+      const Vec3 wi = sample(wo, {half_turn, 1 - rest * rest});
+      if (wi.z > 0) sum += 2 * double{rest} * double{reflect(wo, wi).weight};
+    }
+  }
+  return static_cast<float>(sum / (kPoints * kPoints));
+}
+
+}  // namespace pharos

@@ -1,0 +1,79 @@
+// rough_plastic: `plastic` whose coat is rough, a sum of GGX microfacets and a matt base,
+//
+//     f = F(o.m) D(m) G2(o, i) / (4 cos(o) cos(i))  +  T(o) T(i) / (pi eta^2)  a / (1 - a F'),
+//
+// m being the unit half vector, T the coat's transmittance in one direction, F' the mean
+// reflectance of its inner side (see diffuse_base.h). T is what the first term does not reflect
+// (rough_coat.h), so that a white base reflects all light up to the error of a table, which is
+// below 0.001 for alpha >= 0.001. sample() chooses coat and base in proportion to the mean of the
+// channels of what they reflect. Masking is height-correlated (Heitz 2014). Light is scattered on
+// the side of the normal only.
+//
+//     { type: rough_plastic, alpha: 0.15, reflectance: [0.1, 0.3, 0.7], nonlinear: true }
+#include "rough_plastic.h"
+
+#include <pharos/config/registry.h>
+#include <pharos/core/warp.h>
+
+namespace pharos {
+
+void RoughPlastic::Settings::describe(Schema<Settings>& s) {
+  s.field("alpha", &Settings::alpha, "GGX roughness of the coat").at_least(1e-4).at_most(1);
+  s.field("ior", &Settings::ior, "Refractive index of the coat over that outside").at_least(1);
+  s.field("reflectance", &Settings::reflectance, "Share of light that the base reflects")
+      .otherwise("0.5")
+      .check("at most 1 everywhere", [](const Ref<Texture>& t) { return t->maximum() <= 1; });
+  s.field("specular_reflectance", &Settings::specular_reflectance,
+          "Factor on what the coat reflects")
+      .otherwise("1")
+      .check("at most 1 everywhere", [](const Ref<Texture>& t) { return t->maximum() <= 1; });
+  s.field("nonlinear", &Settings::nonlinear, "Whether repeated reflection deepens the colour");
+  s.example("{ alpha: 0.02, reflectance: 1, nonlinear: true }");
+  s.example("{ alpha: 0.4, ior: 1.9, reflectance: [0.8, 0.4, 0.05], nonlinear: true }");
+  s.example("{ alpha: 1, ior: 1.3, reflectance: [0.1, 0.2, 0.9], specular_reflectance: 0.5 }");
+}
+
+RoughPlastic::RoughPlastic(const Settings& settings)
+    : settings_(settings),
+      coat_(settings.alpha, settings.ior),
+      base_(hemisphere_mean([this](float cosine) { return coat_.transmittance(cosine); }),
+            settings.ior, settings.nonlinear) {}
+
+LobeChoice RoughPlastic::lobes(const SurfacePoint& point, float cosine) const {
+  const float entering = coat_.transmittance(cosine);
+  return {(1 - entering) * mean(settings_.specular_reflectance->evaluate(point)),
+          entering * mean(base_.emerging(settings_.reflectance->evaluate(point)))};
+}
+
+ScatterValue RoughPlastic::evaluate(const SurfacePoint& point, Vec3 wo, Vec3 wi,
+                                    ScatterOptions options) const {
+  if (wo.z <= 0 || wi.z <= 0 || !contains(options.events, Event::smooth_reflect)) return {};
+  const LobeChoice choice = lobes(point, wo.z);
+  const RoughCoat::Reflection mirrored = coat_.reflect(wo, wi);
+  const float density = warp::cosine_hemisphere_pdf(wi.z);
+  const Rgb coat = mirrored.weight * settings_.specular_reflectance->evaluate(point);
+  const Rgb base = base_.weight(settings_.reflectance->evaluate(point), coat_.transmittance(wo.z),
+                                coat_.transmittance(wi.z));
+  return {mirrored.pdf * coat + density * base,
+          mirrored.pdf * choice.first() + density * choice.second()};
+}
+
+std::optional<ScatterSample> RoughPlastic::sample(const SurfacePoint& point, Vec3 wo,
+                                                  float u_choice, Vec2 u,
+                                                  ScatterOptions options) const {
+  if (wo.z <= 0) return {};
+  const LobeChoice choice = lobes(point, wo.z);
+  if (choice.nothing()) return {};
+  const Vec3 wi =
+      choice.takes_first(u_choice) ? coat_.sample(wo, u) : warp::cosine_hemisphere_from_square(u);
+  const ScatterValue scattered = evaluate(point, wo, wi, options);
+  if (scattered.pdf == 0) return {};
+  return ScatterSample{wi, Event::smooth_reflect, scattered.value / scattered.pdf, scattered.pdf};
+}
+
+Rgb RoughPlastic::albedo(const SurfacePoint& point) const {
+  return base_.albedo(settings_.reflectance->evaluate(point),
+                      settings_.specular_reflectance->evaluate(point));
+}
+
+}  // namespace pharos

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <pharos/config/schema.h>
+#include <pharos/scene/bsdf.h>
+
+namespace pharos {
+
+/// See two_sided.cpp.
+class TwoSided final : public Bsdf {
+ public:
+  struct Settings {
+    Ref<Bsdf> bsdf;
+    Ref<Bsdf> back;  ///< null: as `bsdf`
+    static void describe(Schema<Settings>& s);
+  };
+  /// Throws InputError when a material lets light through.
+  explicit TwoSided(const Settings& settings);
+
+  EventMask events() const override { return front_->events() | back_->events(); }
+  ScatterValue evaluate(const SurfacePoint& point, Vec3 wo, Vec3 wi,
+                        ScatterOptions options) const override;
+  std::optional<ScatterSample> sample(const SurfacePoint& point, Vec3 wo, float u_choice, Vec2 u,
+                                      ScatterOptions options) const override;
+  DiscreteOutcomes discrete(const SurfacePoint& point, Vec3 wo,
+                            ScatterOptions options) const override;
+  float roughness(const SurfacePoint& point) const override;
+  /// The front's: which side is seen is not asked.
+  Rgb albedo(const SurfacePoint& point) const override { return front_->albedo(point); }
+
+ private:
+  Ref<Bsdf> front_, back_;
+};
+
+}  // namespace pharos
