@@ -87,12 +87,12 @@ TEST_CASE("layered BSDFs: samples follow their density") {
     p_values.push_back(result.chi_square.p_value);
   };
   for (const Subject& subject : subjects()) {
-    for (const Vec3 wo : kOutgoing) fit(subject, wo, EventMask::all);
-    fit(subject, kOutgoing[0], EventMask::smooth);
-    fit(subject, kOutgoing[0], EventMask::reflect);
+    fit(subject, kOutgoing[0], EventMask::all);
+    fit(subject, kOutgoing[1], EventMask::reflect);
+    fit(subject, kOutgoing[2], EventMask::smooth);
     fit(subject, kOutgoing[2], EventMask::transmit);
   }
-  CHECK(p_values.size() > 30);
+  CHECK(p_values.size() > 20);
   for (const double p : statistics::holm_adjusted(p_values)) CHECK(p > 0.01);
 }
 

@@ -21,8 +21,8 @@ RoughPlastic::Settings settings(float alpha, Rgb reflectance, float ior = 1.5f) 
 }  // namespace
 
 TEST_CASE("rough plastic: a white base reflects all light, as exactly as the table is") {
-  for (const float ior : {1.3f, 1.5f, 2.4f}) {
-    for (const float alpha : {0.01f, 0.05f, 0.2f, 0.5f, 1.0f}) {
+  for (const float ior : {1.3f, 2.4f}) {
+    for (const float alpha : {0.01f, 0.1f, 0.5f, 1.0f}) {
       const RoughPlastic bsdf(settings(alpha, Rgb(1), ior));
       for (const double theta : {0.0, 50.0, 80.0, 88.0}) {
         CAPTURE(ior);

@@ -1,0 +1,94 @@
+// How materials are written, nested ones above all.
+
+#include <string>
+
+#include <doctest/doctest.h>
+
+#include <pharos/config/registry.h>
+#include <pharos/core/error.h>
+
+#include "bsdf_checks.h"
+
+extern "C" void pharos_module_register(pharos::Registry& registry);
+
+namespace pharos {
+namespace {
+
+/// Stands for the textures of another module.
+class Plain final : public Texture {
+ public:
+  struct Settings {
+    Rgb value;
+    static void describe(Schema<Settings>& s) { s.field("value", &Settings::value, "The value"); }
+  };
+  explicit Plain(const Settings& settings) : value_(settings.value) {}
+  Rgb evaluate(const SurfacePoint&) const override { return value_; }
+  float maximum() const override { return max_component(value_); }
+  Rgb average() const override { return value_; }
+
+ private:
+  Rgb value_;
+};
+
+const Registry& registry() {
+  static const Registry all = [] {
+    Registry r;
+    r.add<Plain>("plain", "The same everywhere");
+    r.set_shorthand<Texture>("plain", "value");
+    pharos_module_register(r);
+    return r;
+  }();
+  return all;
+}
+
+Ref<Bsdf> build(const std::string& yaml, BuildContext context = {registry()}) {
+  ConfigNode resolved;
+  return registry().build<Bsdf>(parse_yaml(yaml, "test"), context, resolved);
+}
+
+}  // namespace
+
+TEST_CASE("materials: nested in place or by name") {
+  BuildContext context{registry()};
+  const Ref<Bsdf> brass = build("{ type: rough_conductor, alpha: 0.2 }");
+  context.named.push_back({"bsdf", "brass", brass});
+  const Ref<Bsdf> bsdf = build(
+      "{ type: mask, opacity: 1, bsdf: { type: two_sided, bsdf: brass, "
+      "back: { type: blend, first: brass, second: { type: rough_plastic, alpha: 0.4 } } } }",
+      context);
+  CHECK(bsdf->roughness({}) == 0.2f);
+  const Vec3 wo = test::direction(20, 0), wi = test::direction(30, 170);
+  CHECK(bsdf->evaluate({}, wo, wi, {}).value == brass->evaluate({}, wo, wi, {}).value);
+}
+
+TEST_CASE("materials: defaults are matt") {
+  CHECK(build("two_sided")->albedo({}) == Rgb(0.5f));
+  CHECK(build("mask")->albedo({}) == Rgb(0.75f));
+  CHECK(build("diffuse_transmitter")->albedo({}) == Rgb(0.5f));
+  // Defaults stay what they are when the scene has a material of that name.
+  BuildContext context{registry()};
+  context.named.push_back({"bsdf", "diffuse", build("rough_conductor")});
+  CHECK(build("two_sided", context)->albedo({}) == Rgb(0.5f));
+}
+
+TEST_CASE("materials: wrong settings say what is wrong, and where") {
+  const auto fails = [](const std::string& yaml, const char* message) {
+    CAPTURE(yaml);
+    CHECK_THROWS_WITH_AS(build(yaml), message, InputError);
+  };
+  fails("{ type: two_sided, back: { type: mask } }",
+        "test:1:1: error: back must be opaque, but 'mask' lets light through");
+  fails("{ type: two_sided, bsdf: { type: dielectric } }",
+        "test:1:1: error: bsdf must be opaque, but 'dielectric' lets light through");
+  fails("{ type: diffuse_transmitter, reflectance: 0.8 }",
+        "test:1:1: error: transmittance and reflectance must not add up to more than 1, but reach "
+        "0.5 and 0.8");
+  fails("{ type: mask, opacity: 1.5 }",
+        "test:1:24: error: opacity must be at most 1 everywhere, got 1.5");
+  fails("{ type: plastic, ior: 0.9 }", "test:1:23: error: ior must be >= 1, got 0.9");
+  fails("{ type: rough_plastic, alpha: 0 }", "test:1:31: error: alpha must be >= 0.0001, got 0");
+  CHECK_THROWS_WITH_AS(build("{ type: blend, first: { type: diffuse } }"),
+                       doctest::Contains("'second'"), InputError);
+}
+
+}  // namespace pharos
