@@ -13,5 +13,6 @@ enum ExitCode { kDone = 0, kBadInput = 2, kFailed = 3, kInterrupted = 130 };
 void add_render_command(CLI::App& app, int& exit_code);
 void add_plugins_command(CLI::App& app, int& exit_code);
 void add_validate_command(CLI::App& app, int& exit_code);
+void add_conformance_command(CLI::App& app, int& exit_code);
 
 }  // namespace pharos

@@ -21,6 +21,7 @@ int run(int argc, char** argv) {
   add_render_command(app, exit_code);
   add_validate_command(app, exit_code);
   add_plugins_command(app, exit_code);
+  add_conformance_command(app, exit_code);
   try {
     app.parse(argc, argv);
     return exit_code;

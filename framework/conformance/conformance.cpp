@@ -1,0 +1,267 @@
+#include <algorithm>
+#include <chrono>
+#include <functional>
+#include <map>
+
+#include <fmt/format.h>
+#include <tbb/task_arena.h>
+
+#include <pharos/conformance/conformance.h>
+#include <pharos/conformance/subjects.h>
+#include <pharos/conformance/suites.h>
+#include <pharos/core/parallel.h>
+
+namespace pharos::conformance {
+namespace {
+
+/// One case with its suite, to be run at any time by any thread.
+struct Job {
+  const PluginInfo* plugin;
+  std::string settings;
+  std::function<void(Suite&)> run;
+  std::vector<Finding> findings = {};
+  double seconds = 0;
+};
+
+Finding finding_of(const PluginInfo& plugin, std::string settings, Finding finding) {
+  finding.contract = plugin.contract;
+  finding.plugin = plugin.name;
+  finding.module = plugin.module;
+  finding.settings = std::move(settings);
+  return finding;
+}
+
+/// Runs a job by itself: while it waits for its own tasks, its thread takes up no other job.
+void run(Job& job, std::uint64_t seed) {
+  const auto start = std::chrono::steady_clock::now();
+  Suite suite(seed);
+  std::optional<std::string> thrown;
+  tbb::this_task_arena::isolate([&] {
+    try {
+      job.run(suite);
+    } catch (const std::exception& e) {
+      thrown = e.what();
+    }
+  });
+  for (Finding& f : suite.findings()) {
+    job.findings.push_back(finding_of(*job.plugin, job.settings, std::move(f)));
+  }
+  if (thrown) {
+    job.findings.push_back(finding_of(
+        *job.plugin, job.settings,
+        {.check = "exception", .verdict = Verdict::failed, .detail = one_line(*thrown)}));
+  }
+  job.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// The suite of a contract whose plugins are tested by themselves; empty when there is none.
+std::function<void(Suite&)> suite_of(const Subject& s) {
+  const auto as = [&s]<class C>() { return std::static_pointer_cast<const C>(s.component); };
+  const std::string& contract = s.plugin->contract;
+  if (contract == Bsdf::contract_name) {
+    return [c = as.operator()<Bsdf>()](Suite& suite) { check_bsdf(*c, suite); };
+  }
+  if (contract == Emitter::contract_name) {
+    return [c = as.operator()<Emitter>()](Suite& suite) { check_emitter(c, suite); };
+  }
+  if (contract == Sensor::contract_name) {
+    return [c = as.operator()<Sensor>()](Suite& suite) { check_sensor(*c, suite); };
+  }
+  if (contract == Filter::contract_name) {
+    return [c = as.operator()<Filter>()](Suite& suite) { check_filter(*c, suite); };
+  }
+  if (contract == Texture::contract_name) {
+    return [c = as.operator()<Texture>()](Suite& suite) { check_texture(*c, suite); };
+  }
+  if (contract == Sampler::contract_name) {
+    return [c = as.operator()<Sampler>()](Suite& suite) { check_sampler(*c, suite); };
+  }
+  if (contract == Shape::contract_name) {
+    return [c = as.operator()<Shape>()](Suite& suite) { check_shape(c, suite); };
+  }
+  return {};
+}
+
+/// All plugins of a registry with their cases, and what is to be done for those selected.
+class Plan {
+ public:
+  Plan(const Registry& registry, const Selection& selection)
+      : registry_(registry), selection_(selection) {
+    check_selection();
+    for_each_plugin([&](const PluginInfo& plugin) {
+      const bool guides = is_guiding(plugin);
+      if (is_selected(plugin) || guides)
+        cases_[&plugin] = cases_of(registry, plugin, folder_.path());
+    });
+    for_each_plugin([&](const PluginInfo& plugin) {
+      if (is_selected(plugin)) add_buildable(plugin);
+      if (plugin.contract == Guider::contract_name) {
+        add_guider(plugin);
+      } else if (is_selected(plugin)) {
+        plugin.contract == Learner::contract_name ? add_learner(plugin) : add_suites(plugin);
+      }
+    });
+  }
+
+  std::vector<Job> jobs;
+
+ private:
+  template <class Use>
+  void for_each_plugin(Use&& use) const {
+    for (const std::string& contract : registry_.contracts()) {
+      for (const std::string& name : registry_.names(contract))
+        use(*registry_.find(contract, name));
+    }
+  }
+
+  static bool is_guiding(const PluginInfo& plugin) {
+    return plugin.contract == Guider::contract_name || plugin.contract == Learner::contract_name;
+  }
+
+  bool is_selected(const PluginInfo& plugin) const {
+    const auto names = [&](const std::string& n) {
+      return n == plugin.name || n == plugin.contract;
+    };
+    return (selection_.module.empty() || selection_.module == plugin.module) &&
+           (selection_.names.empty() ||
+            std::any_of(selection_.names.begin(), selection_.names.end(), names));
+  }
+
+  /// Throws InputError for names that nothing has.
+  void check_selection() const {
+    std::vector<std::string> names = registry_.contracts(), modules;
+    for_each_plugin([&](const PluginInfo& plugin) {
+      names.push_back(plugin.name);
+      modules.push_back(plugin.module);
+    });
+    const auto check = [](const std::string& wanted, const std::vector<std::string>& known,
+                          const char* what) {
+      if (std::find(known.begin(), known.end(), wanted) != known.end()) return;
+      throw InputError(
+          fmt::format("there is no {} '{}'{}", what, wanted, suggestion(wanted, known)));
+    };
+    for (const std::string& name : selection_.names) check(name, names, "contract or plugin");
+    if (!selection_.module.empty()) check(selection_.module, modules, "module with plugins");
+  }
+
+  void add_finding(const PluginInfo& plugin, std::string settings, Finding finding) {
+    Job job{&plugin, {}, {}};
+    job.findings.push_back(finding_of(plugin, std::move(settings), std::move(finding)));
+    jobs.push_back(std::move(job));
+  }
+
+  void add_buildable(const PluginInfo& plugin) {
+    const Cases& cases = cases_.at(&plugin);
+    Finding finding{.check = "buildable", .detail = fmt::format("{} cases", cases.subjects.size())};
+    for (const std::string& reason : cases.left_out) finding.detail += "; left out: " + reason;
+    if (!cases.broken.empty()) {
+      finding.verdict = Verdict::failed;
+      finding.detail = "an example cannot be built: " + cases.broken.front();
+    } else if (cases.subjects.empty()) {
+      finding.verdict = Verdict::failed;
+      finding.detail =
+          "it cannot be built from its defaults; state settings that can by "
+          "s.example(\"{ ... }\") in describe(). " +
+          (cases.left_out.empty() ? "" : cases.left_out.front());
+    }
+    finding.detail = one_line(finding.detail, 1000);
+    add_finding(plugin, {}, std::move(finding));
+  }
+
+  void add_suites(const PluginInfo& plugin) {
+    const std::vector<Subject>& subjects = cases_.at(&plugin).subjects;
+    for (const Subject& subject : subjects) {
+      auto suite = suite_of(subject);
+      if (!suite) {
+        return add_finding(plugin, {},
+                           {.check = "suite",
+                            .verdict = Verdict::not_applicable,
+                            .detail = "the contract has no suite of its own"});
+      }
+      jobs.push_back({&plugin, subject.settings, std::move(suite)});
+    }
+  }
+
+  /// The cases of all guiders or learners of a model.
+  std::vector<const Cases*> partners(std::string_view contract, const std::string& model) const {
+    std::vector<const Cases*> all;
+    for_each_plugin([&](const PluginInfo& plugin) {
+      if (plugin.contract != contract || cases_.at(&plugin).subjects.empty()) return;
+      if (model_of(cases_.at(&plugin).subjects.front()) == model)
+        all.push_back(&cases_.at(&plugin));
+    });
+    return all;
+  }
+
+  static std::string model_of(const Subject& subject) {
+    return subject.plugin->contract == Guider::contract_name
+               ? static_cast<const Guider&>(*subject.component).traits().model
+               : static_cast<const Learner&>(*subject.component).traits().model;
+  }
+
+  void add_no_partner(const Subject& subject, const char* partner) {
+    add_finding(
+        *subject.plugin, subject.settings,
+        {.check = "suite",
+         .verdict = Verdict::not_applicable,
+         .detail = fmt::format("no {} of the model '{}' is loaded", partner, model_of(subject))});
+  }
+
+  /// Every case of the guider with the first case of each learner of its model, and its first case
+  /// with all others; pairs of which neither was selected are left out.
+  void add_guider(const PluginInfo& plugin) {
+    const std::vector<Subject>& guiders = cases_.at(&plugin).subjects;
+    if (guiders.empty()) return;
+    const auto all = partners(Learner::contract_name, model_of(guiders.front()));
+    if (all.empty() && is_selected(plugin)) add_no_partner(guiders.front(), "learner");
+    for (const Cases* learners : all) {
+      if (!is_selected(plugin) && !is_selected(*learners->subjects.front().plugin)) continue;
+      for (const Subject& guider : guiders) add_pair(guider, learners->subjects.front());
+      for (std::size_t i = 1; i < learners->subjects.size(); ++i) {
+        add_pair(guiders.front(), learners->subjects[i]);
+      }
+    }
+  }
+
+  void add_pair(const Subject& guider, const Subject& learner) {
+    std::string settings = fmt::format("{} with the learner {} {}", guider.settings,
+                                       learner.plugin->name, learner.settings);
+    jobs.push_back({guider.plugin, std::move(settings),
+                    [&](Suite& suite) { check_guider(registry_, guider, learner, suite); }});
+  }
+
+  void add_learner(const PluginInfo& plugin) {
+    const std::vector<Subject>& learners = cases_.at(&plugin).subjects;
+    if (learners.empty()) return;
+    const auto guiders = partners(Guider::contract_name, model_of(learners.front()));
+    if (guiders.empty()) return add_no_partner(learners.front(), "guider");
+    for (const Subject& learner : learners) {
+      const Subject& guider = guiders.front()->subjects.front();
+      jobs.push_back({&plugin, learner.settings,
+                      [&](Suite& suite) { check_learner(registry_, learner, guider, suite); }});
+    }
+  }
+
+  const Registry& registry_;
+  const Selection& selection_;
+  ExampleFolder folder_;
+  std::map<const PluginInfo*, Cases> cases_;
+};
+
+}  // namespace
+
+Report check_plugins(const Registry& registry, const Selection& selection, const Options& options) {
+  Plan plan(registry, selection);
+  parallel_for(plan.jobs.size(), [&](std::size_t i) {
+    if (plan.jobs[i].run) run(plan.jobs[i], options.seed);
+  });
+  Report report;
+  for (Job& job : plan.jobs) {
+    report.seconds[{job.plugin->contract, job.plugin->name}] += job.seconds;
+    for (Finding& f : job.findings) report.findings.push_back(std::move(f));
+  }
+  finish(report, options.family_level);
+  return report;
+}
+
+}  // namespace pharos::conformance

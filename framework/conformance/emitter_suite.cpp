@@ -1,0 +1,264 @@
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <pharos/conformance/fit.h>
+#include <pharos/conformance/stage.h>
+#include <pharos/conformance/suites.h>
+#include <pharos/core/warp.h>
+
+namespace pharos::conformance {
+namespace {
+
+/// An emitter as it stands in a scene.
+struct Site {
+  std::string name;
+  std::unique_ptr<const Scene> scene;
+  const Light* light = nullptr;
+  Point3 center;
+  float radius = 1;
+  std::vector<Point3> references;  ///< points that are lit
+};
+
+Site site_on(TriangleMesh mesh, const Ref<Emitter>& emitter, std::string name,
+             std::vector<Point3> references) {
+  Site site{.name = std::move(name), .references = std::move(references)};
+  site.scene = std::make_unique<const Scene>(
+      alone(std::make_shared<const StageShape>(std::move(mesh)), emitter));
+  site.light = site.scene->lights()[0].get();
+  return site;
+}
+
+std::vector<Site> sites_of(const Ref<Emitter>& emitter) {
+  std::vector<Site> sites;
+  if (emitter->needs_shape()) {
+    sites.push_back(site_on(square_mesh({0.2f, 0, 1}, {0.9f, 0, 0.3f}, {0.1f, 0.7f, 0}), emitter,
+                            "square", {{0, 0, 3}, {1.5f, 0.5f, 1.5f}, {0.4f, -0.3f, 1.25f}}));
+    sites.push_back(site_on(ball_mesh({0, 0, 0}, 1), emitter, "ball",
+                            {{0, 0, 4}, {1, 1, -0.2f}, {0.3f, 0, 0}}));
+    return sites;
+  }
+  SceneParts parts = alone(std::make_shared<const StageShape>(ball_mesh({0.5f, 0, 0}, 0.8f)));
+  parts.emitters.push_back(emitter);
+  Site site{.name = "alone", .references = {{0, 0, 0}, {0.5f, -2, 1}, {-3, 4, 2}}};
+  site.scene = std::make_unique<const Scene>(std::move(parts));
+  site.light = site.scene->lights()[0].get();
+  site.center = site.scene->bounds().center();
+  site.radius = 0.5f * site.scene->bounds().diagonal();
+  sites.push_back(std::move(site));
+  return sites;
+}
+
+std::string where(const Site& site, Point3 from) {
+  return fmt::format("{}, from ({:.4g}, {:.4g}, {:.4g})", site.name, from.x, from.y, from.z);
+}
+
+bool is_discrete_light(const Site& site) {
+  return site.light->sample(site.references[0], {0.5f, 0.5f}).discrete;
+}
+
+/// The density of directions, over all points of the light that lie along them.
+double density_along(const Site& site, Point3 from, Vec3 direction) {
+  if (site.light->is_environment()) return site.light->pdf_direction(direction);
+  return sum_along(*site.scene, {from, direction},
+                   [&](const SurfacePoint& p) { return double{site.light->pdf_point(from, p)}; });
+}
+
+void check_density(const Site& site, std::uint64_t seed, Check& chi_square, Check& integral) {
+  constexpr double kRim = 2e-3;
+  if (is_discrete_light(site)) {
+    chi_square.not_applicable("a discrete light");
+    integral.not_applicable("a discrete light");
+    return;
+  }
+  for (const Point3 from : site.references) {
+    const auto draw = [&](RandomStream& random) -> std::optional<Vec3> {
+      const LightSample s = site.light->sample(from, random.next_2d());
+      return s.pdf > 0 ? std::optional(s.direction) : std::nullopt;
+    };
+    const auto density = [&](Vec3 d) { return density_along(site, from, d); };
+    test_directions({draw, density, where(site, from), kRim, 40'000}, seed, chi_square, integral);
+  }
+}
+
+/// The radiance and density that a path finds which ran into the sampled point by itself.
+std::pair<Rgb, float> found_by_path(const Site& site, Point3 from, const LightSample& s) {
+  if (site.light->is_environment()) {
+    return {site.light->environment_radiance(s.direction), site.light->pdf_direction(s.direction)};
+  }
+  return {site.light->radiance(s.point, -s.direction), site.light->pdf_point(from, s.point)};
+}
+
+void check_weight(const Site& site, std::uint64_t seed, Check& check) {
+  constexpr double kTolerance = 0.01;
+  for (const Point3 from : site.references) {
+    RandomStream random(seed, 1);
+    for (int i = 0; i < 2000; ++i) {
+      const LightSample s = site.light->sample(from, random.next_2d());
+      if (s.discrete || s.pdf <= 0) continue;
+      const auto [radiance, pdf] = found_by_path(site, from, s);
+      check.expect_mostly(close(s.radiance, radiance, kTolerance) && close(s.pdf, pdf, kTolerance),
+                          [&, &r = radiance, &p = pdf] {
+                            return fmt::format(
+                                "{}: a sample of radiance {:.6g} and pdf {:.6g}; a path that finds "
+                                "the same point has {:.6g} and {:.6g}",
+                                where(site, from), max_component(s.radiance), s.pdf,
+                                max_component(r), p);
+                          });
+      if (!std::isfinite(s.distance)) continue;
+      const Point3 arrived = from + s.distance * s.direction;
+      check.expect_mostly(length(arrived - s.point.position) < 1e-3f * (1 + s.distance), [&] {
+        return where(site, from) + ": direction and distance do not lead to the sampled point";
+      });
+    }
+  }
+}
+
+/// Points far away, at the origin, and on and next to the light.
+std::vector<Point3> extreme_references(const Site& site) {
+  std::vector<Point3> all = site.references;
+  for (const float far : {1e3f, 1e6f, 1e12f, 1e18f}) all.push_back({far, -far, 0.5f * far});
+  for (const float near : {0.0f, 1e-7f, 1e-4f}) {
+    for (const SceneObject& object : site.scene->objects()) {
+      const SurfacePoint p = object.shape->sample({0.3f, 0.6f}).point;
+      all.push_back(p.position + near * p.normal);
+      all.push_back(p.position - near * p.normal);
+    }
+  }
+  const LightSample s = site.light->sample(site.references[0], {0.5f, 0.5f});
+  if (std::isfinite(s.distance)) all.push_back(s.point.position);
+  return all;
+}
+
+void check_finite(const Site& site, Check& check) {
+  for (const Point3 from : extreme_references(site)) {
+    for (const float x : {0.0f, 0.3f, 0.5f, kOneMinusEpsilon}) {
+      for (const float y : {0.0f, 0.5f, kOneMinusEpsilon}) {
+        const LightSample s = site.light->sample(from, {x, y});
+        check.expect(is_non_negative(s.pdf), [&] {
+          return fmt::format("{}, u ({}, {}): pdf {}", where(site, from), x, y, s.pdf);
+        });
+        if (!(s.pdf > 0)) continue;
+        check.expect(is_finite(s.direction) && std::abs(length(s.direction) - 1) < 1e-3f &&
+                         s.distance > 0 && is_non_negative(s.radiance),
+                     [&] {
+                       return fmt::format(
+                           "{}, u ({}, {}): direction, distance or radiance is not "
+                           "finite, or negative",
+                           where(site, from), x, y);
+                     });
+      }
+    }
+  }
+  check.expect(is_non_negative(site.light->power()),
+               [&] { return fmt::format("{}: power() is {}", site.name, site.light->power()); });
+}
+
+/// Radiance over the surface and the sphere of directions.
+double surface_flux(const Site& site, RandomStream& random, int draws) {
+  const Shape& shape = *site.scene->objects()[0].shape;
+  double sum = 0;
+  for (int i = 0; i < draws; ++i) {
+    const ShapeSample s = shape.sample(random.next_2d());
+    const Vec3 d = warp::sphere_from_square(random.next_2d());
+    sum += double{mean(site.light->radiance(s.point, d))} * abs_dot(d, s.point.normal) /
+           (s.pdf * warp::sphere_pdf());
+  }
+  return sum / draws;
+}
+
+/// What enters the scene's sphere: radiance over all directions times its cross section.
+double environment_flux(const Site& site, RandomStream& random, int draws) {
+  double sum = 0;
+  for (int i = 0; i < draws; ++i) {
+    const Vec3 d = warp::sphere_from_square(random.next_2d());
+    sum += double{mean(site.light->environment_radiance(d))} / warp::sphere_pdf();
+  }
+  return sum / draws * double{kPi} * square(site.radius);
+}
+
+/// Irradiance over a sphere about a light without extent, or over the scene's cross section for one
+/// that is infinitely far.
+double discrete_flux(const Site& site, RandomStream& random, int draws) {
+  const LightSample first = site.light->sample(site.references[0], {0.5f, 0.5f});
+  if (!std::isfinite(first.distance)) {
+    return double{mean(first.radiance)} * double{kPi} * square(site.radius);
+  }
+  double sum = 0;
+  for (int i = 0; i < draws; ++i) {
+    const Point3 from =
+        first.point.position + warp::sphere_from_square(random.next_2d());  // at distance one
+    const LightSample s = site.light->sample(from, random.next_2d());
+    if (s.pdf > 0) sum += double{mean(s.radiance)} / warp::sphere_pdf();
+  }
+  return sum / draws;
+}
+
+void check_power(const Site& site, std::uint64_t seed, Check& check) {
+  constexpr int kDraws = 200'000;
+  RandomStream random(seed, 2);
+  const double flux = is_discrete_light(site)        ? discrete_flux(site, random, kDraws)
+                      : site.light->is_environment() ? environment_flux(site, random, kDraws)
+                                                     : surface_flux(site, random, kDraws);
+  const double claimed = site.light->power();
+  check.expect(claimed >= 0.5 * flux && claimed <= 2 * flux, [&] {
+    return fmt::format("{}: power() is {:.4g}, the flux {:.4g}", site.name, claimed, flux);
+  });
+}
+
+void check_discrete(const Site& site, std::uint64_t seed, Check& check) {
+  const bool discrete = is_discrete_light(site);
+  if (!discrete) check.not_applicable("not a discrete light");
+  RandomStream random(seed, 3);
+  for (const Point3 from : site.references) {
+    const LightSample first = site.light->sample(from, {0.5f, 0.5f});
+    for (int i = 0; i < 200; ++i) {
+      const LightSample s = site.light->sample(from, random.next_2d());
+      if (s.pdf <= 0) continue;
+      if (s.discrete != discrete) {
+        check.expect(false, [&] { return where(site, from) + ": discrete at times only"; });
+      }
+      if (!discrete) continue;
+      check.expect(s.pdf == 1, [&] { return fmt::format("{}: pdf {}", where(site, from), s.pdf); });
+      check.expect(s.direction == first.direction,
+                   [&] { return where(site, from) + ": more than one direction"; });
+    }
+  }
+}
+
+void check_determinism(const Site& site, std::uint64_t seed, Check& check) {
+  RandomStream random(seed, 4);
+  for (const Point3 from : site.references) {
+    for (int i = 0; i < 100; ++i) {
+      const Vec2 u = random.next_2d();
+      const LightSample a = site.light->sample(from, u);
+      site.light->sample({1, 2, 3}, {0.1f, 0.9f});
+      const LightSample b = site.light->sample(from, u);
+      check.expect(a.direction == b.direction && a.radiance == b.radiance && a.pdf == b.pdf,
+                   [&] { return where(site, from) + ": the same numbers give another sample"; });
+    }
+  }
+}
+
+}  // namespace
+
+void check_emitter(const Ref<Emitter>& emitter, Suite& suite) {
+  Check& chi_square = suite.check("chi_square");
+  Check& integral = suite.check("integral");
+  Check& weight = suite.check("weight");
+  Check& finite = suite.check("finite");
+  Check& power = suite.check("power");
+  Check& discrete = suite.check("discrete");
+  Check& determinism = suite.check("determinism");
+  weight.not_applicable("no other technique finds a discrete light");
+  for (const Site& site : sites_of(emitter)) {
+    check_density(site, suite.seed(), chi_square, integral);
+    check_weight(site, suite.seed(), weight);
+    check_finite(site, finite);
+    check_power(site, suite.seed(), power);
+    check_discrete(site, suite.seed(), discrete);
+    check_determinism(site, suite.seed(), determinism);
+  }
+}
+
+}  // namespace pharos::conformance

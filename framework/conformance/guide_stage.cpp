@@ -1,0 +1,221 @@
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <pharos/conformance/guide_stage.h>
+#include <pharos/conformance/stage.h>
+#include <pharos/core/random.h>
+
+namespace pharos::conformance {
+namespace {
+
+constexpr int kFilm = 16;
+constexpr float kFogDensity = 0.4f;
+const Point3 kSensor{-0.3f, 0.1f, -0.85f};
+
+SceneObject object_of(TriangleMesh mesh, Ref<Bsdf> bsdf, Ref<Emitter> emitter) {
+  return {std::make_shared<const StageShape>(std::move(mesh)), std::move(bsdf), std::move(emitter),
+          nullptr, nullptr};
+}
+
+/// The integrator's settings with the pair as its guiding.
+ConfigNode guided_node(const std::string& integrator, const GuidedPair& pair) {
+  ConfigNode training = ConfigNode::mapping();
+  training.set("iterations", ConfigNode::scalar("3"));
+  ConfigNode guiding = ConfigNode::mapping();
+  guiding.set("learner", pair.learner.node);
+  guiding.set("guider", pair.guider.node);
+  guiding.set("training", std::move(training));
+  ConfigNode node = ConfigNode::mapping();
+  node.set("type", ConfigNode::scalar(integrator));
+  node.set("guiding", std::move(guiding));
+  return node;
+}
+
+template <class C>
+Ref<C> build(const Registry& registry, const ConfigNode& node) {
+  BuildContext context{registry};
+  ConfigNode resolved;
+  return registry.build<C>(node, context, resolved);
+}
+
+LocalScattering scattering_at(const Scene& scene, const SurfacePoint& point, const Medium* medium,
+                              bool in_medium, Vec3 towards_previous) {
+  if (!in_medium) {
+    return {point, scene.bsdf(point), towards_previous, Transport::radiance};
+  }
+  return {medium->phase_function(), medium->scattering(point.position), towards_previous,
+          Transport::radiance};
+}
+
+/// One path through a scene, as far as two vertices.
+class Walk {
+ public:
+  Walk(const Scene& scene, std::uint64_t seed, std::uint64_t path)
+      : scene_(scene), random_(seed, path), medium_(scene.sensor_medium()) {}
+
+  /// The next vertex; null where the path ends.
+  std::unique_ptr<const StageVertex> next() {
+    const bool first = last_ == nullptr;
+    Ray ray{kSensor, normalize({random_.next_1d() - 0.5f, random_.next_1d() - 0.5f, 1})};
+    GuidingVertex previous{.position = kSensor, .kind = VertexKind::sensor};
+    if (!first) {
+      const float u_choice = random_.next_1d();
+      const auto s = last_->scattering().sample(u_choice, random_.next_2d());
+      if (!s) return nullptr;
+      previous = last_->query().current;
+      previous.event = s->event;
+      ray = {last_on_surface_ ? point_.origin_towards(s->direction) : point_.position,
+             s->direction};
+    }
+    SurfacePoint hit;
+    ray.t_max = scene_.intersect(ray, hit);
+    if (ray.t_max == kInfinity) return nullptr;
+    bool in_medium = false;
+    if (medium_ != nullptr) {
+      const DistanceSample stop = medium_->sample(ray, 0, random_.next_1d());
+      in_medium = stop.scattered;
+      if (in_medium) hit = {.position = ray.at(stop.t)};
+    }
+    point_ = hit;
+    last_on_surface_ = !in_medium;
+    auto vertex = std::make_unique<const StageVertex>(scene_, previous, hit, medium_, in_medium,
+                                                      -ray.direction, ++bounce_);
+    last_ = vertex.get();
+    return vertex;
+  }
+
+ private:
+  const Scene& scene_;
+  RandomStream random_;
+  const Medium* medium_;
+  const StageVertex* last_ = nullptr;
+  SurfacePoint point_;
+  bool last_on_surface_ = true;
+  std::uint16_t bounce_ = 0;
+};
+
+}  // namespace
+
+SceneParts room_parts(Room room, bool foggy) {
+  const Ref<Emitter> shine = room == Room::furnace ? glow(1) : nullptr;
+  const Ref<Bsdf> matt = matt_bsdf(0.5f);
+  SceneParts parts;
+  parts.objects.push_back(object_of(room_mesh(), matt, shine));
+  parts.objects.push_back(object_of(ball_mesh({0.4f, -0.3f, 0.3f}, 0.3f), matt, shine));
+  parts.objects.push_back(object_of(
+      square_mesh({-0.4f, -0.2f, 0.4f}, {0.35f, 0, 0.1f}, {0, 0.4f, 0}), half_mirror(), nullptr));
+  if (room == Room::lamp) {
+    const Vec3 u{0.15f, 0, 0}, v{0, 0, 0.15f};  // u x v points down
+    parts.objects.push_back(object_of(square_mesh({0.5f, 0.9f, 0}, u, v), black_bsdf(), glow(20)));
+  }
+  parts.sensor = pinhole(kSensor);
+  if (foggy) parts.medium = fog(kFogDensity);
+  return parts;
+}
+
+Ref<Integrator> integrator_for(const GuidedPair& pair, std::string& why_not) {
+  why_not = "no integrator is loaded";
+  for (const std::string& name : pair.registry.names(Integrator::contract_name)) {
+    try {
+      auto integrator = build<Integrator>(pair.registry, guided_node(name, pair));
+      if (!integrator->traits().guided || integrator->guiding() == nullptr) continue;
+      check_compatible(*integrator);
+      return integrator;
+    } catch (const InputError& e) {
+      why_not = e.what();
+    }
+  }
+  return nullptr;
+}
+
+Ref<Integrator> unguided(const GuidedPair& pair, const Integrator& guided) {
+  return build<Integrator>(pair.registry, ConfigNode::scalar(guided.plugin_name()));
+}
+
+RenderResult render_room(const GuidedPair& pair, const Ref<Integrator>& integrator, Room room,
+                         bool foggy, std::uint32_t samples, std::uint64_t seed) {
+  const ConfigNode by_default = ConfigNode::scalar("default");
+  RenderConfig config;
+  config.scene = room_parts(room, foggy);
+  config.film.width = config.film.height = kFilm;
+  config.film.filter = build<Filter>(pair.registry, by_default);
+  config.sampler = build<Sampler>(pair.registry, by_default);
+  config.integrator = integrator;
+  config.budget.spp = samples;
+  config.seed = seed;
+  return RenderJob(config).run();
+}
+
+StageVertex::StageVertex(const Scene& scene, const GuidingVertex& previous,
+                         const SurfacePoint& point, const Medium* medium, bool in_medium,
+                         Vec3 towards_previous, std::uint16_t bounce)
+    : scene_(scene),
+      previous_(previous),
+      point_(point),
+      medium_(medium),
+      scattering_(scattering_at(scene, point_, medium, in_medium, towards_previous)),
+      query_{.previous = &previous_,
+             .current = {.position = point.position,
+                         .normal = in_medium ? Vec3{} : point.normal,
+                         .shading_normal = in_medium ? Vec3{} : point.shading.n,
+                         .kind = in_medium ? VertexKind::volume : VertexKind::surface,
+                         .roughness = scattering_.roughness()},
+             .towards_previous = towards_previous,
+             .bounce = bounce,
+             .scattering = scattering_,
+             .medium = medium} {}
+
+Ray StageVertex::ray_towards(Vec3 direction) const {
+  return {scattering_.is_surface() ? point_.origin_towards(direction) : point_.position, direction};
+}
+
+ResolvedVertex StageVertex::surface_along(Vec3 direction, Event event) const {
+  SurfacePoint hit;
+  const Ray ray = ray_towards(direction);
+  const float distance = scene_.intersect(ray, hit);
+  ResolvedVertex vertex{.direction = direction,
+                        .distance = distance,
+                        .position = hit.position,
+                        .kind = VertexKind::surface,
+                        .event = event};
+  if (distance == kInfinity) {
+    vertex.kind = VertexKind::environment;
+    vertex.position = scene_.environment_point(ray.origin, direction);
+  }
+  if (medium_ != nullptr) vertex.medium_density = medium_->pass_probability(ray, distance);
+  return vertex;
+}
+
+std::string StageVertex::text() const {
+  const Point3 p = query_.current.position;
+  return fmt::format("bounce {} {} at ({:.3g}, {:.3g}, {:.3g})", query_.bounce,
+                     !scattering_.is_surface()       ? "in fog"
+                     : scattering_.purely_discrete() ? "on the half mirror"
+                                                     : "on a matt surface",
+                     p.x, p.y, p.z);
+}
+
+std::vector<std::unique_ptr<const StageVertex>> stage_vertices(const Scene& scene,
+                                                               std::uint64_t seed) {
+  constexpr int kOfEachKind = 2;
+  int found[2][3] = {};  // by bounce and by what they lie on
+  std::vector<std::unique_ptr<const StageVertex>> all;
+  for (std::uint64_t path = 0; path < 400; ++path) {
+    Walk walk(scene, seed, path);
+    std::vector<std::unique_ptr<const StageVertex>> vertices;
+    for (int bounce = 0; bounce < 2; ++bounce) {
+      auto vertex = walk.next();
+      if (vertex == nullptr) break;
+      vertices.push_back(std::move(vertex));
+    }
+    for (std::size_t bounce = 0; bounce < vertices.size(); ++bounce) {
+      const LocalScattering& s = vertices[bounce]->scattering();
+      int& count = found[bounce][!s.is_surface() ? 0 : s.purely_discrete() ? 1 : 2];
+      if (count++ < kOfEachKind) all.push_back(std::move(vertices[bounce]));
+    }
+  }
+  return all;
+}
+
+}  // namespace pharos::conformance

@@ -1,0 +1,353 @@
+#include <cmath>
+#include <functional>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <tbb/task_arena.h>
+
+#include <pharos/conformance/fit.h>
+#include <pharos/conformance/guide_stage.h>
+#include <pharos/conformance/suites.h>
+#include <pharos/core/warp.h>
+#include <pharos/sampling/keyed_numbers.h>
+#include <pharos/statistics/hypothesis.h>
+
+namespace pharos::conformance {
+namespace {
+
+constexpr std::uint32_t kTrainingSamples = 64;
+
+/// Independent numbers, each path named by its index.
+class KeyedSampler final : public PreparedSampler {
+ public:
+  std::uint64_t begin(const PathKey& key) const override { return hash_key(key); }
+  float value_1d(const SampleStream& stream, Dimension dimension) const override {
+    return keyed_numbers(stream.state(), dimension).x;
+  }
+  Vec2 value_2d(const SampleStream& stream, Dimension dimension) const override {
+    return keyed_numbers(stream.state(), dimension);
+  }
+};
+
+class HalfUnguided final : public MixingFractions {
+ public:
+  float unguided_fraction(std::uint32_t) const override { return 0.5f; }
+};
+
+/// A guider bound to a model, as a render would ask it: densities are complete.
+GuidingFrame frame_of(const Guider& guider, const std::shared_ptr<const GuidingModel>& model) {
+  const GuiderTraits traits = guider.traits();
+  return GuidingFrame({{.guider = guider.bind(model),
+                        .steers_distance = traits.steers_distance,
+                        .steers_events = traits.steers_events}},
+                      std::make_shared<const HalfUnguided>());
+}
+
+/// What a guide knows at one vertex.
+class Guided {
+ public:
+  Guided(const GuidingFrame& frame, const StageVertex& vertex)
+      : vertex_(vertex), distribution_(frame.query(vertex.query(), arena_).distribution) {}
+
+  bool declines() const { return distribution_ == nullptr; }
+  const StageVertex& vertex() const { return vertex_; }
+  double density(const ResolvedVertex& vertex) const {
+    return distribution_->density(vertex).value;
+  }
+
+  std::optional<Proposal> propose(std::uint64_t path) const {
+    const SampleStream stream(numbers_, {.seed = 77, .index = path});
+    return distribution_->propose(VertexStream(stream, vertex_.query().bounce));
+  }
+
+  /// The vertex that a draw leads to; empty for a sample of value zero.
+  std::optional<ResolvedVertex> draw(RandomStream& random) const {
+    const std::optional<Proposal> proposal = propose(random());
+    if (!proposal) return std::nullopt;
+    const auto [direction, event] = step(*proposal);
+    if (event == Event::none) return std::nullopt;
+    const auto reached = reach(vertex_.surface_along(direction, event), *proposal, random);
+    return reached && contains(proposal->targets, reached->kind) ? reached : std::nullopt;
+  }
+
+  /// Whether steps into a direction carry anything; a guide's density elsewhere is its own affair.
+  bool scatters_into(Vec3 direction) const {
+    return !is_black(vertex_.scattering().evaluate(direction).value);
+  }
+  /// The end of the segment along a direction, at its surface or at `distance` before.
+  ResolvedVertex end_along(Vec3 direction) const {
+    return vertex_.surface_along(direction, vertex_.scattering().smooth_event(direction));
+  }
+  ResolvedVertex stopped(ResolvedVertex v, float distance) const {
+    const Ray ray{vertex_.query().current.position, v.direction, v.distance};
+    v.distance = distance;
+    v.position = ray.at(distance);
+    v.kind = VertexKind::volume;
+    v.medium_density = vertex_.medium()->scatter_pdf(ray, distance);
+    return v;
+  }
+
+ private:
+  /// What the scattering makes of a proposal.
+  std::pair<Vec3, Event> step(const Proposal& proposal) const {
+    if (is_empty(proposal.events & EventMask::smooth)) {
+      for (const DiscreteOutcome& o : vertex_.scattering().discrete()) {
+        if (contains(proposal.events, o.event)) return {o.direction, o.event};
+      }
+      return {{}, Event::none};
+    }
+    const Event event = vertex_.scattering().smooth_event(proposal.direction);
+    const bool taken = contains(proposal.events, event) && scatters_into(proposal.direction);
+    return {proposal.direction, taken ? event : Event::none};
+  }
+
+  std::optional<ResolvedVertex> reach(const ResolvedVertex& end, const Proposal& proposal,
+                                      RandomStream& random) const {
+    const bool at_distance = proposal.reach == Proposal::Reach::distance;
+    if (vertex_.medium() == nullptr) return at_distance ? std::nullopt : std::optional(end);
+    DistanceSample stop{proposal.distance, at_distance};
+    if (proposal.reach == Proposal::Reach::medium) {
+      const Ray ray{vertex_.query().current.position, end.direction, end.distance};
+      stop = vertex_.medium()->sample(ray, 0, random.next_1d());
+    } else if (at_distance && !(stop.t < end.distance)) {
+      return std::nullopt;
+    }
+    return stop.scattered ? stopped(end, stop.t) : end;
+  }
+
+  const StageVertex& vertex_;
+  Arena arena_;
+  KeyedSampler numbers_;
+  const GuidingDistribution* distribution_;
+};
+
+/// Directions that end on a surface, against their density [1/sr].
+void test_surfaces(const Guided& guide, std::uint64_t seed, Check& chi_square, Check& integral) {
+  const auto draw = [&](RandomStream& random) -> std::optional<Vec3> {
+    const auto v = guide.draw(random);
+    if (!v || v->kind == VertexKind::volume || is_discrete(v->event)) return std::nullopt;
+    return v->direction;
+  };
+  const auto density = [&](Vec3 direction) {
+    return guide.scatters_into(direction) ? guide.density(guide.end_along(direction)) : 0.0;
+  };
+  test_directions({draw, density, guide.vertex().text(), 0, 40'000}, seed, chi_square, integral);
+}
+
+/// Vertices in a medium, against their density [1/(sr m)]: shares of draws in eight octants of
+/// directions and two halves of distances, against the density's mean over uniform vertices there.
+void test_volumes(const Guided& guide, std::uint64_t seed, Check& chi_square, Check& integral) {
+  constexpr std::size_t kCells = 16, kDraws = 30'000;
+  const auto cell_of = [&](const ResolvedVertex& v, float whole) {
+    const Vec3 d = v.direction;
+    return static_cast<std::size_t>((d.x > 0) | (d.y > 0) << 1 | (d.z > 0) << 2 |
+                                    (v.distance > 0.5f * whole) << 3);
+  };
+  std::vector<std::vector<double>> drawn(kCells + 1, std::vector<double>(kDraws));
+  std::vector<std::vector<double>> claimed = drawn;
+  RandomStream random(seed, 1);
+  for (std::size_t i = 0; i < kDraws; ++i) {
+    if (const auto v = guide.draw(random); v && v->kind == VertexKind::volume) {
+      drawn[cell_of(*v, guide.end_along(v->direction).distance)][i] = drawn[kCells][i] = 1;
+    }
+    const ResolvedVertex end = guide.end_along(warp::sphere_from_square(random.next_2d()));
+    const ResolvedVertex v = guide.stopped(end, random.next_1d() * end.distance);
+    if (!guide.scatters_into(v.direction)) continue;
+    const double share = guide.density(v) * end.distance / warp::sphere_pdf();
+    claimed[cell_of(v, end.distance)][i] = claimed[kCells][i] = share;
+  }
+  for (std::size_t cell = 0; cell <= kCells; ++cell) {
+    const auto a = statistics::estimate(statistics::moments(drawn[cell]));
+    const auto b = statistics::estimate(statistics::moments(claimed[cell]));
+    (cell == kCells ? integral : chi_square)
+        .add_p_value(
+            statistics::welch_test(a, b).p_value,
+            fmt::format("{}: a share {:.4f} of draws ends in the medium ({}), the density "
+                        "says {:.4f}",
+                        guide.vertex().text(), a.mean,
+                        cell == kCells ? "anywhere" : fmt::format("cell {}", cell), b.mean));
+  }
+}
+
+/// Frequencies of discrete events that end on a surface, against their probabilities [1].
+void test_outcomes(const Guided& guide, std::uint64_t seed, Check& chi_square, Check& integral) {
+  constexpr int kDraws = 20'000;
+  const DiscreteOutcomes outcomes = guide.vertex().scattering().discrete();
+  std::vector<double> expected, observed(static_cast<std::size_t>(outcomes.count) + 1);
+  double rest = 1;
+  for (const DiscreteOutcome& o : outcomes) {
+    const double p = guide.density(guide.vertex().surface_along(o.direction, o.event));
+    expected.push_back(kDraws * p);
+    rest -= p;
+  }
+  integral.expect(rest >= -1e-4, [&] {
+    return fmt::format("{}: probabilities of discrete events add up to {}", guide.vertex().text(),
+                       1 - rest);
+  });
+  RandomStream random(seed, 2);
+  for (int i = 0; i < kDraws; ++i) {
+    std::size_t which = static_cast<std::size_t>(outcomes.count);
+    if (const auto v = guide.draw(random); v && v->kind != VertexKind::volume) {
+      for (int k = 0; k < outcomes.count; ++k) {
+        if (outcomes.outcomes[static_cast<std::size_t>(k)].event == v->event) {
+          which = static_cast<std::size_t>(k);
+        }
+      }
+    }
+    ++observed[which];
+  }
+  expected.push_back(kDraws * std::max(rest, 0.0));
+  chi_square.add_p_value(statistics::chi_square_test(observed, expected).p_value,
+                         guide.vertex().text() + ": frequencies of discrete events");
+}
+
+void check_densities(const GuidingFrame& frame, const Scene& scene, std::uint64_t seed,
+                     Check& chi_square, Check& integral) {
+  for (const auto& vertex : stage_vertices(scene, seed)) {
+    const Guided guide(frame, *vertex);
+    if (guide.declines()) continue;
+    if (vertex->scattering().purely_discrete()) {
+      test_outcomes(guide, seed, chi_square, integral);
+      continue;
+    }
+    test_surfaces(guide, seed, chi_square, integral);
+    if (vertex->medium() != nullptr) test_volumes(guide, seed, chi_square, integral);
+  }
+}
+
+bool same(const std::optional<Proposal>& a, const std::optional<Proposal>& b) {
+  if (!a || !b) return a.has_value() == b.has_value();
+  return a->direction == b->direction && a->events == b->events && a->reach == b->reach &&
+         a->distance == b->distance && a->targets == b->targets;
+}
+
+/// Two guides that must be alike: the same answers at every vertex of a scene.
+void expect_alike(const GuidingFrame& a, const GuidingFrame& b, const Scene& scene,
+                  std::uint64_t seed, const char* difference, Check& check) {
+  for (const auto& vertex : stage_vertices(scene, seed)) {
+    const Guided first(a, *vertex), second(b, *vertex);
+    const auto fault = [&] { return vertex->text() + ": " + difference; };
+    check.expect(first.declines() == second.declines(), fault);
+    if (first.declines() || second.declines()) continue;
+    for (std::uint64_t path = 0; path < 100; ++path) {
+      const auto p = first.propose(path), q = second.propose(path);
+      check.expect(same(p, q), fault);
+      if (!p || is_empty(p->events & EventMask::smooth)) continue;
+      const ResolvedVertex v = first.end_along(p->direction);
+      check.expect(close(first.density(v), second.density(v), 1e-5), fault);
+    }
+  }
+}
+
+std::shared_ptr<const GuidingModel> saved_and_loaded(const GuidingModel& model,
+                                                     const Learner& learner) {
+  std::stringstream file;
+  model.save(file);
+  return learner.load_model(file);
+}
+
+void check_save_load(const GuidedPair& pair, const std::shared_ptr<const GuidingModel>& model,
+                     const Scene& scene, std::uint64_t seed, Check& check) {
+  try {
+    const auto loaded = saved_and_loaded(*model, pair.the_learner());
+    check.expect(loaded != nullptr, [] { return "load_model() returns null"; });
+    if (loaded == nullptr) return;
+    expect_alike(frame_of(pair.the_guider(), model), frame_of(pair.the_guider(), loaded), scene,
+                 seed, "a model that was saved and loaded is sampled otherwise", check);
+  } catch (const Error& e) {
+    check.expect(false,
+                 [&] { return std::string("what was saved cannot be loaded: ") + e.what(); });
+  }
+}
+
+double image_mean(const Image& image) {
+  double sum = 0;
+  for (int y = 0; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x) sum += mean(image.rgb(x, y));
+  }
+  return sum / (static_cast<double>(image.width()) * image.height());
+}
+
+/// Guided and unguided renders of a furnace have the same mean.
+void check_furnace(const GuidedPair& pair, const Ref<Integrator>& guided, bool foggy,
+                   std::uint64_t seed, Check& check) {
+  constexpr std::uint64_t kRuns = 8;
+  constexpr double kSlack = 3e-4;  // of single precision and of what guiding leaves unexplored
+  const auto mean_of = [&](const Ref<Integrator>& integrator, std::uint64_t first_seed) {
+    std::vector<double> means;
+    for (std::uint64_t run = 0; run < kRuns; ++run) {
+      means.push_back(image_mean(
+          render_room(pair, integrator, Room::furnace, foggy, 64, first_seed + run).image));
+    }
+    return statistics::estimate(statistics::moments(means));
+  };
+  statistics::Estimate a = mean_of(guided, seed),
+                       b = mean_of(unguided(pair, *guided), seed + kRuns);
+  a.squared_error += square(kSlack * a.mean);
+  b.squared_error += square(kSlack * b.mean);
+  check.add_p_value(statistics::welch_test(a, b).p_value,
+                    fmt::format("{}: guided {:.5f} +- {:.5f}, unguided {:.5f} +- {:.5f}",
+                                foggy ? "in fog" : "in empty space", a.mean,
+                                std::sqrt(a.squared_error), b.mean, std::sqrt(b.squared_error)));
+}
+
+}  // namespace
+
+void check_guider(const Registry& registry, const Subject& guider, const Subject& learner,
+                  Suite& suite) {
+  const GuidedPair pair{registry, guider, learner};
+  Check& chi_square = suite.check("chi_square");
+  Check& integral = suite.check("integral");
+  Check& determinism = suite.check("determinism");
+  Check& save_load = suite.check("save_load");
+  Check& furnace = suite.check("furnace");
+  std::string why_not;
+  const Ref<Integrator> integrator = integrator_for(pair, why_not);
+  if (integrator == nullptr) {
+    why_not = "no integrator can follow: " + why_not;
+    for (Check* c : {&chi_square, &integral, &determinism, &save_load, &furnace}) {
+      c->not_applicable(why_not);
+    }
+    return;
+  }
+  for (Check* c : {&chi_square, &integral, &determinism}) {
+    c->not_applicable("the guide knows nothing at any vertex");
+  }
+  const bool steers = pair.the_guider().traits().steers_distance;
+  for (const bool foggy : {false, true}) {
+    check_furnace(pair, integrator, foggy, suite.seed(), furnace);
+    const auto model =
+        render_room(pair, integrator, Room::lamp, foggy, kTrainingSamples, suite.seed()).model;
+    if (model == nullptr) continue;
+    const Scene scene(room_parts(Room::lamp, foggy));
+    const GuidingFrame frame = frame_of(pair.the_guider(), model);
+    check_densities(frame, scene, suite.seed(), chi_square, integral);
+    expect_alike(frame, frame_of(pair.the_guider(), model), scene, suite.seed(),
+                 "asked again, the guide answers otherwise", determinism);
+    check_save_load(pair, model, scene, suite.seed(), save_load);
+    if (!steers) break;
+  }
+}
+
+void check_learner(const Registry& registry, const Subject& learner, const Subject& guider,
+                   Suite& suite) {
+  const GuidedPair pair{registry, guider, learner};
+  Check& check = suite.check("determinism");
+  std::string why_not;
+  const Ref<Integrator> integrator = integrator_for(pair, why_not);
+  if (integrator == nullptr) return check.not_applicable("no integrator can follow: " + why_not);
+  const auto trained = [&](int threads) {
+    tbb::task_arena arena(threads);
+    const auto model = arena.execute([&] {
+      return render_room(pair, integrator, Room::lamp, false, kTrainingSamples, suite.seed()).model;
+    });
+    std::ostringstream file;
+    if (model != nullptr) model->save(file);
+    return file.str();
+  };
+  check.expect(trained(1) == trained(4), [] {
+    return "the models of two trainings, with one thread and with four, are saved as other bytes";
+  });
+}
+
+}  // namespace pharos::conformance

@@ -1,0 +1,154 @@
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <unistd.h>
+
+#include <pharos/conformance/subjects.h>
+#include <pharos/core/error.h>
+#include <pharos/core/image.h>
+
+namespace pharos::conformance {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// An octahedron with smooth shading normals.
+constexpr const char* kExamplePly = R"(ply
+format ascii 1.0
+element vertex 6
+property float x
+property float y
+property float z
+property float nx
+property float ny
+property float nz
+element face 8
+property list uchar int vertex_indices
+end_header
+1 0 0 1 0 0
+-1 0 0 -1 0 0
+0 1 0 0 1 0
+0 -1 0 0 -1 0
+0 0 1 0 0 1
+0 0 -1 0 0 -1
+3 0 2 4
+3 2 1 4
+3 1 3 4
+3 3 0 4
+3 2 0 5
+3 1 2 5
+3 3 1 5
+3 0 3 5
+)";
+
+/// A sky that brightens upwards with a small sun, as a map of the sphere of directions.
+Image example_sky() {
+  Image image(32, 16, {"R", "G", "B"});
+  for (int y = 0; y < 16; ++y) {
+    for (int x = 0; x < 32; ++x) {
+      const float up = 1 - (static_cast<float>(y) + 0.5f) / 16;
+      const bool sun = y == 4 && (x == 20 || x == 21);
+      image.set_rgb(x, y, sun ? Rgb(80, 70, 50) : Rgb(0.2f * up, 0.3f * up, 0.1f + 0.5f * up));
+    }
+  }
+  return image;
+}
+
+Image example_picture() {
+  Image image(16, 16, {"R", "G", "B"});
+  for (int y = 0; y < 16; ++y) {
+    for (int x = 0; x < 16; ++x) {
+      const float wave = 0.5f + 0.5f * std::sin(0.9f * static_cast<float>(x * y % 7 + x));
+      image.set_rgb(x, y, {0.9f * wave, 0.05f * static_cast<float>(y), 0.5f});
+    }
+  }
+  return image;
+}
+
+/// Builds cases one by one and keeps those that can be built.
+class CaseBuilder {
+ public:
+  CaseBuilder(const Registry& registry, const PluginInfo& plugin, const fs::path& folder)
+      : registry_(registry), plugin_(plugin), where_{(folder / "example.yaml").string(), 1, 1} {}
+
+  /// Adds the case of a YAML mapping; the reason in `failures` when it cannot be built.
+  void add(const std::string& yaml, std::vector<std::string>& failures) {
+    try {
+      add(parse_yaml_at(yaml, where_));
+    } catch (const Error& e) {
+      failures.push_back(yaml + ": " + e.what());
+    }
+  }
+
+  /// Adds the first case with every other value of `parameter`.
+  void vary(const ParameterInfo& parameter) {
+    if (cases.subjects.empty()) return;
+    const ConfigNode base = cases.subjects.front().node;
+    const ConfigNode* given = base.find(parameter.key);
+    for (const std::string& value : values_of(parameter)) {
+      if (value == (given != nullptr ? given->text() : parameter.default_value)) continue;
+      ConfigNode varied = base;
+      varied.take("type");
+      varied.set(parameter.key, ConfigNode::scalar(value, where_), where_);
+      add(to_flow_yaml(varied), cases.left_out);
+    }
+  }
+
+  Cases cases;
+
+ private:
+  void add(ConfigNode node) {
+    std::string settings = to_flow_yaml(node);
+    const auto same = [&](const Subject& s) { return s.settings == settings; };
+    if (std::any_of(cases.subjects.begin(), cases.subjects.end(), same)) return;
+    if (node.is_mapping()) node.set("type", ConfigNode::scalar(plugin_.name, where_), where_);
+    BuildContext context{registry_};
+    ConfigNode resolved = ConfigNode::mapping();
+    std::shared_ptr<const Component> component = plugin_.build(node, context, resolved);
+    cases.subjects.push_back(
+        {&plugin_, std::move(settings), std::move(node), std::move(component)});
+  }
+
+  /// All values of a choice or switch; none for other parameters.
+  static std::vector<std::string> values_of(const ParameterInfo& parameter) {
+    if (parameter.type == "boolean") return {"false", "true"};
+    if (parameter.type != "choice") return {};
+    std::vector<std::string> values;
+    const std::string range = parameter.range.substr(0, parameter.range.find(" and "));
+    for (std::size_t begin = 0, end = 0; begin < range.size(); begin = end + 3) {
+      end = std::min(range.find(" | ", begin), range.size());
+      values.push_back(range.substr(begin, end - begin));
+    }
+    return values;
+  }
+
+  const Registry& registry_;
+  const PluginInfo& plugin_;
+  Location where_;
+};
+
+}  // namespace
+
+ExampleFolder::ExampleFolder() {
+  std::string pattern = (fs::temp_directory_path() / "pharos-conformance-XXXXXX").string();
+  if (mkdtemp(pattern.data()) == nullptr) throw RunError("no temporary folder can be made");
+  path_ = fs::canonical(pattern);
+  write_exr(example_sky(), path_ / "example.exr");
+  write_png(example_picture(), path_ / "example.png", 0, false);
+  std::ofstream(path_ / "example.ply") << kExamplePly;
+}
+
+ExampleFolder::~ExampleFolder() {
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
+}
+
+Cases cases_of(const Registry& registry, const PluginInfo& plugin, const fs::path& folder) {
+  CaseBuilder builder(registry, plugin, folder);
+  builder.add("{}", builder.cases.left_out);
+  for (const std::string& example : plugin.examples) builder.add(example, builder.cases.broken);
+  for (const ParameterInfo& parameter : plugin.parameters) builder.vary(parameter);
+  return std::move(builder.cases);
+}
+
+}  // namespace pharos::conformance

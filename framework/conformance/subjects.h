@@ -1,0 +1,48 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <pharos/config/registry.h>
+
+namespace pharos::conformance {
+
+/// A folder with the files that examples may name, `example.exr`, `example.png` and `example.ply`.
+/// Lives as long as the object.
+class ExampleFolder {
+ public:
+  ExampleFolder();
+  ~ExampleFolder();
+  ExampleFolder(const ExampleFolder&) = delete;
+  ExampleFolder& operator=(const ExampleFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// One case of a plugin: built, ready to be tested.
+struct Subject {
+  const PluginInfo* plugin = nullptr;
+  std::string settings;  ///< YAML mapping on one line, without `type`
+  ConfigNode node;       ///< the same with `type`
+  std::shared_ptr<const Component> component;
+};
+
+/// All cases of a plugin.
+struct Cases {
+  std::vector<Subject> subjects;
+  std::vector<std::string> broken;  ///< examples that cannot be built, with the reason
+  /// Choices and switches that cannot be built on top of the first case, and defaults that cannot,
+  /// with the reason; no fault as long as there is a case.
+  std::vector<std::string> left_out;
+};
+
+/// Builds a plugin from its defaults, from every example, and from the first of these with each
+/// other value of a choice or switch. Relative paths are those of `folder`.
+Cases cases_of(const Registry& registry, const PluginInfo& plugin,
+               const std::filesystem::path& folder);
+
+}  // namespace pharos::conformance
