@@ -3,7 +3,7 @@ include(CMakePackageConfigHelpers)
 install(TARGETS pharos pharos_options EXPORT pharos-targets
         LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(TARGETS pharos_images LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(TARGETS pharos-program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(TARGETS pharos-program EXPORT pharos-targets RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY framework/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pharos
         FILES_MATCHING PATTERN "*.h" PATTERN "tests" EXCLUDE PATTERN "app" EXCLUDE)
 if(PHAROS_TESTS)

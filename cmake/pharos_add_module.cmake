@@ -1,13 +1,16 @@
-# pharos_add_module(NAME SOURCES file... [TESTS file...] [LIBRARIES target...] [TEST_ONLY])
+# pharos_add_module(NAME SOURCES file... [TESTS file...] [LIBRARIES target...] [TEST_ONLY]
+#                   [NO_CONFORMANCE])
 #
 # Builds the shared library NAME.pharos.so, which the loader finds in the plugin folder (in the build
 # tree: build/plugins; elsewhere through PHAROS_MODULE_PATH), and the doctest suite test-NAME, which
 # ctest runs under the label NAME. TEST_ONLY modules stand in build/test-plugins and are not
-# installed. The same function serves modules outside this project after find_package(pharos).
+# installed. The conformance suites of their contracts test all plugins of the module as
+# NAME-conformance, labels NAME and conformance; modules of planted faults say NO_CONFORMANCE. The
+# same function serves modules outside this project after find_package(pharos).
 include_guard(GLOBAL)
 
 function(pharos_add_module name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "TEST_ONLY" "" "SOURCES;TESTS;LIBRARIES")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "TEST_ONLY;NO_CONFORMANCE" "" "SOURCES;TESTS;LIBRARIES")
   if(NOT arg_SOURCES)
     message(FATAL_ERROR "pharos_add_module(${name}): SOURCES is missing")
   endif()
@@ -42,5 +45,11 @@ function(pharos_add_module name)
     target_link_libraries(test-${name} PRIVATE ${name}-objects pharos::test_main ${warnings})
     add_test(NAME ${name} COMMAND test-${name})
     set_tests_properties(${name} PROPERTIES LABELS ${name})
+  endif()
+  if(NOT arg_NO_CONFORMANCE)
+    add_test(NAME ${name}-conformance
+      COMMAND ${CMAKE_COMMAND} -E env PHAROS_MODULE_PATH=${CMAKE_BINARY_DIR}/${folder}
+              $<TARGET_FILE:pharos::program> conformance --module ${name})
+    set_tests_properties(${name}-conformance PROPERTIES LABELS "${name};conformance")
   endif()
 endfunction()

@@ -19,7 +19,6 @@ using conformance::Verdict;
 
 struct ConformanceOptions {
   conformance::Selection selection;
-  std::vector<std::string> folders;
   std::string json;
   int threads = 0;
   bool all = false;
@@ -66,8 +65,7 @@ void print(const conformance::Report& report, bool all) {
 }
 
 int check(const ConformanceOptions& options) {
-  Registry registry = load_default_modules();
-  for (const std::string& folder : options.folders) load_modules(registry, folder, true);
+  const Registry registry = load_default_modules();
   const conformance::Report report = conformance::check_plugins(registry, options.selection);
   print(report, options.all);
   if (!options.json.empty()) {
@@ -86,9 +84,6 @@ void add_conformance_command(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<ConformanceOptions>();
   command->add_option("names", options->selection.names, "Contracts or plugins; none: all");
   command->add_option("--module", options->selection.module, "Only plugins of this module");
-  command->add_option("--load", options->folders, "Load the modules of this folder as well")
-      ->take_all()
-      ->expected(1);
   command->add_option("--json", options->json, "Write every finding to this file");
   command->add_option("--threads", options->threads, "Number of threads; 0: all cores")
       ->check(CLI::Range(0, 1024));

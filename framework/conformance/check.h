@@ -21,6 +21,7 @@ class Check {
   /// Must hold always; `what()` words the fault.
   template <class What>
   void expect(bool holds, What&& what) {
+    ++asked_;
     if (!holds && faults_++ == 0) fault_ = what();
   }
   /// Must hold but for one draw in 200: those that fall on an edge, where rounding decides.
@@ -40,7 +41,7 @@ class Check {
 
  private:
   std::string name_, fault_, exception_, worst_, reason_;
-  std::size_t faults_ = 0, draws_ = 0, exceptions_ = 0, tests_ = 0;
+  std::size_t asked_ = 0, faults_ = 0, draws_ = 0, exceptions_ = 0, tests_ = 0;
   double smallest_p_ = 1;
 };
 

@@ -18,7 +18,7 @@ struct DirectionFit {
 };
 
 /// Feeds the checks `chi_square` (counts in about 60 cells against the density) and `integral` (the
-/// density's integral plus the share of draws without result is one, within 0.5 % and errors).
+/// density's integral is the share of draws with a result, within 0.5 % and their errors).
 void test_directions(const DirectionFit& fit, std::uint64_t seed, Check& chi_square,
                      Check& integral);
 

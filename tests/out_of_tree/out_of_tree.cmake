@@ -1,5 +1,5 @@
 # Installs the build tree in BUILD to a fresh prefix under WORK, builds SOURCE against it, runs its
-# suite, and renders with it from the installed program.
+# suite and that of its plugin's contract, and renders with it from the installed program.
 file(REMOVE_RECURSE ${WORK})
 file(MAKE_DIRECTORY ${WORK}/render)
 
@@ -16,7 +16,10 @@ step(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/build -G Ninja
      -D CMAKE_PREFIX_PATH=${WORK}/prefix -D CMAKE_CXX_COMPILER=${COMPILER}
      -D CMAKE_BUILD_TYPE=${BUILD_TYPE})
 step(${CMAKE_COMMAND} --build ${WORK}/build)
-step(ctest --test-dir ${WORK}/build --output-on-failure)
+step(ctest --test-dir ${WORK}/build --verbose)
+if(NOT output MATCHES "ok +texture +stripes +5 checks")
+  message(FATAL_ERROR "the contract's suite did not test the module:\n${output}")
+endif()
 
 set(pharos ${CMAKE_COMMAND} -E env PHAROS_MODULE_PATH=${WORK}/build/plugins
     ${WORK}/prefix/bin/pharos)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include <pharos/config/registry.h>
@@ -22,7 +23,8 @@ class Stripes final : public pharos::Texture {
   explicit Stripes(Settings settings) : settings_(settings) {}
 
   pharos::Rgb evaluate(const pharos::SurfacePoint& point) const override {
-    const bool odd = static_cast<long>(std::floor(point.uv.x * settings_.count)) % 2 != 0;
+    const float stripe = std::floor(point.uv.x * settings_.count);
+    const bool odd = std::fmod(stripe, 2.0f) != 0;
     return odd ? settings_.second : settings_.first;
   }
   float maximum() const override {
