@@ -76,7 +76,7 @@ class CaseBuilder {
     try {
       add(parse_yaml_at(yaml, where_));
     } catch (const Error& e) {
-      failures.push_back(yaml + ": " + e.what());
+      failures.push_back(yaml + ": " + without_folder(e.what()));
     }
   }
 
@@ -107,6 +107,15 @@ class CaseBuilder {
     std::shared_ptr<const Component> component = plugin_.build(node, context, resolved);
     cases.subjects.push_back(
         {&plugin_, std::move(settings), std::move(node), std::move(component)});
+  }
+
+  /// A message without the folder's name, which is another at each run.
+  std::string without_folder(std::string message) const {
+    const std::string prefix = fs::path(where_.file).parent_path().string() + "/";
+    for (std::size_t at; (at = message.find(prefix)) != std::string::npos;) {
+      message.erase(at, prefix.size());
+    }
+    return message;
   }
 
   /// All values of a choice or switch; none for other parameters.

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+
+#include <pharos/conformance/conformance.h>
+
+/// Planted faults: a plugin whose settings name the fault that it is built with.
+namespace pharos::test {
+
+/// The settings of a plugin that is sound but for the fault `planted`.
+template <class Fault>
+struct FaultSettings {
+  static inline Fault planted = Fault::none;
+  static void describe(Schema<FaultSettings>&) {}
+};
+
+/// The names of the checks that failed, in one text.
+inline std::string red(const conformance::Report& report) {
+  std::string text;
+  for (const std::string& name : failed_checks(report)) text += (text.empty() ? "" : " ") + name;
+  return text;
+}
+
+/// The report on the plugin P with a fault.
+template <class P, class Fault>
+conformance::Report report_with(Fault fault) {
+  FaultSettings<Fault>::planted = fault;
+  Registry registry;
+  registry.add<P>("subject", "Planted fault");
+  return conformance::check_plugins(registry);
+}
+
+template <class P, class Fault>
+std::string red_with(Fault fault) {
+  return red(report_with<P>(fault));
+}
+
+}  // namespace pharos::test

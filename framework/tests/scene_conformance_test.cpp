@@ -1,0 +1,214 @@
+// Parts of scenes: a planted fault turns exactly the checks red that are there to find it.
+
+#include <cmath>
+
+#include <doctest/doctest.h>
+
+#include <pharos/core/warp.h>
+#include <pharos/rendering/filter.h>
+#include <pharos/scene/emitter.h>
+#include <pharos/scene/sensor.h>
+#include <pharos/scene/texture.h>
+
+#include "planted_faults.h"
+#include "scene_fixtures.h"
+
+namespace pharos {
+namespace {
+
+using test::FaultSettings;
+using test::red_with;
+
+// --- emitter -------------------------------------------------------------------------------------
+
+enum class SkyFault { none, pdf, radiance, power };
+
+/// The same radiance from everywhere.
+class FaultySky final : public Emitter {
+ public:
+  using Settings = FaultSettings<SkyFault>;
+  explicit FaultySky(const Settings&) : fault_(Settings::planted) {}
+  bool needs_shape() const override { return false; }
+  std::unique_ptr<const pharos::Light> place(const EmitterSite& site) const override {
+    return std::make_unique<const Sky>(fault_, site.scene_radius);
+  }
+
+ private:
+  class Sky final : public pharos::Light {
+   public:
+    Sky(SkyFault fault, float radius) : fault_(fault), radius_(radius) {}
+    LightSample sample(Point3 from, Vec2 u) const override {
+      LightSample s{.direction = warp::sphere_from_square(u), .distance = kInfinity};
+      s.radiance = Rgb(fault_ == SkyFault::radiance ? 2.1f : 2.0f);
+      s.pdf = pdf_direction(s.direction);
+      s.point.position = from + 10 * s.direction;
+      s.kind = VertexKind::environment;
+      return s;
+    }
+    bool is_environment() const override { return true; }
+    float pdf_direction(Vec3) const override {
+      return (fault_ == SkyFault::pdf ? 1.03f : 1) * warp::sphere_pdf();
+    }
+    Rgb environment_radiance(Vec3) const override { return Rgb(2); }
+    float power() const override {
+      return 8 * kPi * kPi * square(radius_) * (fault_ == SkyFault::power ? 0.3f : 1);
+    }
+
+   private:
+    SkyFault fault_;
+    float radius_;
+  };
+  SkyFault fault_;
+};
+
+TEST_CASE("conformance: faults of an emitter") {
+  CHECK(red_with<FaultySky>(SkyFault::none) == "");
+  CHECK(red_with<FaultySky>(SkyFault::pdf) == "integral");
+  CHECK(red_with<FaultySky>(SkyFault::radiance) == "weight");
+  CHECK(red_with<FaultySky>(SkyFault::power) == "power");
+}
+
+// --- sensor --------------------------------------------------------------------------------------
+
+enum class SensorFault { none, inverse, pdf, lens };
+
+/// A thin lens of radius 0.1 in focus at infinity, so that directions alone tell the film.
+class FaultyLens final : public Sensor {
+ public:
+  using Settings = FaultSettings<SensorFault>;
+  explicit FaultyLens(const Settings&) : fault_(Settings::planted) {}
+  std::unique_ptr<const PreparedSensor> prepare(int, int) const override {
+    return std::make_unique<const Prepared>(fault_);
+  }
+  Point3 position() const override { return {}; }
+
+ private:
+  class Prepared final : public PreparedSensor {
+   public:
+    explicit Prepared(SensorFault fault) : fault_(fault) {}
+    LensPoint sample_lens(Vec2 u) const override {
+      Vec2 p = 0.1f * warp::disk_from_square(u);
+      if (fault_ == SensorFault::lens) p = std::hypot(10 * p.x, 10 * p.y) * p;
+      return {{p.x, p.y, 0}, {0, 0, 1}};
+    }
+    Ray ray(const LensPoint& lens, Vec2 film) const override {
+      return {lens.position, normalize({0.5f - film.x, 0.5f - film.y, 1})};
+    }
+    std::optional<SensorResponse> response(const LensPoint&, Vec3 d) const override {
+      if (!(d.z > 0)) return std::nullopt;
+      Vec2 film{0.5f - d.x / d.z, 0.5f - d.y / d.z};
+      if (!(film.x >= 0 && film.x < 1 && film.y >= 0 && film.y < 1)) return std::nullopt;
+      if (fault_ == SensorFault::inverse) film.x = 1 - film.x;
+      const float z = fault_ == SensorFault::pdf ? 1 : d.z;
+      return SensorResponse{film, 1 / (z * d.z * d.z)};
+    }
+
+   private:
+    SensorFault fault_;
+  };
+  SensorFault fault_;
+};
+
+TEST_CASE("conformance: faults of a sensor") {
+  CHECK(red_with<FaultyLens>(SensorFault::none) == "");
+  CHECK(red_with<FaultyLens>(SensorFault::inverse) == "inverse");
+  CHECK(red_with<FaultyLens>(SensorFault::lens) == "lens");
+  CHECK(red_with<FaultyLens>(SensorFault::pdf) == "chi_square integral");
+}
+
+// --- filter and texture --------------------------------------------------------------------------
+
+enum class FilterFault { none, support, integral, symmetry };
+
+/// A tent of radius one.
+class FaultyFilter final : public Filter {
+ public:
+  using Settings = FaultSettings<FilterFault>;
+  explicit FaultyFilter(const Settings&) : fault_(Settings::planted) {}
+  float radius() const override { return fault_ == FilterFault::support ? 0.9f : 1.0f; }
+  float evaluate(Vec2 o) const override {
+    const float side = fault_ == FilterFault::symmetry && o.x > 0 && std::abs(o.y) < 1 ? 0.2f : 0;
+    const float tent = std::max(0.0f, 1 - std::abs(o.x)) * std::max(0.0f, 1 - std::abs(o.y));
+    return tent + side * (o.x < 1 ? o.x - 0.5f : 0);
+  }
+  float integral() const override { return fault_ == FilterFault::integral ? 1.05f : 1.0f; }
+
+ private:
+  FilterFault fault_;
+};
+
+TEST_CASE("conformance: faults of a filter") {
+  CHECK(red_with<FaultyFilter>(FilterFault::none) == "");
+  CHECK(red_with<FaultyFilter>(FilterFault::support) == "integral support");
+  CHECK(red_with<FaultyFilter>(FilterFault::integral) == "integral");
+  CHECK(red_with<FaultyFilter>(FilterFault::symmetry) == "symmetry");
+}
+
+enum class TextureFault { none, range, average, nan };
+
+class FaultyTexture final : public Texture {
+ public:
+  using Settings = FaultSettings<TextureFault>;
+  explicit FaultyTexture(const Settings&) : fault_(Settings::planted) {}
+  Rgb evaluate(const SurfacePoint& p) const override {
+    if (fault_ == TextureFault::nan && std::abs(p.uv.x) > 1e20f)
+      return Rgb(std::sqrt(-std::abs(p.uv.x)));
+    const float x = p.uv.x - std::floor(p.uv.x);
+    return Rgb(x < 0.25f ? 0.8f : 0.4f);
+  }
+  float maximum() const override { return fault_ == TextureFault::range ? 0.7f : 0.8f; }
+  Rgb average() const override { return Rgb(fault_ == TextureFault::average ? 0.6f : 0.5f); }
+
+ private:
+  TextureFault fault_;
+};
+
+TEST_CASE("conformance: faults of a texture") {
+  CHECK(red_with<FaultyTexture>(TextureFault::none) == "");
+  CHECK(red_with<FaultyTexture>(TextureFault::range) == "range");
+  CHECK(red_with<FaultyTexture>(TextureFault::average) == "average");
+  CHECK(red_with<FaultyTexture>(TextureFault::nan) == "finite");
+}
+
+// --- shape ---------------------------------------------------------------------------------------
+
+enum class ShapeFault { none, area, uniform, solid_angle, bounds };
+
+/// The square [-1,1]^2.
+class FaultySquare final : public Shape {
+ public:
+  using Settings = FaultSettings<ShapeFault>;
+  explicit FaultySquare(const Settings&) : fault_(Settings::planted), mesh_(test::square_at(0)) {}
+
+  Bounds3 bounds() const override {
+    const float half = fault_ == ShapeFault::bounds ? 0.9f : 1.0f;
+    return {{-half, -half, 0}, {half, half, 0}};
+  }
+  float area() const override { return fault_ == ShapeFault::area ? 4.2f : 4.0f; }
+  const TriangleMesh* mesh() const override { return &mesh_; }
+  ShapeSample sample(Vec2 u) const override {
+    if (fault_ == ShapeFault::uniform) u.x = std::pow(u.x, 1.2f);
+    const std::uint32_t upper = u.y > u.x ? 1 : 0;
+    // Triangle 0 has the corners (0,0), (1,0), (1,1), triangle 1 (0,0), (1,1), (0,1).
+    const SurfacePoint p =
+        upper ? mesh_.surface_point(1, u.x, u.y - u.x) : mesh_.surface_point(0, u.x - u.y, u.y);
+    return {p, 1 / area()};
+  }
+  float pdf_from(Point3 from, const SurfacePoint& p) const override {
+    return Shape::pdf_from(from, p) * (fault_ == ShapeFault::solid_angle ? 1.03f : 1);
+  }
+
+ private:
+  ShapeFault fault_;
+  TriangleMesh mesh_;
+};
+
+TEST_CASE("conformance: faults of a shape") {
+  CHECK(red_with<FaultySquare>(ShapeFault::none) == "");
+  CHECK(red_with<FaultySquare>(ShapeFault::area) == "area solid_angle");
+  CHECK(red_with<FaultySquare>(ShapeFault::uniform) == "area solid_angle");
+  CHECK(red_with<FaultySquare>(ShapeFault::solid_angle) == "solid_angle");
+  CHECK(red_with<FaultySquare>(ShapeFault::bounds) == "bounds");
+}
+}  // namespace
+}  // namespace pharos
