@@ -2,8 +2,20 @@
 
 #include "area.h"
 #include "constant.h"
+#include "directional.h"
+#include "directional_area.h"
+#include "environment_map.h"
+#include "point.h"
+#include "spot.h"
 
 PHAROS_MODULE(registry) {
   registry.add<pharos::AreaEmitter>("area", "Radiance from the outer side of a shape");
   registry.add<pharos::ConstantEmitter>("constant", "The same radiance from all directions");
+  registry.add<pharos::DirectionalEmitter>("directional", "Parallel light from far away");
+  registry.add<pharos::DirectionalAreaEmitter>("directional_area",
+                                               "A shape that shines most along its normal");
+  registry.add<pharos::EnvironmentMap>("environment_map",
+                                       "Radiance by direction from a latitude-longitude image");
+  registry.add<pharos::PointEmitter>("point", "Light from a point, the same in all directions");
+  registry.add<pharos::SpotEmitter>("spot", "Light from a point within a cone");
 }

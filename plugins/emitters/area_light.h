@@ -1,0 +1,79 @@
+#pragma once
+
+#include <utility>
+
+#include <pharos/config/registry.h>
+#include <pharos/scene/emitter.h>
+#include <pharos/scene/texture.h>
+
+namespace pharos {
+
+/// Declares `radiance` and `scale`, which all lights on shapes have.
+template <class Settings>
+void describe_radiance(Schema<Settings>& s, std::string help) {
+  s.field("radiance", &Settings::radiance, std::move(help))
+      .unit("W/(m^2 sr)")
+      .required()
+      .check(">= 0", [](const Ref<Texture>& texture) {
+        const Rgb average = texture->average();
+        return is_finite(average) && all_at_least(average, 0);
+      });
+  s.field("scale", &Settings::scale, "Factor on the radiance").at_least(0);
+}
+
+/// A light on a shape: `scale` times the texture `radiance` times what the lobe makes of the angle
+/// to the geometric normal, and nothing to the other side. Sampled as the shape is.
+///
+/// `Lobe` has `float operator()(float cosine) const`, the factor [1] for a cosine in (0, 1], and
+/// `float projected_solid_angle() const`, the integral of factor times cosine over the hemisphere
+/// [sr].
+template <class Lobe>
+class AreaLight final : public Light {
+ public:
+  AreaLight(const Texture& radiance, float scale, Lobe lobe, const EmitterSite& site)
+      : radiance_(radiance),
+        scale_(scale),
+        lobe_(lobe),
+        shape_(*site.shape),
+        object_(site.object) {}
+
+  LightSample sample(Point3 from, Vec2 u) const override {
+    const ShapeSample on_shape = shape_.sample_from(from, u);
+    LightSample sample;
+    sample.pdf = on_shape.pdf;
+    sample.point = on_shape.point;
+    sample.point.object = object_;
+    const Vec3 d = sample.point.position - from;
+    sample.distance = length(d);
+    if (!(sample.distance > 0)) {
+      sample.pdf = 0;
+      return sample;
+    }
+    sample.direction = d / sample.distance;
+    sample.radiance = radiance(sample.point, -sample.direction);
+    return sample;
+  }
+
+  float pdf_point(Point3 from, const SurfacePoint& point) const override {
+    return shape_.pdf_from(from, point);
+  }
+
+  Rgb radiance(const SurfacePoint& point, Vec3 direction) const override {
+    const float cosine = dot(direction, point.normal);
+    if (cosine <= 0) return {};
+    return scale_ * lobe_(cosine) * radiance_.evaluate(point);
+  }
+
+  float power() const override {
+    return scale_ * lobe_.projected_solid_angle() * shape_.area() * mean(radiance_.average());
+  }
+
+ private:
+  const Texture& radiance_;
+  float scale_;
+  Lobe lobe_;
+  const Shape& shape_;
+  std::uint32_t object_;
+};
+
+}  // namespace pharos

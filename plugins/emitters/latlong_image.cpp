@@ -1,0 +1,73 @@
+#include "latlong_image.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/core.h>
+
+#include <pharos/core/error.h>
+#include <pharos/core/image.h>
+
+namespace pharos {
+namespace {
+
+/// The indices of the channels that hold red, green and blue.
+std::array<int, 3> color_channels(const Image& image) {
+  const std::array rgb{image.channel_index("R"), image.channel_index("G"),
+                       image.channel_index("B")};
+  if (std::all_of(rgb.begin(), rgb.end(), [](int index) { return index >= 0; })) return rgb;
+  const int grey = image.channel_count() < 3 ? 0 : -1;
+  const int y = std::max(image.channel_index("Y"), grey);
+  return y >= 0 ? std::array{y, y, y} : std::array{0, 1, 2};
+}
+
+}  // namespace
+
+LatLong LatLong::of(Vec3 d) {
+  const float turn = std::atan2(d.x, -d.z) / (2 * kPi);
+  const double x = d.x, y = d.y, z = d.z;
+  const double sine_squared = x * x + z * z;
+  // From the sine, because next to a pole the cosine keeps no digits of the angle.
+  const double to_pole = sine_squared / (2 * (1 + std::abs(y)));
+  return {.u = turn < 0 ? std::min(turn + 1, kOneMinusEpsilon) : turn,
+          .v = static_cast<float>(std::atan2(std::sqrt(sine_squared), y)) / kPi,
+          .above = y >= 0 ? to_pole : 1 - to_pole};
+}
+
+Vec3 LatLong::direction(float u, double above) {
+  const float azimuth = 2 * kPi * u;
+  const auto sine = static_cast<float>(2 * std::sqrt(above * (1 - above)));
+  return {sine * std::sin(azimuth), static_cast<float>(1 - 2 * above), -sine * std::cos(azimuth)};
+}
+
+LatLongImage::LatLongImage(const std::filesystem::path& file) {
+  const Image image = read_image(file);
+  width_ = image.width();
+  height_ = image.height();
+  pixels_.reserve(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
+  const auto [red, green, blue] = color_channels(image);
+  for (int y = 0; y < height_; ++y) {
+    for (int x = 0; x < width_; ++x) {
+      const float* pixel = image.pixel(x, y);
+      const Rgb c{pixel[red], pixel[green], pixel[blue]};
+      if (!is_finite(c) || c.r < 0 || c.g < 0 || c.b < 0) {
+        throw InputError(Location{.file = file.string()},
+                         fmt::format("pixel ({}, {}) is negative or not finite", x, y));
+      }
+      pixels_.push_back(c);
+    }
+  }
+}
+
+Rgb LatLongImage::evaluate(const LatLong& place) const {
+  const PixelPair across = PixelPair::at(place.u, width_);
+  const PixelPair down = PixelPair::at(place.v, height_);
+  const int left = wrapped(across.low), right = wrapped(across.low + 1);
+  const auto along = [&](int row) {
+    return (1 - across.t) * pixel(left, row) + across.t * pixel(right, row);
+  };
+  return (1 - down.t) * along(clamped(down.low)) + down.t * along(clamped(down.low + 1));
+}
+
+}  // namespace pharos

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <pharos/scene/emitter.h>
+
+namespace pharos {
+
+/// The only sample of a light without extent at `position`. `intensity(direction)` [W/sr] is what
+/// it sends into a unit direction away from itself. Density 0 where nothing arrives, and at a
+/// distance too small for its square to have an inverse.
+template <class Intensity>
+LightSample local_sample(Point3 position, Point3 from, const Intensity& intensity) {
+  LightSample sample;
+  const Vec3 d = position - from;
+  sample.distance = length(d);
+  const float inverse_square = 1 / square(sample.distance);
+  if (!std::isfinite(inverse_square)) return sample;
+  sample.direction = d / sample.distance;
+  sample.radiance = inverse_square * intensity(-sample.direction);
+  sample.pdf = is_black(sample.radiance) ? 0.0f : 1.0f;
+  sample.discrete = true;
+  sample.point.position = position;
+  sample.point.normal = -sample.direction;
+  sample.point.shading = Frame::from_normal(sample.point.normal);
+  sample.kind = VertexKind::light;
+  return sample;
+}
+
+}  // namespace pharos
