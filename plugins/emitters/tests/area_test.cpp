@@ -6,6 +6,8 @@
 
 #include <pharos/core/random.h>
 
+#include "ceiling.h"
+
 namespace pharos {
 namespace {
 
@@ -17,34 +19,6 @@ class TwoColours : public Texture {
   }
   float maximum() const override { return 4; }
   Rgb average() const override { return {2, 0, 1}; }
-};
-
-class OneColour : public Texture {
- public:
-  explicit OneColour(Rgb colour) : colour_(colour) {}
-  Rgb evaluate(const SurfacePoint&) const override { return colour_; }
-  float maximum() const override { return max_component(colour_); }
-  Rgb average() const override { return colour_; }
-
- private:
-  Rgb colour_;
-};
-
-/// The rectangle [-1,1] x [-2,2] at height 3 that faces down.
-class Ceiling : public Shape {
- public:
-  static constexpr std::array<Point3, 4> corners{{{-1, -2, 3}, {-1, 2, 3}, {1, 2, 3}, {1, -2, 3}}};
-
-  Bounds3 bounds() const override { return {{-1, -2, 3}, {1, 2, 3}}; }
-  float area() const override { return 8; }
-  ShapeSample sample(Vec2 u) const override {
-    ShapeSample s{.point = {}, .pdf = 1 / area()};
-    s.point.position = {2 * u.x - 1, 4 * u.y - 2, 3};
-    s.point.normal = {0, 0, -1};
-    s.point.shading = Frame::from_normal(s.point.normal);
-    s.point.uv = u;
-    return s;
-  }
 };
 
 struct LitCeiling {
