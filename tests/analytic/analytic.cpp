@@ -1,0 +1,78 @@
+#include "analytic.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+namespace pharos::testing {
+namespace {
+
+/// The mean over the seeds with an error that is small enough.
+Estimate precise_mean(const std::string& config, double expected) {
+  constexpr double kPower90 = 1.34;  // that share of t of 15 degrees of freedom lies below
+  const double wanted = kDetectableBias * expected / (kLimit + kPower90);
+  for (int spp = 4;; spp *= 4) {
+    const Estimate found =
+        mean_over_seeds(config + fmt::format("budget: {{ spp: {} }}\n", spp), kRuns);
+    if (found.standard_error < wanted) return found;
+    REQUIRE_MESSAGE(spp < 4096, "too noisy: error " << found.standard_error);
+  }
+}
+
+}  // namespace
+
+void check_value(const std::string& config, double expected) {
+  const Estimate found = precise_mean(config, expected);
+  // Without noise, what is left is the rounding of floats.
+  const double error = std::max(found.standard_error, 1e-5 * expected);
+  const auto t = [&](double value) { return (found.mean - value) / error; };
+  CAPTURE(found.mean);
+  CAPTURE(expected);
+  CHECK(std::abs(t(expected)) < kLimit);
+  CHECK(t(1.01 * expected) < -kLimit);
+  CHECK(t(0.99 * expected) > kLimit);
+}
+
+std::vector<std::string> samplers() {
+  std::vector<std::string> found;
+  for (const std::string& name : registry().names("sampler")) {
+    const auto& parameters = registry().find("sampler", name)->parameters;
+    const bool has_defaults = std::none_of(parameters.begin(), parameters.end(),
+                                           [](const ParameterInfo& p) { return p.required; });
+    if (has_defaults && name.rfind("stub_", 0) != 0) found.push_back(name);
+  }
+  return found;
+}
+
+void Floor::check_irradiance(double expected, const std::vector<Strategy>& strategies) const {
+  // The seam between the floor's two triangles stays away from the origin.
+  const std::string scene = fmt::format(
+      R"(scene:
+  materials:
+    grey: {{ type: diffuse, reflectance: {} }}
+    black: {{ type: diffuse, reflectance: 0 }}
+  shapes:
+    - {{ type: quad, material: grey, to_world: [ {{ scale: 2 }}, {{ translate: [0.6, 0, 0] }} ] }}
+{}  emitters:
+{}  sensor:
+    type: perspective
+    fov: 0.01
+    to_world: {{ look_at: {{ origin: [-0.6, 0.1, 0.15], target: [0, 0, 0], up: [0, 0, 1] }} }}
+)",
+      kReflectance, shapes_, emitters_.empty() ? "    []\n" : emitters_);
+  for (const Strategy& strategy : strategies) {
+    CAPTURE(strategy.name);
+    for (const std::string& sampler : samplers()) {
+      CAPTURE(sampler);
+      check_value(scene + kFilm +
+                      fmt::format("integrator: {{ type: path, max_depth: 2, {} }}\n"
+                                  "sampler: {}\n",
+                                  strategy.settings, sampler),
+                  expected * kReflectance / 3.14159265358979323846);
+    }
+  }
+}
+
+}  // namespace pharos::testing

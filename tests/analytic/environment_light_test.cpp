@@ -1,0 +1,45 @@
+// The irradiance under environments in closed form, by every strategy and sampler.
+
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <pharos/core/image.h>
+
+#include "analytic.h"
+
+namespace pharos::testing {
+namespace {
+
+using std::numbers::pi;
+
+TEST_CASE("a constant sky") {
+  Floor("", "    - { type: constant, radiance: 2 }\n").check_irradiance(2 * pi, kStrategies);
+}
+
+TEST_CASE("a band of an environment map") {
+  // A row of pixels is a hat of half-width w = pi / height in the angle from the pole. Times the
+  // cosine, over all azimuths, it integrates to pi sin(2 angle) w sinc^2(w).
+  constexpr int height = 8;
+  constexpr double w = pi / height;
+  Image image(16, height, {"R", "G", "B"});
+  double irradiance = 0;
+  for (const int row : {1, 2}) {
+    for (int x = 0; x < image.width(); ++x) image.set_rgb(x, row, Rgb(3));
+    irradiance += 3 * pi * std::sin(2 * (row + 0.5) * w) * std::pow(std::sin(w), 2) / w;
+  }
+  const std::filesystem::path path =
+      std::filesystem::temp_directory_path() / "pharos-analytic-test.exr";
+  write_exr(image, path);
+  Floor("", fmt::format("    - {{ type: environment_map, file: '{}', "
+                        "to_world: {{ rotate: {{ axis: [1, 0, 0], degrees: 90 }} }} }}\n",
+                        path.string()))
+      .check_irradiance(irradiance, kStrategies);
+  std::filesystem::remove(path);
+}
+
+}  // namespace
+}  // namespace pharos::testing
