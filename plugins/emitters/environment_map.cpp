@@ -11,9 +11,9 @@
 // between the pixels' centres, around in u and up to the edge in v, times `scale`. Files of 8 and
 // 16 bit are taken as sRGB.
 //
-// Sampled by luminous pixels: a density bilinear between the pixels' means of channels, so that
-// nothing that shines is missed, inverted first along columns of latitude, then along the row. The
-// map from primary numbers to directions is continuous where the image shines.
+// Sampled in proportion to radiance, nearly: the density is bilinear between the pixels' means of
+// channels, so that nothing that shines is missed. It is inverted in latitude first, then along the
+// row, and the map from primary numbers to directions is continuous where the image shines.
 //
 //     emitters:
 //       - { type: environment_map, file: sky.exr, scale: 2,
