@@ -43,6 +43,7 @@ TriangleMesh unit_cube() {
 void Box::Settings::describe(Schema<Settings>& s) {
   s.field("to_world", &Settings::to_world, "From the cube to world space");
   s.field("flip_normals", &Settings::flip_normals, "Normals point inwards");
+  s.example("{ to_world: { scale: [2, 1, -0.5] } }");
 }
 
 Box::Box(const Settings& settings)

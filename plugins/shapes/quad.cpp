@@ -24,6 +24,7 @@ TriangleMesh unit_square() {
 void Quad::Settings::describe(Schema<Settings>& s) {
   s.field("to_world", &Settings::to_world, "From the square to world space");
   s.field("flip_normals", &Settings::flip_normals, "Face -z instead of +z");
+  s.example("{ to_world: { matrix: [1.5, 0.4, 0.2, 0.3, 0, 0.8, -0.3, 1, 0.1, 0.2, 1.1, -2] } }");
 }
 
 Quad::Quad(const Settings& settings)

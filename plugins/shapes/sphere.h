@@ -7,6 +7,8 @@
 #include <pharos/core/transform.h>
 #include <pharos/scene/shape.h>
 
+#include "round_shape.h"
+
 namespace pharos {
 
 /// See sphere.cpp.
@@ -34,13 +36,11 @@ class Sphere : public Shape {
   float pdf_from(Point3 from, const SurfacePoint& point) const override;
 
  private:
-  using Double3 = std::array<double, 3>;
-
   /// Both parameters at which the ray's line meets the sphere, ascending.
   std::optional<std::array<double, 2>> roots(const Ray& ray) const;
   /// The surface in the direction `outward` (of any length) from the centre.
-  SurfacePoint surface_towards(const Double3& outward) const;
-  Double3 from_center(Point3 p) const;
+  SurfacePoint surface_towards(Double3 outward) const;
+  Double3 from_center(Point3 p) const { return Double3(p) - Double3(center_); }
   /// 1 - cos of the half-angle of the cone of directions that meet the sphere; empty from inside
   /// and for flipped spheres, which are lit and seen from inside.
   std::optional<float> cone_from(Point3 from) const;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include <fmt/core.h>
+
 #include <pharos/core/error.h>
 #include <pharos/core/warp.h>
 
@@ -48,6 +50,14 @@ TriangleMesh transformed(TriangleMesh local, const Transform& to_world, bool fli
     for (auto& corner : local.triangles) std::swap(corner[1], corner[2]);
   }
   return local;
+}
+
+void check_triangle_count(double count, const std::string& name) {
+  constexpr double most = 2e8;
+  if (count > most) {
+    throw InputError(fmt::format("{} would have {:.0f} triangles; at most {:.0f} are possible",
+                                 name, count, most));
+  }
 }
 
 }  // namespace pharos

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include <pharos/core/transform.h>
@@ -38,5 +39,9 @@ class TriangleShape : public Shape {
 /// Takes `local` to world space. The outer side stays the outer side under maps that mirror;
 /// `flip_normals` exchanges the sides.
 TriangleMesh transformed(TriangleMesh local, const Transform& to_world, bool flip_normals);
+
+/// Throws InputError when a shape would be made of more triangles than an index or the memory of a
+/// large machine can hold; `name` stands for the shape there.
+void check_triangle_count(double count, const std::string& name);
 
 }  // namespace pharos

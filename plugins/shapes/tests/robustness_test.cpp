@@ -4,6 +4,9 @@
 #include <doctest/doctest.h>
 
 #include "../box.h"
+#include "../cylinder.h"
+#include "../disk.h"
+#include "../lathe.h"
 #include "../sphere.h"
 #include "shape_test_kit.h"
 
@@ -97,6 +100,77 @@ TEST_CASE("no ray leaks out of a sphere or meets the point it leaves") {
       return std::abs(t - chord) > 1e-4f * p.scale + 40 * std::sqrt(a.error * p.scale);
     };
     check(walk(*scene, to_world(p).point({}), wrong_chord), p);
+  }
+}
+
+TEST_CASE("no ray leaks out of a closed lathe or meets the facet it leaves") {
+  const std::vector<Vec2> goblet{{0, -1}, {0.6f, -0.8f}, {0.9f, 0}, {0.6f, 0.7f}, {0, 0.9f}};
+  for (const Placement& p : placements()) {
+    const auto scene =
+        test::scene_of<Lathe>({.profile = goblet, .segments = 13, .to_world = to_world(p)});
+    const auto same_facet = [](const SurfacePoint& a, const SurfacePoint& b, Vec3, float) {
+      return a.primitive == b.primitive;
+    };
+    check(walk(*scene, to_world(p).point({}), same_facet), p);
+  }
+}
+
+/// A tube with a disk at either end.
+std::unique_ptr<const Scene> closed_tube(const Placement& p) {
+  SceneParts parts;
+  const Cylinder::Settings tube{.to_world = to_world(p)};
+  parts.objects.push_back(test::object_of(std::make_shared<const Cylinder>(tube)));
+  for (const float z : {-1.0f, 1.0f}) {
+    const Transform lid = Transform::translate({0, 0, z}) * Transform::scale({1, 1, z});
+    const Disk::Settings disk{.to_world = to_world(p) * lid};
+    parts.objects.push_back(test::object_of(std::make_shared<const Disk>(disk)));
+  }
+  return std::make_unique<const Scene>(std::move(parts));
+}
+
+TEST_CASE("no ray leaks out of a tube with lids or meets the surface it leaves") {
+  for (const Placement& p : placements()) {
+    // Far from the origin tube and lids are rounded apart, by more than the walk would miss.
+    if (p.offset != Vec3{}) continue;
+    const auto scene = closed_tube(p);
+    const auto self_hit = [](const SurfacePoint& a, const SurfacePoint& b, Vec3, float t) {
+      return a.object == b.object && (a.object != 0 || t < 40 * a.error);
+    };
+    check(walk(*scene, {}, self_hit), p);
+  }
+}
+
+/// Sends rays from samples of a shape, on both sides; counts those that meet it at once.
+template <class IsSelfHit>
+int self_hits(const Scene& scene, const IsSelfHit& is_self_hit) {
+  int count = 0;
+  RandomStream random(9);
+  for (int i = 0; i < kSteps; ++i) {
+    SurfacePoint a = scene.objects()[0].shape->sample(random.next_2d()).point, b;
+    const Vec3 side = i % 2 == 0 ? a.normal : -a.normal;
+    const Vec3 direction = test::random_departure(side, random);
+    const float t = scene.intersect({a.origin_towards(direction), direction}, b);
+    if (t < kInfinity && is_self_hit(a, direction, t)) ++count;
+  }
+  return count;
+}
+
+TEST_CASE("samples of disks and tubes do not meet their own surface") {
+  for (const Placement& p : placements()) {
+    INFO("scale ", p.scale, ", offset ", p.offset.x, ", turned ", p.turned);
+    const Transform map = to_world(p) * Transform::scale({1, 0.3f, -2});
+    const auto disk = test::scene_of<Disk>({.to_world = map});
+    CHECK(self_hits(*disk, [](const SurfacePoint&, Vec3, float) { return true; }) == 0);
+    const auto tube = test::scene_of<Cylinder>({.to_world = to_world(p)});
+    const Vec3 axis = normalize(to_world(p).vector({0, 0, 1}));
+    // Inside, a chord in projection along the axis has length 2 r cos.
+    const auto wrong_chord = [&](const SurfacePoint& a, Vec3 d, float t) {
+      const float across = std::sqrt(std::max(0.0f, 1 - square(dot(d, axis))));
+      const float chord = 2 * p.scale * -dot(a.normal, d) / across;
+      return chord < 0 ||
+             std::abs(t * across - chord) > 1e-4f * p.scale + 40 * std::sqrt(a.error * p.scale);
+    };
+    CHECK(self_hits(*tube, wrong_chord) == 0);
   }
 }
 

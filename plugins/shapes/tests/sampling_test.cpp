@@ -6,6 +6,9 @@
 #include <pharos/statistics/goodness_of_fit.h>
 
 #include "../box.h"
+#include "../cylinder.h"
+#include "../disk.h"
+#include "../lathe.h"
 #include "../quad.h"
 #include "../sphere.h"
 #include "shape_test_kit.h"
@@ -35,13 +38,14 @@ Transform sheared() {
   return Transform({{{1.5f, 0.4f, 0.2f, 0.3f}, {0, 0.8f, -0.3f, 1}, {0.1f, 0.2f, 1.1f, -2}}});
 }
 
-/// The direction to a sample that faces `from`, as a draw of directions.
-statistics::Draw<Vec3> draw_from(const Shape& shape, Point3 from, bool facing_only) {
-  return [&shape, from, facing_only](RandomStream& random) -> std::optional<Vec3> {
+/// The direction to a sample, but for those that the shape itself hides, as a draw of directions.
+statistics::Draw<Vec3> draw_from(const Scene& scene, const Shape& shape, Point3 from) {
+  return [&scene, &shape, from](RandomStream& random) -> std::optional<Vec3> {
     const ShapeSample s = shape.sample_from(from, random.next_2d());
     const Vec3 d = s.point.position - from;
-    if (s.pdf == 0 || (facing_only && dot(d, s.point.normal) >= 0)) return std::nullopt;
-    return normalize(d);
+    const float distance = length(d);
+    if (s.pdf == 0 || scene.occluded({from, d / distance, 0.999f * distance})) return std::nullopt;
+    return d / distance;
   };
 }
 
@@ -55,11 +59,11 @@ statistics::Density<Vec3> density_from(const Scene& scene, const Shape& shape, P
 }
 
 template <class S>
-void check_density(const typename S::Settings& settings, Point3 from, bool facing_only) {
+void check_density(const typename S::Settings& settings, Point3 from) {
   const S shape(settings);
   const auto scene = test::scene_of<S>(settings);
   const statistics::DensityFit fit = statistics::fit_direction_density(
-      draw_from(shape, from, facing_only), density_from(*scene, shape, from),
+      draw_from(*scene, shape, from), density_from(*scene, shape, from),
       {.draws = 40'000, .cells = 60, .quadrature_tolerance = 1e-3});
   CHECK(fit.chi_square.p_value > 1e-4);
   CHECK(fit.integral + fit.missed == doctest::Approx(1).epsilon(0.02));
@@ -80,21 +84,74 @@ double estimated_solid_angle(const Shape& shape, Point3 from, bool facing_only) 
 }
 
 TEST_CASE("samples of a quad follow their density over directions") {
-  check_density<Quad>({.to_world = sheared()}, {0, 0, 3}, false);
-  check_density<Quad>({.to_world = sheared()}, {1, -0.5f, -0.5f}, false);
-  check_density<Quad>({.to_world = sheared(), .flip_normals = true}, {-0.5f, 2, -4}, false);
+  check_density<Quad>({.to_world = sheared()}, {0, 0, 3});
+  check_density<Quad>({.to_world = sheared()}, {1, -0.5f, -0.5f});
+  check_density<Quad>({.to_world = sheared(), .flip_normals = true}, {-0.5f, 2, -4});
 }
 
 TEST_CASE("samples of a box follow their density over directions") {
-  check_density<Box>({.to_world = sheared()}, {4, 3, 2}, true);
-  check_density<Box>({}, {0.5f, -0.2f, 0.7f}, false);
+  check_density<Box>({.to_world = sheared()}, {4, 3, 2});
+  check_density<Box>({}, {0.5f, -0.2f, 0.7f});
 }
 
 TEST_CASE("samples of a sphere follow their density over directions") {
   const Sphere::Settings sphere{.center = {1, 2, 3}, .radius = 0.5f};
-  check_density<Sphere>(sphere, {1, 2, 5}, false);
-  check_density<Sphere>(sphere, {1.3f, 2.4f, 3.1f}, false);  // close outside
-  check_density<Sphere>(sphere, {1.1f, 2.2f, 2.9f}, false);  // inside
+  check_density<Sphere>(sphere, {1, 2, 5});
+  check_density<Sphere>(sphere, {1.3f, 2.4f, 3.1f});  // close outside
+  check_density<Sphere>(sphere, {1.1f, 2.2f, 2.9f});  // inside
+}
+
+TEST_CASE("samples of a disk follow their density over directions") {
+  check_density<Disk>({}, {0.2f, 0.1f, 0.3f});
+  check_density<Disk>({.to_world = sheared()}, {0, 0, 3});
+  check_density<Disk>({.to_world = sheared(), .flip_normals = true}, {-0.5f, 2, -4});
+}
+
+TEST_CASE("samples of a cylinder follow their density over directions") {
+  const Cylinder::Settings tube{.p0 = {1, 2, 3}, .p1 = {1.5f, 1, 3.5f}, .radius = 0.4f};
+  check_density<Cylinder>(tube, {2.5f, 2.5f, 4});
+  check_density<Cylinder>(tube, {1.2f, 1.5f, 3.2f});  // inside
+  Cylinder::Settings lamp = tube;
+  lamp.flip_normals = true;
+  check_density<Cylinder>(lamp, {0.7f, 3, 2.7f});  // along the axis into the tube
+  check_density<Cylinder>(lamp, {1.2f, 1.5f, 3.2f});
+}
+
+TEST_CASE("samples of a lathe follow their density over directions") {
+  const std::vector<Vec2> spindle{{0, -1}, {1, 0}, {0, 1}};
+  check_density<Lathe>({.profile = spindle, .segments = 7}, {0.1f, 0.2f, -0.1f});
+  check_density<Lathe>({.profile = spindle, .segments = 7, .to_world = sheared()}, {4, 3, 2});
+}
+
+TEST_CASE("a disk's density integrates to its solid angle on the axis") {
+  // 2 pi (1 - cos) of the cone that the rim subtends.
+  const Disk disk(Disk::Settings{.to_world = Transform::scale({2, 2, 2})});
+  for (const double height : {0.5, 2.0, 50.0}) {
+    const double exact = 2 * std::acos(-1.0) * (1 - height / std::sqrt(height * height + 4));
+    CHECK(estimated_solid_angle(disk, {0, 0, static_cast<float>(height)}, false) ==
+          doctest::Approx(exact).epsilon(1e-3));
+  }
+}
+
+TEST_CASE("a cylinder's density integrates to the solid angle of the side that faces the point") {
+  // From the axis, inside: the sphere less both openings.
+  const Cylinder inside(Cylinder::Settings{.radius = 0.5f, .flip_normals = true});
+  const double opening = 2 * std::acos(-1.0) * (1 - 1 / std::sqrt(1.25));
+  CHECK(estimated_solid_angle(inside, {}, true) ==
+        doctest::Approx(4 * std::acos(-1.0) - 2 * opening).epsilon(1e-3));
+  // From far outside, level with the middle: the silhouette, a rectangle.
+  const Cylinder outside(Cylinder::Settings{.radius = 0.5f});
+  CHECK(estimated_solid_angle(outside, {500, 0, 0}, true) ==
+        doctest::Approx(1.0 * 2.0 / (500 * 500)).epsilon(3e-3));
+  // Nothing that faces away is drawn from there.
+  const Point3 from{2, 1, 0.3f};
+  for (int i = 0; i < 1000; ++i) {
+    const Vec2 u{(i % 40 + 0.5f) / 40, (i / 40 + 0.5f) / 25};
+    const SurfacePoint p = outside.sample_from(from, u).point;
+    CHECK(dot(from - p.position, p.normal) > 0);
+    const SurfacePoint any = outside.sample(u).point;
+    CHECK((outside.pdf_from(from, any) > 0) == (dot(from - any.position, any.normal) > 0));
+  }
 }
 
 TEST_CASE("a quad's density integrates to its solid angle") {
@@ -130,6 +187,34 @@ TEST_CASE("a sphere's density integrates to its solid angle, near, far and insid
   }
   CHECK(estimated_solid_angle(sphere, {0.5f, 0.3f, -0.8f}, false) ==
         doctest::Approx(4 * kPi).epsilon(2e-3));
+}
+
+/// Counts samples in 8 x 8 cells that `cell` maps to [0,1]^2 and that share the area evenly.
+template <class Cell>
+void check_uniform_over_area(const Shape& shape, const Cell& cell) {
+  RandomStream random(3);
+  constexpr int count = 100'000, side = 8;
+  std::vector<double> seen(side * side), expected(side * side, double{count} / (side * side));
+  for (int i = 0; i < count; ++i) {
+    const ShapeSample s = shape.sample(random.next_2d());
+    CHECK(s.pdf == 1 / shape.area());
+    const Vec2 at = cell(s.point);
+    const auto x = static_cast<std::size_t>(std::clamp(at.x * side, 0.0f, side - 1.0f));
+    const auto y = static_cast<std::size_t>(std::clamp(at.y * side, 0.0f, side - 1.0f));
+    seen[y * side + x] += 1;
+  }
+  CHECK(statistics::chi_square_test(seen, expected).p_value > 1e-4);
+}
+
+TEST_CASE("samples of exact shapes are uniform over the area, sheared too") {
+  const Transform map = sheared();
+  check_uniform_over_area(Disk(Disk::Settings{.to_world = map}), [&](const SurfacePoint& p) {
+    const Point3 local = map.inverse_point(p.position);  // equal areas: radius^2 and azimuth
+    return Vec2{local.x * local.x + local.y * local.y,
+                0.5f + std::atan2(local.y, local.x) / (2 * kPi)};
+  });
+  const Cylinder::Settings tube{.p0 = {3, 2, 1}, .p1 = {-1, 0, 5}, .radius = 3};
+  check_uniform_over_area(Cylinder(tube), [](const SurfacePoint& p) { return p.uv; });
 }
 
 TEST_CASE("samples are uniform over the area") {

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <vector>
+
+#include <pharos/config/registry.h>
+#include <pharos/scene/texture.h>
+
+#include "triangle_shape.h"
+
+namespace pharos {
+
+/// See heightfield.cpp.
+class Heightfield : public TriangleShape {
+ public:
+  struct Settings {
+    Ref<Texture> texture = {};
+    std::vector<int> resolution = {129, 129};
+    float height = 1;
+    bool smooth = true;
+    Transform to_world = {};
+    bool flip_normals = false;
+    static void describe(Schema<Settings>& s);
+  };
+
+  explicit Heightfield(const Settings& settings);
+};
+
+}  // namespace pharos

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <vector>
+
+#include <pharos/config/schema.h>
+
+#include "triangle_shape.h"
+
+namespace pharos {
+
+/// How the points of a lathe's profile are joined.
+enum class ProfileInterpolation { linear, catmull_rom };
+template <>
+struct EnumNames<ProfileInterpolation> {
+  static constexpr std::array<std::pair<std::string_view, ProfileInterpolation>, 2> names{
+      {{"linear", ProfileInterpolation::linear},
+       {"catmull_rom", ProfileInterpolation::catmull_rom}}};
+};
+
+/// See lathe.cpp.
+class Lathe : public TriangleShape {
+ public:
+  struct Settings {
+    std::vector<Vec2> profile = {};
+    int segments = 64;
+    ProfileInterpolation interpolation = ProfileInterpolation::linear;
+    int subdivisions = 8;
+    bool smooth = true;
+    float crease = 30;
+    Transform to_world = {};
+    bool flip_normals = false;
+    static void describe(Schema<Settings>& s);
+  };
+
+  /// Throws InputError for profiles that enclose no surface.
+  explicit Lathe(const Settings& settings);
+};
+
+}  // namespace pharos
