@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include <pharos/config/schema.h>
 
@@ -13,6 +14,7 @@ class Mesh : public TriangleShape {
  public:
   struct Settings {
     std::filesystem::path file = {};
+    std::string part = {};
     Transform to_world = {};
     bool flip_normals = false;
     bool face_normals = false;

@@ -1,104 +1,134 @@
 #include "mesh_file.h"
 
 #include <algorithm>
+#include <cctype>
+#include <fstream>
 #include <span>
 #include <string>
+#include <vector>
 
+#include <assimp/DefaultIOSystem.h>
 #include <assimp/Importer.hpp>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
+#include <fmt/core.h>
 
 #include <pharos/core/error.h>
+
+#include "mesh_parts.h"
+#include "ply_file.h"
+#include "weld.h"
 
 namespace pharos {
 namespace {
 
-Vec3 to_vec3(const aiVector3D& v) {
-  return {v.x, v.y, v.z};
+[[noreturn]] void fail(const std::filesystem::path& path, const std::string& reason) {
+  throw InputError("mesh '" + path.string() + "': " + one_line(reason));
 }
 
-[[noreturn]] void fail(const std::filesystem::path& path, const std::string& reason) {
-  throw InputError("mesh '" + path.string() + "': " + reason);
+void check_is_file(const std::filesystem::path& path) {
+  std::error_code failed;
+  const auto status = std::filesystem::status(path, failed);
+  if (!exists(status)) fail(path, "there is no such file" + file_suggestion(path));
+  if (!is_regular_file(status)) fail(path, "it is not a regular file");
 }
+
+/// Opens nothing but regular files: a mesh file may name others, and reading a device or a pipe
+/// would never end.
+class RegularFiles : public Assimp::DefaultIOSystem {
+ public:
+  Assimp::IOStream* Open(const char* file, const char* mode) override {
+    std::error_code failed;
+    if (!std::filesystem::is_regular_file(file, failed)) return nullptr;
+    return DefaultIOSystem::Open(file, mode);
+  }
+};
 
 std::span<aiMesh* const> meshes_of(const aiScene& scene) {
   return {scene.mMeshes, scene.mNumMeshes};
 }
 
-/// Assimp's later steps trust what its readers made of a damaged file, and crash on it.
-void check_as_read(const std::filesystem::path& path, const aiScene& scene) {
-  std::size_t faces = 0;
-  for (const aiMesh* mesh : meshes_of(scene)) {
-    for (const aiFace& face : std::span(mesh->mFaces, mesh->mNumFaces)) {
-      for (const unsigned index : std::span(face.mIndices, face.mNumIndices)) {
-        if (index >= mesh->mNumVertices) fail(path, "a face names a vertex that is missing");
-      }
-      faces += face.mNumIndices >= 3 ? 1 : 0;
-    }
-  }
-  if (faces == 0) fail(path, "it holds no triangles");
+std::string vertex_name(const aiMesh& mesh, std::size_t vertex) {
+  const std::string where =
+      mesh.mName.length > 0 ? fmt::format(" of '{}'", mesh.mName.C_Str()) : "";
+  return fmt::format("vertex {}{}", vertex, where);
 }
 
-/// Appends a mesh's vertices and triangles.
-class Joiner {
- public:
-  Joiner(const std::filesystem::path& path, TriangleMesh& result) : path_(path), result_(result) {}
-
-  void add(const aiMesh& mesh, bool any_normals, bool any_uvs) {
-    const auto first = static_cast<std::uint32_t>(result_.positions.size());
-    for (unsigned i = 0; i < mesh.mNumVertices; ++i) add_vertex(mesh, i, any_normals, any_uvs);
-    for (const aiFace& face : std::span(mesh.mFaces, mesh.mNumFaces)) {
-      if (face.mNumIndices != 3) continue;  // points and lines
-      result_.triangles.push_back(
-          {first + face.mIndices[0], first + face.mIndices[1], first + face.mIndices[2]});
-    }
+void check_vertices(const std::filesystem::path& path, const aiMesh& mesh) {
+  for (std::size_t i = 0; i < mesh.mNumVertices; ++i) {
+    const bool finite =
+        is_finite(to_vec3(mesh.mVertices[i])) &&
+        (!mesh.HasNormals() || is_finite(to_vec3(mesh.mNormals[i]))) &&
+        (!mesh.HasTextureCoords(0) || is_finite(to_vec3(mesh.mTextureCoords[0][i])));
+    if (!finite) fail(path, vertex_name(mesh, i) + " is not finite");
   }
+}
 
- private:
-  void add_vertex(const aiMesh& mesh, unsigned i, bool any_normals, bool any_uvs) {
-    const Point3 position = to_vec3(mesh.mVertices[i]);
-    Vec3 normal, uv;
-    if (any_normals && mesh.HasNormals()) normal = to_vec3(mesh.mNormals[i]);
-    if (any_uvs && mesh.HasTextureCoords(0)) uv = to_vec3(mesh.mTextureCoords[0][i]);
-    if (!is_finite(position) || !is_finite(normal) || !is_finite(uv)) {
-      fail(path_, "vertex " + std::to_string(result_.positions.size()) + " is not finite");
+/// Assimp's later steps trust what its readers made of a damaged file, and crash on it.
+void check_as_read(const std::filesystem::path& path, const aiScene& scene) {
+  for (const aiMesh* mesh : meshes_of(scene)) {
+    for (const aiFace& face : std::span(mesh->mFaces, mesh->mNumFaces)) {
+      if (face.mNumIndices == 0) fail(path, "it has a face without vertices");
+      for (const unsigned index : std::span(face.mIndices, face.mNumIndices)) {
+        if (index < mesh->mNumVertices) continue;
+        fail(path, "a face names " + vertex_name(*mesh, index) + ", which is missing");
+      }
     }
-    result_.positions.push_back(position);
-    if (any_normals) result_.normals.push_back(normal);
-    if (any_uvs) result_.uvs.push_back({uv.x, uv.y});
+    check_vertices(path, *mesh);
   }
+}
 
-  const std::filesystem::path& path_;
-  TriangleMesh& result_;
-};
-
-}  // namespace
-
-TriangleMesh read_mesh_file(const std::filesystem::path& path, bool face_normals) {
-  if (!std::filesystem::is_regular_file(path)) fail(path, "there is no such file");
-  Assimp::Importer importer;
-  const int unused = aiComponent_COLORS | aiComponent_TANGENTS_AND_BITANGENTS |
-                     aiComponent_BONEWEIGHTS | aiComponent_ANIMATIONS | aiComponent_TEXTURES |
-                     aiComponent_LIGHTS | aiComponent_CAMERAS | aiComponent_MATERIALS |
-                     (face_normals ? int{aiComponent_NORMALS} : 0);
-  importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, unused);
+const aiScene& import(Assimp::Importer& importer, const std::filesystem::path& path) {
+  importer.SetIOHandler(new RegularFiles);  // which the importer owns
   const aiScene* scene = importer.ReadFile(path.string(), 0);
   if (scene == nullptr) fail(path, importer.GetErrorString());
   check_as_read(path, *scene);
-  scene = importer.ApplyPostProcessing(aiProcess_RemoveComponent | aiProcess_Triangulate |
-                                       aiProcess_JoinIdenticalVertices |
-                                       aiProcess_PreTransformVertices);
+  scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
   if (scene == nullptr) fail(path, importer.GetErrorString());
-  const auto meshes = meshes_of(*scene);
-  const bool any_normals =
-      !face_normals &&
-      std::any_of(meshes.begin(), meshes.end(), [](const aiMesh* m) { return m->HasNormals(); });
-  const bool any_uvs = std::any_of(meshes.begin(), meshes.end(),
-                                   [](const aiMesh* m) { return m->HasTextureCoords(0); });
-  TriangleMesh result;
-  Joiner joiner(path, result);
-  for (const aiMesh* mesh : meshes) joiner.add(*mesh, any_normals, any_uvs);
-  return result;
+  return *scene;
+}
+
+/// The part of that name by Assimp.
+TriangleMesh read_part(const std::filesystem::path& path, const std::string& part) {
+  Assimp::Importer importer;
+  const aiScene& scene = import(importer, path);
+  const std::vector<std::string> names = part_names(scene);
+  if (!part.empty() && std::find(names.begin(), names.end(), part) == names.end()) {
+    fail(path, fmt::format("it has no part '{}'{}; its parts are {}", part, suggestion(part, names),
+                           quoted_list(names)));
+  }
+  return joined_part(scene, part);
+}
+
+bool is_ply(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return extension == ".ply";
+}
+
+TriangleMesh read_ply_file(const std::filesystem::path& path, const std::string& part) {
+  if (!part.empty()) fail(path, "PLY files have no parts");
+  std::ifstream file(path, std::ios::binary);
+  std::string text(std::filesystem::file_size(path), '\0');
+  if (!file.read(text.data(), static_cast<std::streamsize>(text.size()))) {
+    fail(path, "it cannot be read");
+  }
+  try {
+    return read_ply(text);
+  } catch (const InputError& e) {
+    fail(path, e.what());
+  }
+}
+
+}  // namespace
+
+TriangleMesh read_mesh_file(const std::filesystem::path& path, const std::string& part,
+                            bool face_normals) {
+  check_is_file(path);
+  TriangleMesh mesh = is_ply(path) ? read_ply_file(path, part) : read_part(path, part);
+  if (mesh.triangles.empty()) fail(path, "it holds no triangles");
+  if (face_normals) mesh.normals.clear();
+  return welded(mesh);
 }
 
 }  // namespace pharos

@@ -1,5 +1,7 @@
 #include "../mesh.h"
 
+#include <sys/stat.h>
+
 #include <doctest/doctest.h>
 
 #include <pharos/tests/fixtures.h>
@@ -103,6 +105,25 @@ TEST_CASE("what cannot be a surface is an error that names the file") {
   check_error("index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", "mesh");
   check_error("words.obj", "this is not a mesh", "mesh");
   check_error("unknown.xyzzy", "this is not a mesh", "mesh");
+}
+
+TEST_CASE("only regular files are opened, those that a file names too") {
+  const test::TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "folder.obj");
+  std::filesystem::create_symlink("/dev/zero", folder / "zero.ply");
+  REQUIRE(mkfifo((folder / "pipe.stl").c_str(), 0600) == 0);
+  for (const char* name : {"folder.obj", "zero.ply", "pipe.stl"}) {
+    const std::string message =
+        test::input_error_in(folder, [&] { Mesh({.file = folder / name}); });
+    CHECK(message == "mesh '" + std::string(name) + "': it is not a regular file");
+  }
+  // A pipe would wait for someone to write into it.
+  const MeshFile file("library.obj", "mtllib " + (folder / "pipe.stl").string() +
+                                         "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  CHECK(file.load().primitive_count() == 1);
+  folder.write("bunny.obj", kTwoObjects);
+  CHECK(test::input_error_in(folder, [&] { Mesh({.file = folder / "buny.obj"}); }) ==
+        "mesh 'buny.obj': there is no such file (did you mean 'bunny.obj'?)");
 }
 
 TEST_CASE("a binary file that was cut off is an error") {

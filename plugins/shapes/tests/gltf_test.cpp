@@ -1,0 +1,207 @@
+// glTF files, written here, through the same door as other meshes: hierarchy, parts, orientation
+// and texture coordinates.
+
+#include <array>
+#include <cstring>
+
+#include <doctest/doctest.h>
+
+#include <pharos/tests/fixtures.h>
+
+#include "../mesh.h"
+
+namespace pharos {
+namespace {
+
+/// A right triangle in the plane z = 0, its tilted normal and its texture coordinates as glTF has
+/// them, v from the top; then the same triangle one higher.
+struct Buffer {
+  std::array<Point3, 3> low{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};
+  std::array<Vec3, 3> normals{{{0.6f, 0, 0.8f}, {0.6f, 0, 0.8f}, {0.6f, 0, 0.8f}}};
+  std::array<Vec2, 3> uvs{{{0, 1}, {1, 1}, {0, 0.25f}}};
+  std::array<std::uint32_t, 3> indices{0, 1, 2};
+  std::array<Point3, 3> high{{{0, 0, 1}, {1, 0, 1}, {0, 1, 1}}};
+
+  std::string bytes() const {
+    std::string text(sizeof(Buffer), '\0');
+    std::memcpy(text.data(), this, sizeof(Buffer));
+    return text;
+  }
+};
+static_assert(sizeof(Buffer) == 36 + 36 + 24 + 12 + 36);
+
+std::string base64(const std::string& bytes) {
+  const char* const digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;  // the buffer's size divides by three: no padding
+  for (std::size_t i = 0; i + 2 < bytes.size(); i += 3) {
+    unsigned group = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      group = group << 8 | static_cast<unsigned char>(bytes[i + k]);
+    for (int shift = 18; shift >= 0; shift -= 6) text += digits[group >> shift & 63];
+  }
+  return text;
+}
+
+/// A boat at x = 10: its sail twice as large, the same sail mirrored and stretched along z, and a
+/// deck without normals and texture coordinates.
+std::string boat_json(const std::string& uri) {
+  return R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+  "nodes": [
+    {"name": "boat", "translation": [10, 0, 0], "children": [1, 2, 3]},
+    {"name": "mast", "scale": [2, 2, 2], "mesh": 0},
+    {"name": "reflection", "scale": [-1, 1, 2], "mesh": 0},
+    {"name": "hull", "mesh": 1}],
+  "meshes": [
+    {"name": "sail", "primitives": [
+      {"attributes": {"POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2}, "indices": 3}]},
+    {"name": "deck", "primitives": [{"attributes": {"POSITION": 4}, "indices": 3}]}],
+  "accessors": [
+    {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+     "min": [0, 0, 0], "max": [1, 1, 0]},
+    {"bufferView": 1, "componentType": 5126, "count": 3, "type": "VEC3"},
+    {"bufferView": 2, "componentType": 5126, "count": 3, "type": "VEC2"},
+    {"bufferView": 3, "componentType": 5125, "count": 3, "type": "SCALAR"},
+    {"bufferView": 4, "componentType": 5126, "count": 3, "type": "VEC3",
+     "min": [0, 0, 1], "max": [1, 1, 1]}],
+  "bufferViews": [
+    {"buffer": 0, "byteOffset": 0, "byteLength": 36},
+    {"buffer": 0, "byteOffset": 36, "byteLength": 36},
+    {"buffer": 0, "byteOffset": 72, "byteLength": 24},
+    {"buffer": 0, "byteOffset": 96, "byteLength": 12},
+    {"buffer": 0, "byteOffset": 108, "byteLength": 36}],
+  "buffers": [{)" +
+         (uri.empty() ? "" : "\"uri\": \"" + uri + "\", ") + R"("byteLength": 144}]})";
+}
+
+std::string boat_gltf() {
+  return boat_json("data:application/octet-stream;base64," + base64(Buffer{}.bytes()));
+}
+
+std::string little_endian(std::size_t v) {
+  std::string text;
+  for (int shift = 0; shift < 32; shift += 8) text += static_cast<char>(v >> shift & 255);
+  return text;
+}
+
+std::string boat_glb() {
+  std::string json = boat_json("");
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  const std::string chunks = little_endian(json.size()) + "JSON" + json +
+                             little_endian(sizeof(Buffer)) + std::string("BIN\0", 4) +
+                             Buffer{}.bytes();
+  return "glTF" + little_endian(2) + little_endian(12 + chunks.size()) + chunks;
+}
+
+/// A boat in a file of its own, as text and as binary.
+struct Boats {
+  test::TemporaryFolder folder;
+  std::array<std::filesystem::path, 2> paths{folder.write("boat.gltf", boat_gltf()),
+                                             folder.write("boat.glb", boat_glb())};
+};
+
+/// The triangle's surface at its vertices 0, 1 and 2.
+std::array<SurfacePoint, 3> corners(const Mesh& mesh, std::uint32_t triangle) {
+  const TriangleMesh& m = *mesh.mesh();
+  return {m.surface_point(triangle, 0, 0), m.surface_point(triangle, 1, 0),
+          m.surface_point(triangle, 0, 1)};
+}
+
+void check_near(Vec3 a, Vec3 b) {
+  INFO(a.x, " ", a.y, " ", a.z, " against ", b.x, " ", b.y, " ", b.z);
+  CHECK(length(a - b) < 1e-5f);
+}
+
+TEST_CASE("the transforms of all nodes above a mesh apply to it") {
+  const Boats boats;
+  for (const auto& path : boats.paths) {
+    const Mesh whole({.file = path});
+    CHECK(whole.primitive_count() == 3);
+    CHECK(whole.area() == doctest::Approx(0.5 * (4 + 1 + 1)));
+    CHECK(whole.bounds().low == Point3{9, 0, 0});
+    CHECK(whole.bounds().high == Point3{12, 2, 1});
+
+    const auto sail = corners(Mesh({.file = path, .part = "mast"}), 0);
+    check_near(sail[0].position, {10, 0, 0});
+    check_near(sail[1].position, {12, 0, 0});
+    check_near(sail[2].position, {10, 2, 0});
+    CHECK(sail[0].normal.z == 1);
+    check_near(sail[0].shading.n, {0.6f, 0, 0.8f});
+  }
+}
+
+TEST_CASE(
+    "a mirrored node keeps the outer side outside and turns normals by the inverse transpose") {
+  const Boats boats;
+  for (const auto& path : boats.paths) {
+    const Mesh mirrored({.file = path, .part = "reflection"});
+    CHECK(mirrored.primitive_count() == 1);
+    const SurfacePoint p = mirrored.mesh()->surface_point(0, 0.3f, 0.3f);
+    CHECK(p.normal.z == 1);
+    CHECK(p.position.x < 10);
+    check_near(p.shading.n, normalize(Vec3{-0.6f, 0, 0.4f}));
+  }
+}
+
+TEST_CASE("pictures appear as the file's author saw them, v running from the bottom") {
+  const Boats boats;
+  for (const auto& path : boats.paths) {
+    const auto sail = corners(Mesh({.file = path, .part = "mast"}), 0);
+    CHECK(sail[0].uv.x == doctest::Approx(0));
+    CHECK(sail[0].uv.y == doctest::Approx(0));
+    CHECK(sail[1].uv.x == doctest::Approx(1));
+    CHECK(sail[2].uv.y == doctest::Approx(0.75));
+  }
+}
+
+TEST_CASE("a part is a mesh wherever it is placed, or a node with all below it") {
+  const Boats boats;
+  for (const auto& path : boats.paths) {
+    CHECK(Mesh({.file = path, .part = "sail"}).primitive_count() == 2);
+    CHECK(Mesh({.file = path, .part = "boat"}).primitive_count() == 3);
+    const Mesh deck({.file = path, .part = "deck"});
+    CHECK(deck.primitive_count() == 1);
+    CHECK(deck.bounds().low == Point3{10, 0, 1});
+    CHECK(deck.mesh()->normals.empty());  // unlike in the whole boat
+    CHECK(deck.mesh()->uvs.empty());
+    const Mesh flat({.file = path, .part = "sail", .face_normals = true});
+    CHECK(flat.mesh()->normals.empty());
+  }
+}
+
+TEST_CASE("a part that a file lacks is an error with the nearest name and a list") {
+  const Boats boats;
+  const std::string message =
+      test::input_error_in(boats.folder, [&] { Mesh({.file = boats.paths[0], .part = "sial"}); });
+  CHECK(message ==
+        "mesh 'boat.gltf': it has no part 'sial' (did you mean 'sail'?); its parts are "
+        "'boat', 'deck', 'hull', 'mast', 'reflection', 'sail'");
+}
+
+TEST_CASE("parts have names in other formats too") {
+  const test::TemporaryFolder folder;
+  const auto path = folder.write("two.obj",
+                                 "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+                                 "o floor\nf 1 2 3\no wall\nf 1 2 4\nf 1 3 4\n");
+  CHECK(Mesh({.file = path, .part = "floor"}).primitive_count() == 1);
+  CHECK(Mesh({.file = path, .part = "wall"}).primitive_count() == 2);
+}
+
+TEST_CASE("damaged glTF files are errors that name the file") {
+  const test::TemporaryFolder folder;
+  const auto check_error = [&](const std::string& name, const std::string& text) {
+    const std::string message =
+        test::input_error_in(folder, [&] { Mesh({.file = folder.write(name, text)}); });
+    INFO(message);
+    CHECK(message.find("mesh '" + name + "': ") == 0);
+  };
+  const std::string glb = boat_glb();
+  check_error("empty.gltf", "");
+  check_error("cut.gltf", boat_gltf().substr(0, 700));
+  check_error("cut.glb", glb.substr(0, glb.size() - 40));
+  check_error("header.glb", glb.substr(0, 16));
+  check_error("device.gltf", boat_json("/dev/zero"));
+  check_error("missing.gltf", boat_json("nowhere.bin"));
+}
+
+}  // namespace
+}  // namespace pharos
