@@ -6,6 +6,7 @@
 
 #include "../../plugins/integrators/path.h"
 #include "../../plugins/integrators/planted_fault.h"
+#include "faulty_guider.h"
 
 namespace pharos {
 namespace {
@@ -39,4 +40,5 @@ class FaultyPath final : public Integrator {
 
 PHAROS_MODULE(registry) {
   registry.add<pharos::FaultyPath>("faulty_path", "Path tracing with a planted fault");
+  registry.add<pharos::testing::FoldingGuider>("folding", "Directions of another guider, folded");
 }

@@ -1,0 +1,71 @@
+#include "previews.h"
+
+#include <fmt/format.h>
+
+#include <pharos/conformance/subjects.h>
+#include <pharos/core/log.h>
+#include <pharos/rendering/render_config.h>
+#include <pharos/rendering/render_job.h>
+#include <pharos/scene/emitter.h>
+
+namespace pharos {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The plugin as a config states it; paths in its example are those of `files`.
+ConfigNode plugin_node(const PluginInfo& plugin, const fs::path& files) {
+  const Location where{(files / "example.yaml").string(), 1, 1};
+  ConfigNode node = ConfigNode::mapping(where);
+  node.set("type", ConfigNode::scalar(plugin.name, where));
+  if (plugin.examples.empty()) return node;
+  const ConfigNode example = parse_yaml_at(plugin.examples.front(), where);
+  for (const ConfigNode::Entry& entry : example.entries()) node.set(entry.key, entry.value);
+  return node;
+}
+
+/// Puts `plugin` in the place of every mapping with the key `preview`.
+void substitute(ConfigNode& node, const ConfigNode& plugin) {
+  for (ConfigNode& item : node.items()) substitute(item, plugin);
+  for (ConfigNode::Entry& entry : node.entries()) substitute(entry.value, plugin);
+  if (node.find("preview") == nullptr) return;
+  node.take("preview");
+  for (const ConfigNode::Entry& entry : plugin.entries()) node.set(entry.key, entry.value);
+}
+
+bool needs_shape(const ConfigNode& emitter, const Registry& registry) {
+  BuildContext context{.registry = registry};
+  ConfigNode resolved;
+  return registry.build<Emitter>(emitter, context, resolved)->needs_shape();
+}
+
+void render_preview(const PluginInfo& plugin, const Registry& registry, const fs::path& folder,
+                    const fs::path& files) {
+  const ConfigNode node = plugin_node(plugin, files);
+  const bool on_shape = plugin.contract == Emitter::contract_name && needs_shape(node, registry);
+  ConfigNode config =
+      read_config(folder / (plugin.contract + (on_shape ? "-on-shape" : "") + ".yaml"));
+  substitute(config, node);
+  const LoadedConfig loaded = build_render_config(config, registry);
+  const RenderResult result = RenderJob(loaded.config).run();
+  write_png(result.image, folder / preview_name(plugin), loaded.config.output.exposure,
+            loaded.config.output.filmic);
+}
+
+}  // namespace
+
+std::string preview_name(const PluginInfo& plugin) {
+  return plugin.contract + "-" + plugin.name + ".png";
+}
+
+void render_previews(const Registry& registry, const fs::path& folder) {
+  const conformance::ExampleFolder files;
+  for (const std::string contract : {"bsdf", "emitter", "shape"}) {
+    for (const std::string& name : registry.names(contract)) {
+      log_info(fmt::format("preview of the {} '{}'", contract, name));
+      render_preview(*registry.find(contract, name), registry, folder, files.path());
+    }
+  }
+}
+
+}  // namespace pharos

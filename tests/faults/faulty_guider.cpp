@@ -1,0 +1,80 @@
+// A guider that folds another one's directions into the hemisphere of the normal, rightly or with a
+// planted fault:
+//
+//     guider: { type: folding, fault: mirrored_branch_missing, guider: stub_direction }
+
+#include "faulty_guider.h"
+
+#include <pharos/core/arena.h>
+
+namespace pharos::testing {
+namespace {
+
+class FoldedDistribution final : public GuidingDistribution {
+ public:
+  FoldedDistribution(const GuidingDistribution& inner, Vec3 normal, GuideFault fault)
+      : inner_(inner), normal_(normal), fault_(fault) {}
+
+  std::optional<Proposal> propose(const VertexStream& stream) const override {
+    std::optional<Proposal> proposal = inner_.propose(stream);
+    const bool below = proposal && dot(proposal->direction, normal_) < 0;
+    if (below && fault_ != GuideFault::proposal_not_folded) {
+      proposal->direction = mirrored(proposal->direction);
+    }
+    return proposal;
+  }
+
+  Density density(const ResolvedVertex& vertex) const override {
+    Density density = inner_.density(vertex);
+    if (dot(vertex.direction, normal_) < 0) return {0, density.measure};
+    if (fault_ != GuideFault::mirrored_branch_missing) {
+      ResolvedVertex other = vertex;
+      other.direction = mirrored(vertex.direction);
+      density.value += inner_.density(other).value;
+    }
+    if (fault_ == GuideFault::scaled) density.value *= 1.03f;
+    return density;
+  }
+
+  std::uint32_t region() const override { return inner_.region(); }
+
+ private:
+  Vec3 mirrored(Vec3 d) const { return normalize(d - 2 * dot(d, normal_) * normal_); }
+
+  const GuidingDistribution& inner_;
+  Vec3 normal_;
+  GuideFault fault_;
+};
+
+class BoundFolding final : public BoundGuider {
+ public:
+  BoundFolding(std::unique_ptr<const BoundGuider> inner, GuideFault fault)
+      : inner_(std::move(inner)), fault_(fault) {}
+
+  const GuidingDistribution* query(const GuidingQuery& query, Arena& arena) const override {
+    const GuidingDistribution* inner = inner_->query(query, arena);
+    if (inner == nullptr || query.current.kind != VertexKind::surface) return inner;
+    const bool seen_from_outside = dot(query.current.normal, query.towards_previous) >= 0;
+    const Vec3 normal = seen_from_outside ? query.current.normal : -query.current.normal;
+    return arena.make<FoldedDistribution>(*inner, normal, fault_);
+  }
+
+ private:
+  std::unique_ptr<const BoundGuider> inner_;
+  GuideFault fault_;
+};
+
+}  // namespace
+
+void FoldingSettings::describe(Schema<FoldingSettings>& s) {
+  s.field("fault", &FoldingSettings::fault, "What to do wrong");
+  s.field("guider", &FoldingSettings::guider, "Whose directions are folded")
+      .otherwise("stub_direction");
+}
+
+std::unique_ptr<const BoundGuider> FoldingGuider::bind(
+    std::shared_ptr<const GuidingModel> model) const {
+  return std::make_unique<BoundFolding>(settings_.guider->bind(std::move(model)), settings_.fault);
+}
+
+}  // namespace pharos::testing

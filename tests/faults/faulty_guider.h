@@ -1,0 +1,45 @@
+#pragma once
+
+#include <pharos/config/registry.h>
+#include <pharos/guiding/guider.h>
+
+namespace pharos::testing {
+
+enum class GuideFault {
+  none,
+  scaled,                   ///< the density is 3 % too large
+  mirrored_branch_missing,  ///< the density leaves out what was folded over
+  proposal_not_folded,      ///< proposals stay below, the density folds them
+};
+
+struct FoldingSettings {
+  GuideFault fault = GuideFault::none;
+  Ref<Guider> guider;
+  static void describe(Schema<FoldingSettings>& s);
+};
+
+/// See faulty_guider.cpp.
+class FoldingGuider final : public Guider {
+ public:
+  using Settings = FoldingSettings;
+  explicit FoldingGuider(Settings settings) : settings_(std::move(settings)) {}
+
+  GuiderTraits traits() const override { return settings_.guider->traits(); }
+  std::unique_ptr<const BoundGuider> bind(std::shared_ptr<const GuidingModel> model) const override;
+
+ private:
+  Settings settings_;
+};
+
+}  // namespace pharos::testing
+
+namespace pharos {
+template <>
+struct EnumNames<testing::GuideFault> {
+  static constexpr std::array<std::pair<std::string_view, testing::GuideFault>, 4> names{
+      {{"none", testing::GuideFault::none},
+       {"scaled", testing::GuideFault::scaled},
+       {"mirrored_branch_missing", testing::GuideFault::mirrored_branch_missing},
+       {"proposal_not_folded", testing::GuideFault::proposal_not_folded}}};
+};
+}  // namespace pharos

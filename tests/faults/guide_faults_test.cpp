@@ -1,0 +1,61 @@
+// Faults planted into a guide, against its conformance suite and a guided furnace.
+
+#include <cmath>
+#include <set>
+#include <string>
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <pharos/conformance/conformance.h>
+
+#include "../contracts/furnace.h"
+#include "faulty_guider.h"
+
+namespace pharos::testing {
+namespace {
+
+using Names = std::set<std::string>;
+
+/// The checks of the guiders' suite that fail for the guider `folding` with a fault.
+Names red_checks(const std::string& fault) {
+  Names red;
+  for (const conformance::Finding& f :
+       conformance::check_plugins(registry(), {.names = {"folding"}}).findings) {
+    const bool planted = f.settings.find("fault") == std::string::npos
+                             ? fault == "none"
+                             : f.settings.find("fault: " + fault) != std::string::npos;
+    if (planted && f.verdict == conformance::Verdict::failed) red.insert(f.check);
+  }
+  return red;
+}
+
+bool furnace_turns_red(const std::string& fault) {
+  const std::string guiding = fmt::format(
+      "{{ learner: stub_direction, guider: {{ type: folding, fault: {} }}, "
+      "training: {{ iterations: 3 }} }}",
+      fault);
+  return std::abs(furnace_t(path_config(kDiffuseScene, 4, guiding, 128), kDiffuseFurnace, 16)) >
+         kLimit;
+}
+
+}  // namespace
+
+TEST_CASE("a guide that folds directions rightly") {
+  CHECK(red_checks("none") == Names{});
+  CHECK_FALSE(furnace_turns_red("none"));
+}
+TEST_CASE("fault: a guide's density is scaled by 1.03") {
+  CHECK(red_checks("scaled").contains("integral"));
+  CHECK(furnace_turns_red("scaled"));
+}
+TEST_CASE("fault: the density leaves out the branch that was flipped over") {
+  CHECK(red_checks("mirrored_branch_missing").contains("chi_square"));
+  CHECK(furnace_turns_red("mirrored_branch_missing"));
+}
+TEST_CASE("fault: the flip to the hemisphere is missing") {
+  CHECK(red_checks("proposal_not_folded").contains("integral"));
+  CHECK(furnace_turns_red("proposal_not_folded"));
+}
+
+}  // namespace pharos::testing
