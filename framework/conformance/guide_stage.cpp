@@ -120,7 +120,7 @@ Ref<Integrator> integrator_for(const GuidedPair& pair, std::string& why_not) {
     try {
       auto integrator = build<Integrator>(pair.registry, guided_node(name, pair));
       if (!integrator->traits().guided || integrator->guiding() == nullptr) continue;
-      check_compatible(*integrator);
+      check_compatible(*integrator, *pinhole(kSensor));
       return integrator;
     } catch (const InputError& e) {
       why_not = e.what();
