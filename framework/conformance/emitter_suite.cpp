@@ -40,7 +40,7 @@ std::vector<Site> sites_of(const Ref<Emitter>& emitter) {
   }
   SceneParts parts = alone(std::make_shared<const StageShape>(ball_mesh({0.5f, 0, 0}, 0.8f)));
   parts.emitters.push_back(emitter);
-  Site site{.name = "alone", .references = {{0, 0, 0}, {0.5f, -2, 1}, {-3, 4, 2}}};
+  Site site{.name = "alone", .references = {{0.1f, 0.2f, -0.15f}, {0.5f, -2, 1}, {-3, 4, 2}}};
   site.scene = std::make_unique<const Scene>(std::move(parts));
   site.light = site.scene->lights()[0].get();
   site.center = site.scene->bounds().center();
@@ -53,15 +53,28 @@ std::string where(const Site& site, Point3 from) {
   return fmt::format("{}, from ({:.4g}, {:.4g}, {:.4g})", site.name, from.x, from.y, from.z);
 }
 
+/// A sample that sees the light, from somewhere around it; one of pdf 0 where none does.
+LightSample lit_sample(const Site& site) {
+  constexpr int kTries = 20'000;  // a spot of one degree is found
+  RandomStream random(1);
+  for (int i = 0; i < kTries; ++i) {
+    const Point3 from = site.center + 3 * warp::sphere_from_square(random.next_2d());
+    const LightSample s = site.light->sample(from, random.next_2d());
+    if (s.pdf > 0) return s;
+  }
+  return {};
+}
+
 bool is_discrete_light(const Site& site) {
-  return site.light->sample(site.references[0], {0.5f, 0.5f}).discrete;
+  return lit_sample(site).discrete;
 }
 
 /// The density of directions, over all points of the light that lie along them.
 double density_along(const Site& site, Point3 from, Vec3 direction) {
   if (site.light->is_environment()) return site.light->pdf_direction(direction);
-  return sum_along(*site.scene, {from, direction},
-                   [&](const SurfacePoint& p) { return double{site.light->pdf_point(from, p)}; });
+  return sum_along(*site.scene, {from, direction}, [&](const SurfacePoint& p) {
+    return is_well_seen(from, p) ? double{site.light->pdf_point(from, p)} : 0.0;
+  });
 }
 
 void check_density(const Site& site, std::uint64_t seed, Check& chi_square, Check& integral) {
@@ -74,7 +87,8 @@ void check_density(const Site& site, std::uint64_t seed, Check& chi_square, Chec
   for (const Point3 from : site.references) {
     const auto draw = [&](RandomStream& random) -> std::optional<Vec3> {
       const LightSample s = site.light->sample(from, random.next_2d());
-      return s.pdf > 0 ? std::optional(s.direction) : std::nullopt;
+      const bool seen = site.light->is_environment() || is_well_seen(from, s.point);
+      return s.pdf > 0 && seen ? std::optional(s.direction) : std::nullopt;
     };
     const auto density = [&](Vec3 d) { return density_along(site, from, d); };
     test_directions({draw, density, where(site, from), kRim, 40'000}, seed, chi_square, integral);
@@ -117,7 +131,7 @@ void check_weight(const Site& site, std::uint64_t seed, Check& check) {
 /// Points far away, at the origin, and on and next to the light.
 std::vector<Point3> extreme_references(const Site& site) {
   std::vector<Point3> all = site.references;
-  for (const float far : {1e3f, 1e6f, 1e12f, 1e18f}) all.push_back({far, -far, 0.5f * far});
+  for (const float far : {1e3f, 1e6f, 1e12f}) all.push_back({far, -far, 0.5f * far});
   for (const float near : {0.0f, 1e-7f, 1e-4f}) {
     for (const SceneObject& object : site.scene->objects()) {
       const SurfacePoint p = object.shape->sample({0.3f, 0.6f}).point;
@@ -125,8 +139,8 @@ std::vector<Point3> extreme_references(const Site& site) {
       all.push_back(p.position - near * p.normal);
     }
   }
-  const LightSample s = site.light->sample(site.references[0], {0.5f, 0.5f});
-  if (std::isfinite(s.distance)) all.push_back(s.point.position);
+  const LightSample lit = lit_sample(site);
+  if (std::isfinite(lit.distance)) all.push_back(lit.point.position);
   return all;
 }
 
@@ -180,7 +194,7 @@ double environment_flux(const Site& site, RandomStream& random, int draws) {
 /// Irradiance over a sphere about a light without extent, or over the scene's cross section for one
 /// that is infinitely far.
 double discrete_flux(const Site& site, RandomStream& random, int draws) {
-  const LightSample first = site.light->sample(site.references[0], {0.5f, 0.5f});
+  const LightSample first = lit_sample(site);
   if (!std::isfinite(first.distance)) {
     return double{mean(first.radiance)} * double{kPi} * square(site.radius);
   }

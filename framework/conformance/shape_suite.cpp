@@ -149,13 +149,6 @@ std::vector<Point3> references(const Stand& stand) {
           stand.center + r * Vec3{0.05f, 0.11f, 0.23f}};
 }
 
-/// Whether a point is seen neither edge-on, where densities over solid angle grow without bound and
-/// quadrature fails, nor from itself.
-bool is_well_seen(Point3 from, const SurfacePoint& p) {
-  const Vec3 d = p.position - from;
-  return abs_dot(d, p.normal) > 0.1f * length(d);
-}
-
 void check_solid_angle(const Stand& stand, Suite& suite) {
   constexpr double kRim = 2e-3;
   Check& check = suite.check("solid_angle");

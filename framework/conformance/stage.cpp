@@ -273,4 +273,9 @@ double sum_along(const Scene& scene, Ray ray,
   return sum;
 }
 
+bool is_well_seen(Point3 from, const SurfacePoint& point) {
+  const Vec3 d = point.position - from;
+  return abs_dot(d, point.normal) > 0.1f * length(d);
+}
+
 }  // namespace pharos::conformance

@@ -51,4 +51,8 @@ SceneParts alone(Ref<Shape> shape, Ref<Emitter> emitter = nullptr);
 double sum_along(const Scene& scene, Ray ray,
                  const std::function<double(const SurfacePoint&)>& value);
 
+/// Whether a point is seen neither edge-on, where densities over solid angle grow without bound and
+/// quadrature fails, nor from itself. Tests of densities treat all others as not there.
+bool is_well_seen(Point3 from, const SurfacePoint& point);
+
 }  // namespace pharos::conformance
