@@ -91,7 +91,8 @@ void check_density(const Site& site, std::uint64_t seed, Check& chi_square, Chec
       return s.pdf > 0 && seen ? std::optional(s.direction) : std::nullopt;
     };
     const auto density = [&](Vec3 d) { return density_along(site, from, d); };
-    test_directions({draw, density, where(site, from), kRim, 40'000}, seed, chi_square, integral);
+    test_directions({draw, density, where(site, from), kRim, 1e-3, 40'000}, seed, chi_square,
+                    integral);
   }
 }
 

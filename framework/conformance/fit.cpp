@@ -51,7 +51,7 @@ void test_directions(const DirectionFit& setup, std::uint64_t seed, Check& chi_s
                      Check& integral) {
   const statistics::DensityFit fit = statistics::fit_direction_density(
       setup.draw, setup.density,
-      {.draws = setup.draws, .seed = seed, .cells = 60, .quadrature_tolerance = 1e-4});
+      {.draws = setup.draws, .seed = seed, .cells = 60, .quadrature_tolerance = setup.tolerance});
   chi_square.add_p_value(
       fit.chi_square.p_value,
       fmt::format("{}: chi-square {:.1f} with {} degrees of freedom", setup.where,

@@ -12,8 +12,9 @@ struct DirectionFit {
   statistics::Draw<Vec3> draw;        ///< empty: no result, or one of another measure
   statistics::Density<Vec3> density;  ///< [1/sr]
   std::string where;                  ///< the configuration, for messages
-  double rim = 0;  ///< share of draws [1] that may lie just outside the support, where the
-                   ///< density is found by a ray that may miss
+  double rim = 0;           ///< share of draws [1] that may lie just outside the support, where the
+                            ///< density is found by a ray that may miss
+  double tolerance = 1e-4;  ///< of quadrature [1]; less for densities that cost rays
   std::size_t draws = 60'000;  ///< half of them find the cells
 };
 
