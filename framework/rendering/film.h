@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <string_view>
 #include <utility>
@@ -55,10 +56,19 @@ class FilmTile {
  private:
   friend class Film;
   struct Pixel {
-    Rgb radiance;       ///< weighted sum
-    float weight = 0;   ///< sum of filter weights
-    Features features;  ///< sums over samples
+    Rgb radiance;               ///< weighted sum
+    float weight = 0;           ///< sum of filter weights
+    float absolute_weight = 0;  ///< sum of their magnitudes
+    Features features;          ///< sums over samples
     float samples = 0;
+
+    void add(float filter_weight, Rgb value) {
+      radiance += filter_weight * value;
+      weight += filter_weight;
+      absolute_weight += std::abs(filter_weight);
+    }
+    Pixel& operator+=(const Pixel& other);
+    Rgb weighted_mean() const;
   };
   struct Splat {
     Vec2 film;
@@ -78,7 +88,10 @@ class FilmTile {
   double paths_ = 0;
 };
 
-/// The image of one iteration: a weight-normalised layer of pixel samples plus a splat layer. Tiles
+/// The image of one iteration: a weight-normalised layer of pixel samples plus a splat layer.
+/// Filters with negative lobes may leave a pixel of few samples next to no weight; where less than
+/// a tenth of the weights' magnitude is left, that tenth divides instead, so that no value is more
+/// than ten times the brightest sample in reach. Tiles
 /// are merged in the order of work units, by one thread at a time. Passes end with end_pass(); the
 /// variance of a pixel comes from the spread of its pass means, which is right for stratified
 /// samples and splats too (and an upper bound where passes of one sequence complement each other).
@@ -109,6 +122,8 @@ class Film {
   struct Pixel {
     FilmTile::Pixel sum;
     Rgb splats;  ///< sum of f/p
+
+    Pixel& operator+=(const Pixel& other);
   };
   /// Weighted moments of a pixel's pass values (West 1979).
   struct Moments {

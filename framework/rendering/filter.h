@@ -14,9 +14,9 @@ class Filter : public Component {
 
   /// Half-width of the square outside which the weight is zero [pixels], > 0.
   virtual float radius() const = 0;
-  /// Weight at an offset [1]; the overall factor does not matter.
+  /// Weight at an offset [1]; may be negative in places; the overall factor does not matter.
   virtual float evaluate(Vec2 offset) const = 0;
-  /// Integral of evaluate() over the plane [pixels^2]; splats are normalised by it.
+  /// Integral of evaluate() over the plane [pixels^2], > 0; splats are normalised by it.
   virtual float integral() const = 0;
 };
 

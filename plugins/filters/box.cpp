@@ -8,6 +8,7 @@ namespace pharos {
 
 void BoxFilter::Settings::describe(Schema<Settings>& s) {
   s.field("radius", &Settings::radius, "Half-width").unit("pixels").at_least(0.5).at_most(16);
+  s.example("{ radius: 1.75 }");
 }
 
 }  // namespace pharos

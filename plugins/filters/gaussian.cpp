@@ -9,6 +9,8 @@ namespace pharos {
 void GaussianFilter::Settings::describe(Schema<Settings>& s) {
   s.field("stddev", &Settings::stddev, "Standard deviation").unit("pixels").above(0);
   s.field("radius", &Settings::radius, "Half-width").unit("pixels").at_least(0.5).at_most(16);
+  s.example("{ stddev: 0.25, radius: 1 }");
+  s.example("{ stddev: 1, radius: 2.5 }");
 }
 
 GaussianFilter::GaussianFilter(const Settings& settings)

@@ -2,9 +2,13 @@
 
 #include "box.h"
 #include "gaussian.h"
+#include "mitchell.h"
+#include "tent.h"
 
 PHAROS_MODULE(registry) {
   registry.add<pharos::BoxFilter>("box", "Equal weight over a square");
   registry.add<pharos::GaussianFilter>("gaussian", "A Gaussian that ends at zero");
+  registry.add<pharos::TentFilter>("tent", "Falls linearly to zero");
+  registry.add<pharos::MitchellFilter>("mitchell", "Mitchell and Netravali's sharpening cubic");
   registry.set_default<pharos::Filter>("box");
 }
