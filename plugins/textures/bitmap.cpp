@@ -29,6 +29,9 @@ void Bitmap::Settings::describe(Schema<Settings>& s) {
   s.field("wrap", &Settings::wrap, "What lies outside the unit square");
   s.field("color_space", &Settings::color_space, "How 8- and 16-bit images are encoded");
   s.field("uv_scale", &Settings::uv_scale, "Factors on the texture coordinates");
+  s.example("{ file: example.png }");
+  s.example("{ file: example.png, filter: nearest, wrap: mirror, uv_scale: [3, 0.5] }");
+  s.example("{ file: example.exr, wrap: clamp }");
 }
 
 Bitmap::Bitmap(const Settings& settings) : settings_(settings) {

@@ -17,6 +17,7 @@ void Checkerboard::Settings::describe(Schema<Settings>& s) {
   s.field("color0", &Settings::color0, "Colour of the square at the origin").at_least(0);
   s.field("color1", &Settings::color1, "Colour of its neighbours").at_least(0);
   s.field("uv_scale", &Settings::uv_scale, "Factors on the texture coordinates");
+  s.example("{ color0: [0.9, 0.1, 0.3], color1: 0, uv_scale: [4, 2.5] }");
 }
 
 Rgb Checkerboard::evaluate(const SurfacePoint& point) const {

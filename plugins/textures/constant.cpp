@@ -8,6 +8,7 @@ namespace pharos {
 
 void ConstantTexture::Settings::describe(Schema<Settings>& s) {
   s.field("value", &Settings::value, "The colour").at_least(0);
+  s.example("{ value: [0.2, 0.5, 0.8] }");
 }
 
 }  // namespace pharos

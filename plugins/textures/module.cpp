@@ -3,10 +3,14 @@
 #include "bitmap.h"
 #include "checkerboard.h"
 #include "constant.h"
+#include "grid.h"
+#include "scale.h"
 
 PHAROS_MODULE(registry) {
   registry.add<pharos::ConstantTexture>("constant", "The same colour everywhere");
   registry.add<pharos::Checkerboard>("checkerboard", "Two colours in squares");
+  registry.add<pharos::GridTexture>("grid", "Lines on a ground");
+  registry.add<pharos::ScaleTexture>("scale", "The product of two textures");
   registry.add<pharos::Bitmap>("bitmap", "An image file");
   registry.set_shorthand<pharos::Texture>("constant", "value");
 }

@@ -2,6 +2,8 @@
 
 #include "../checkerboard.h"
 #include "../constant.h"
+#include "../grid.h"
+#include "../scale.h"
 
 namespace pharos {
 namespace {
@@ -10,6 +12,18 @@ Rgb at(const Texture& texture, float u, float v) {
   SurfacePoint point;
   point.uv = {u, v};
   return texture.evaluate(point);
+}
+
+/// The mean over the unit square of texture coordinates.
+Rgb mean_of(const Texture& texture) {
+  constexpr int kSteps = 500;
+  double sums[3] = {};
+  for (int i = 0; i < kSteps * kSteps; ++i) {
+    const Rgb c = at(texture, (static_cast<float>(i % kSteps) + 0.5f) / kSteps,
+                     (static_cast<float>(i / kSteps) + 0.5f) / kSteps);
+    for (int k = 0; k < 3; ++k) sums[k] += double{c[k]} / (kSteps * kSteps);
+  }
+  return {static_cast<float>(sums[0]), static_cast<float>(sums[1]), static_cast<float>(sums[2])};
 }
 
 }  // namespace
@@ -49,6 +63,62 @@ TEST_CASE("checkerboard: scale") {
   CHECK(at(texture, 0.0625f, 0.25f) == white);
   CHECK(at(texture, 0.1875f, 0.25f) == black);
   CHECK(at(texture, 0.3125f, 0.25f) == white);
+}
+
+TEST_CASE("grid: lines about whole coordinates") {
+  const Rgb ground(0.8f), line(0.1f, 0.2f, 0.9f);
+  const GridTexture texture({.color0 = ground, .color1 = line, .line_width = 0.1f});
+  CHECK(at(texture, 0, 0.5f) == line);
+  CHECK(at(texture, 0.5f, 0.09f) == line);
+  CHECK(at(texture, 0.5f, 0.91f) == line);
+  CHECK(at(texture, 0.11f, 0.89f) == ground);
+  CHECK(at(texture, -3.05f, 0.5f) == line);
+  CHECK(at(texture, -3.5f, -0.5f) == ground);
+  CHECK(texture.maximum() == 0.9f);
+  const Rgb mean = mean_of(texture);
+  for (int i = 0; i < 3; ++i) CHECK(texture.average()[i] == doctest::Approx(mean[i]).epsilon(1e-3));
+}
+
+TEST_CASE("grid: scale, and lines without or with all of the area") {
+  const Rgb black(0), white(1);
+  const GridTexture fine(
+      {.color0 = black, .color1 = white, .line_width = 0.25f, .uv_scale = {4, 1}});
+  CHECK(at(fine, 0.25f, 0.5f) == white);
+  CHECK(at(fine, 0.125f, 0.5f) == black);
+  const GridTexture none({.color0 = black, .color1 = white, .line_width = 0});
+  CHECK(at(none, 0, 0) == black);
+  CHECK(none.average() == black);
+  const GridTexture all({.color0 = black, .color1 = white, .line_width = 0.5f});
+  CHECK(at(all, 0.3f, 0.6f) == white);
+  CHECK(all.average() == white);
+}
+
+TEST_CASE("scale: the product, a bound on it, and its average") {
+  const Ref<Texture> checker = std::make_shared<Checkerboard>(
+      Checkerboard::Settings{.color0 = Rgb(1), .color1 = Rgb(0.2f, 0.4f, 0)});
+  const Ref<Texture> tint =
+      std::make_shared<ConstantTexture>(ConstantTexture::Settings{.value = {0.5f, 1, 2}});
+  const ScaleTexture tinted({.texture = checker, .factor = tint});
+  CHECK(at(tinted, 0.25f, 0.25f) == Rgb(0.5f, 1, 2));
+  CHECK(at(tinted, 0.75f, 0.25f) == Rgb(0.1f, 0.4f, 0));
+  CHECK(tinted.maximum() == 2);
+  CHECK(tinted.average() == checker->average() * tint->average());
+
+  // Black where the other is white: the mean of the product is not the product of means.
+  const Ref<Texture> opposite =
+      std::make_shared<Checkerboard>(Checkerboard::Settings{.color0 = Rgb(0), .color1 = Rgb(1)});
+  const ScaleTexture masked({.texture = checker, .factor = opposite});
+  const Rgb mean = mean_of(masked), average = masked.average();
+  for (int i = 0; i < 3; ++i) CHECK(average[i] == doctest::Approx(mean[i]).epsilon(1e-4).scale(1));
+  CHECK(average.r == doctest::Approx(0.1));
+  const ScaleTexture squared({.texture = opposite, .factor = opposite});
+  CHECK(squared.average().g == doctest::Approx(0.5));
+}
+
+TEST_CASE("scale: a product that is not finite is refused") {
+  const Ref<Texture> huge =
+      std::make_shared<ConstantTexture>(ConstantTexture::Settings{.value = Rgb(1e30f)});
+  CHECK_THROWS_AS(ScaleTexture({.texture = huge, .factor = huge}), InputError);
 }
 
 }  // namespace pharos

@@ -1,0 +1,39 @@
+// grid: lines of `color1` on a ground of `color0`, wherever a texture coordinate, once scaled, is
+// within `line_width` of a whole number. A line is thus twice that wide, half on either side (as in
+// Mitsuba's gridtexture), and 0.5 leaves nothing of the ground.
+//
+//     { type: grid, color0: 0.8, color1: [0.1, 0.1, 0.3], line_width: 0.03, uv_scale: [10, 10] }
+#include "grid.h"
+
+namespace pharos {
+
+void GridTexture::Settings::describe(Schema<Settings>& s) {
+  s.field("color0", &Settings::color0, "Colour of the ground").at_least(0);
+  s.field("color1", &Settings::color1, "Colour of the lines").at_least(0);
+  s.field("line_width", &Settings::line_width, "Reach of a line to either side, of a cell's width")
+      .at_least(0)
+      .at_most(0.5);
+  s.field("uv_scale", &Settings::uv_scale, "Factors on the texture coordinates");
+  s.example("{ color0: [0.9, 0.8, 0.7], color1: 0, line_width: 0.1, uv_scale: [7, 3] }");
+}
+
+Rgb GridTexture::evaluate(const SurfacePoint& point) const {
+  const bool line =
+      on_line(point.uv.x * settings_.uv_scale.x) || on_line(point.uv.y * settings_.uv_scale.y);
+  return line ? settings_.color1 : settings_.color0;
+}
+
+bool GridTexture::on_line(float coordinate) const {
+  return std::abs(coordinate - std::round(coordinate)) < settings_.line_width;
+}
+
+float GridTexture::maximum() const {
+  return std::max(max_component(settings_.color0), max_component(settings_.color1));
+}
+
+Rgb GridTexture::average() const {
+  const float ground = square(1 - 2 * settings_.line_width);
+  return ground * settings_.color0 + (1 - ground) * settings_.color1;
+}
+
+}  // namespace pharos

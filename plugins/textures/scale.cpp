@@ -1,0 +1,51 @@
+// scale: the product of two textures, channel by channel. A number or a colour as `factor` tints or
+// dims a texture; an image of shades darkens it in places.
+//
+// What it tells about itself: its maximum is the product of both maxima, a bound that is reached
+// where both are at their highest in one channel and place. Its average is exact where one of the
+// two is constant; else their covariance over the unit square of texture coordinates is added, from
+// 64 x 64 points.
+//
+//     { type: scale, texture: { type: bitmap, file: wood.png }, factor: [1, 0.8, 0.6] }
+#include "scale.h"
+
+namespace pharos {
+namespace {
+
+/// The mean of (a - its mean) (b - its mean); exactly 0 where either is constant.
+Rgb covariance(const Texture& a, const Texture& b) {
+  constexpr int kSteps = 64;
+  constexpr float kCell = 1.0f / kSteps, kShare = kCell * kCell;
+  Rgb mean_a, mean_b, mean_product;  // of what is left without the averages
+  for (int y = 0; y < kSteps; ++y) {
+    for (int x = 0; x < kSteps; ++x) {
+      SurfacePoint point;
+      point.uv = kCell * Vec2{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f};
+      const Rgb rest_a = a.evaluate(point) - a.average(), rest_b = b.evaluate(point) - b.average();
+      mean_a += kShare * rest_a;
+      mean_b += kShare * rest_b;
+      mean_product += kShare * rest_a * rest_b;
+    }
+  }
+  return mean_product - mean_a * mean_b;
+}
+
+}  // namespace
+
+void ScaleTexture::Settings::describe(Schema<Settings>& s) {
+  s.field("texture", &Settings::texture, "What is scaled").required();
+  s.field("factor", &Settings::factor, "What it is multiplied by").otherwise("1");
+  s.example("{ texture: { type: checkerboard }, factor: [0.5, 2, 1] }");
+  s.example("{ texture: { type: checkerboard }, factor: { type: grid, line_width: 0.2 } }");
+}
+
+ScaleTexture::ScaleTexture(Settings settings) : settings_(std::move(settings)) {
+  if (!std::isfinite(maximum())) {
+    throw InputError("scale: the product is beyond what a float can hold");
+  }
+  const Texture &a = *settings_.texture, &b = *settings_.factor;
+  const Rgb product = a.average() * b.average() + covariance(a, b);
+  for (int i = 0; i < 3; ++i) average_[i] = std::max(0.0f, product[i]);
+}
+
+}  // namespace pharos

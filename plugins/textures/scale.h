@@ -1,0 +1,31 @@
+#pragma once
+
+#include <pharos/config/registry.h>
+#include <pharos/scene/texture.h>
+
+namespace pharos {
+
+/// See scale.cpp.
+class ScaleTexture final : public Texture {
+ public:
+  struct Settings {
+    Ref<Texture> texture;
+    Ref<Texture> factor;
+    static void describe(Schema<Settings>& s);
+  };
+  explicit ScaleTexture(Settings settings);
+
+  Rgb evaluate(const SurfacePoint& point) const override {
+    return settings_.texture->evaluate(point) * settings_.factor->evaluate(point);
+  }
+  float maximum() const override {
+    return settings_.texture->maximum() * settings_.factor->maximum();
+  }
+  Rgb average() const override { return average_; }
+
+ private:
+  Settings settings_;
+  Rgb average_;
+};
+
+}  // namespace pharos
