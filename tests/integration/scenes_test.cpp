@@ -1,0 +1,63 @@
+// The scenes and configs that come with the program.
+
+#include <filesystem>
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include "renders.h"
+
+namespace pharos::testing {
+namespace {
+
+const std::filesystem::path kConfigs = PHAROS_CONFIGS;
+
+RenderResult render_config(const std::filesystem::path& path,
+                           const std::vector<std::string>& overrides) {
+  return RenderJob(load_render_config(path, overrides, registry()).config).run();
+}
+
+TEST_CASE("every config loads and renders something") {
+  int configs = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(kConfigs)) {
+    const std::filesystem::path& path = entry.path();
+    if (read_config(path).find("scene") == nullptr) continue;  // a base of others
+    CAPTURE(path.string());
+    const RenderResult result =
+        render_config(path, {"film.width=48", "film.height=32", "budget={ spp: 4 }"});
+    CHECK(result.samples_per_pixel == 4);
+    CHECK_FALSE(result.first_invalid.has_value());
+    CHECK(image_mean(result.image) > 0);
+    ++configs;
+  }
+  CHECK(configs >= 7);
+}
+
+TEST_CASE("furnace: nothing can be seen, anywhere in the image") {
+  constexpr int kRuns = 16, kBlocks = 4;
+  std::vector<double> blocks[kBlocks][kBlocks];
+  for (int run = 1; run <= kRuns; ++run) {
+    const Image image = render_config(kConfigs / "furnace.yaml",
+                                      {"film={ width: 32, height: 32 }", "budget={ spp: 16 }",
+                                       fmt::format("seed={}", run)})
+                            .image;
+    const int size = image.width() / kBlocks;
+    for (int i = 0; i < square(kBlocks); ++i) {
+      double sum = 0;
+      for (int p = 0; p < square(size); ++p) {
+        sum += mean(image.rgb(i % kBlocks * size + p % size, i / kBlocks * size + p / size));
+      }
+      blocks[i / kBlocks][i % kBlocks].push_back(sum / square(size));
+    }
+  }
+  for (const auto& row : blocks) {
+    for (const std::vector<double>& block : row) {
+      const Estimate value = estimate(block);
+      CHECK(value.standard_error < 0.003);  // sees a bias of 1.5 %
+      CHECK(std::abs(value.mean - 1) < 5 * value.standard_error);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace pharos::testing
