@@ -87,8 +87,10 @@ void print_row(const std::string& name, double spp, const statistics::ImageAgree
              100 * result.median_region_bias, 100 * result.worst_region_bias);
 }
 
-/// Compares the renders of a scene with its reference.
-void compare(const std::string& name, const std::vector<std::string>& overrides = {}) {
+/// Compares the renders of a scene with its reference; a region must be tested well enough to see
+/// a bias of `region_bias`, relative to its mean.
+void compare(const std::string& name, const std::vector<std::string>& overrides = {},
+             double region_bias = statistics::AgreementOptions{}.region_bias) {
   const auto reference = std::filesystem::path(PHAROS_REFERENCES) / (name + "-halves.exr");
   if (!std::filesystem::exists(reference)) {
     MESSAGE("no reference image of ", name, " here: skipped");
@@ -97,7 +99,8 @@ void compare(const std::string& name, const std::vector<std::string>& overrides 
   const auto theirs = statistics::ImageSide::of_halves(read_image(reference));
   Renders renders = render_scene(name, overrides);
   const auto ours = statistics::ImageSide::of_renders(renders.images, renders.samples_per_pixel);
-  const statistics::AgreementOptions options{.rounding = kReferenceRounding};
+  const statistics::AgreementOptions options{.region_bias = region_bias,
+                                             .rounding = kReferenceRounding};
   const statistics::ImageAgreement result = statistics::compare_images(ours, theirs, options);
   const Ratio ratio = ratio_of(result.whole_image.a, result.whole_image.b);
   print_row(name, renders.samples_per_pixel, result, ratio);
@@ -138,7 +141,10 @@ TEST_CASE("reference: point-spot-directional") {
 }
 
 TEST_CASE("reference: thin-lens") {
-  compare("thin-lens");
+  // Two blocks hold three lit pixels each, 1e-4 of the image's light. What the reference's halves
+  // tell of its error there has less than five degrees of freedom, so that no number of samples
+  // here shows a bias of 10 %; 12.8 % is what these do.
+  compare("thin-lens", {}, 0.15);
 }
 
 TEST_CASE("reference: environment-map") {
