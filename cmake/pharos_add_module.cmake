@@ -3,8 +3,8 @@
 #
 # Builds the shared library NAME.pharos.so, which the loader finds in the plugin folder (in the build
 # tree: build/plugins; elsewhere through PHAROS_MODULE_PATH), and the doctest suite test-NAME, which
-# ctest runs under the label NAME. TEST_ONLY modules stand in build/test-plugins and are not
-# installed. The conformance suites of their contracts test all plugins of the module as
+# ctest runs under the label NAME. TEST_ONLY modules stand in build/test-plugins (with NO_CONFORMANCE
+# in build/faulty-plugins) and are not installed. The conformance suites of their contracts test all plugins of the module as
 # NAME-conformance, labels NAME and conformance; modules of planted faults say NO_CONFORMANCE. The
 # same function serves modules outside this project after find_package(pharos).
 include_guard(GLOBAL)
@@ -18,7 +18,9 @@ function(pharos_add_module name)
     message(FATAL_ERROR "pharos_add_module(${name}): unknown '${arg_UNPARSED_ARGUMENTS}'")
   endif()
   set(folder plugins)
-  if(arg_TEST_ONLY)
+  if(arg_TEST_ONLY AND arg_NO_CONFORMANCE)
+    set(folder faulty-plugins)
+  elseif(arg_TEST_ONLY)
     set(folder test-plugins)
   endif()
   set(warnings $<TARGET_NAME_IF_EXISTS:pharos_warnings>)

@@ -16,6 +16,7 @@
 #include <pharos/core/warp.h>
 
 #include "fresnel.h"
+#include "specular_factor.h"
 
 namespace pharos {
 
@@ -24,10 +25,8 @@ void Plastic::Settings::describe(Schema<Settings>& s) {
   s.field("reflectance", &Settings::reflectance, "Share of light that the base reflects")
       .otherwise("0.5")
       .check("at most 1 everywhere", [](const Ref<Texture>& t) { return t->maximum() <= 1; });
-  s.field("specular_reflectance", &Settings::specular_reflectance,
-          "Factor on what the coat reflects")
-      .otherwise("1")
-      .check("at most 1 everywhere", [](const Ref<Texture>& t) { return t->maximum() <= 1; });
+  describe_factor(s, "specular_reflectance", &Settings::specular_reflectance,
+                  "Factor on what the coat reflects");
   s.field("nonlinear", &Settings::nonlinear, "Whether repeated reflection deepens the colour");
   s.example("{ reflectance: 1, nonlinear: true }");
   s.example("{ ior: 1.9, reflectance: [0.8, 0.4, 0.05], nonlinear: true }");

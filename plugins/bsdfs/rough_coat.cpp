@@ -4,7 +4,8 @@
 
 namespace pharos {
 
-RoughCoat::RoughCoat(float alpha, float ior) : facets_(alpha), ior_(ior) {
+RoughCoat::RoughCoat(float alpha, float ior, Masking masking)
+    : facets_(alpha), ior_(ior), masking_(masking) {
   for (std::size_t i = 0; i <= kIntervals; ++i) {
     const float x = static_cast<float>(i) / kIntervals;
     transmittance_[i] = std::max(0.0f, 1 - reflectance(square(square(x))));
@@ -25,7 +26,7 @@ RoughCoat::Reflection RoughCoat::reflect(Vec3 wo, Vec3 wi) const {
   if (squared < kDegenerate) return {};
   const Vec3 m = half / std::sqrt(squared);
   const float fresnel = dielectric_fresnel(std::min(1.0f, dot(wo, m)), ior_).reflectance;
-  return {fresnel * facets_.correlated_shadowing(wo, wi), facets_.visible_reflection_pdf(wo, m)};
+  return {fresnel * facets_.shadowing(wo, wi, masking_), facets_.visible_reflection_pdf(wo, m)};
 }
 
 Vec3 RoughCoat::sample(Vec3 wo, Vec2 u) const {

@@ -17,7 +17,7 @@ namespace pharos {
 class RoughCoat {
  public:
   /// `alpha` in (0, 1], `ior` of the coat over outside, at least 1. Takes some milliseconds.
-  RoughCoat(float alpha, float ior);
+  RoughCoat(float alpha, float ior, Masking masking = Masking::height_correlated);
 
   /// Share [1] of light from direction `wo` that enters.
   float transmittance(float cosine) const;
@@ -40,6 +40,7 @@ class RoughCoat {
 
   GgxDistribution facets_;
   float ior_;
+  Masking masking_;
   std::array<float, kIntervals + 1> transmittance_;
 };
 

@@ -6,14 +6,16 @@
 // reflectance of its inner side (see diffuse_base.h). T is what the first term does not reflect
 // (rough_coat.h), so that a white base reflects all light up to the error of a table, which is
 // below 0.001 for alpha >= 0.001. sample() chooses coat and base in proportion to the mean of the
-// channels of what they reflect. Masking is height-correlated (Heitz 2014). Light is scattered on
-// the side of the normal only.
+// channels of what they reflect. `masking` is as in rough_conductor. Light is scattered on the side
+// of the normal only.
 //
 //     { type: rough_plastic, alpha: 0.15, reflectance: [0.1, 0.3, 0.7], nonlinear: true }
 #include "rough_plastic.h"
 
 #include <pharos/config/registry.h>
 #include <pharos/core/warp.h>
+
+#include "specular_factor.h"
 
 namespace pharos {
 
@@ -23,10 +25,9 @@ void RoughPlastic::Settings::describe(Schema<Settings>& s) {
   s.field("reflectance", &Settings::reflectance, "Share of light that the base reflects")
       .otherwise("0.5")
       .check("at most 1 everywhere", [](const Ref<Texture>& t) { return t->maximum() <= 1; });
-  s.field("specular_reflectance", &Settings::specular_reflectance,
-          "Factor on what the coat reflects")
-      .otherwise("1")
-      .check("at most 1 everywhere", [](const Ref<Texture>& t) { return t->maximum() <= 1; });
+  describe_factor(s, "specular_reflectance", &Settings::specular_reflectance,
+                  "Factor on what the coat reflects");
+  s.field("masking", &Settings::masking, "How masking and shadowing are combined");
   s.field("nonlinear", &Settings::nonlinear, "Whether repeated reflection deepens the colour");
   s.example("{ alpha: 0.02, reflectance: 1, nonlinear: true }");
   s.example("{ alpha: 0.4, ior: 1.9, reflectance: [0.8, 0.4, 0.05], nonlinear: true }");
@@ -35,7 +36,7 @@ void RoughPlastic::Settings::describe(Schema<Settings>& s) {
 
 RoughPlastic::RoughPlastic(const Settings& settings)
     : settings_(settings),
-      coat_(settings.alpha, settings.ior),
+      coat_(settings.alpha, settings.ior, settings.masking),
       base_(hemisphere_mean([this](float cosine) { return coat_.transmittance(cosine); }),
             settings.ior, settings.nonlinear) {}
 

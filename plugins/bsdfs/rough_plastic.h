@@ -18,6 +18,7 @@ class RoughPlastic final : public Bsdf {
     float ior = 1.5f;
     Ref<Texture> reflectance;
     Ref<Texture> specular_reflectance;
+    Masking masking = Masking::height_correlated;
     bool nonlinear = false;
     static void describe(Schema<Settings>& s);
   };

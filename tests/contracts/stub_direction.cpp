@@ -116,7 +116,7 @@ class DirectionLearner final : public Learner {
     return std::make_unique<DirectionState>(context, settings_.refine);
   }
   std::shared_ptr<const GuidingModel> load_model(std::istream& in) const override {
-    return std::make_shared<DirectionModel>(load_table(in, kBins), false);
+    return std::make_shared<DirectionModel>(load_table(in, kBins, kFinestCells), false);
   }
 
  private:

@@ -24,10 +24,14 @@ inline void write_table(std::ostream& out, const std::vector<double>& table) {
             static_cast<std::streamsize>(size * sizeof(double)));
 }
 
-inline std::vector<double> read_table(std::istream& in, std::size_t expected) {
+/// `expected` numbers, or up to `most_times` that many.
+inline std::vector<double> read_table(std::istream& in, std::size_t expected,
+                                      std::size_t most_times = 1) {
   std::uint64_t size = 0;
   in.read(reinterpret_cast<char*>(&size), sizeof size);
-  if (!in || size != expected) throw InputError("the model file holds another kind of model");
+  const bool fits = size == expected || (expected > 0 && size > 0 && size % expected == 0 &&
+                                         size / expected <= most_times);
+  if (!in || !fits) throw InputError("the model file holds another kind of model");
   std::vector<double> table(size);
   in.read(reinterpret_cast<char*>(table.data()),
           static_cast<std::streamsize>(size * sizeof(double)));
@@ -53,11 +57,11 @@ class TableModel : public GuidingModel {
   Table table_;
 };
 
-/// What TableModel::save() wrote, of `expected` numbers.
-inline Table load_table(std::istream& in, std::size_t expected) {
+/// What TableModel::save() wrote, of `expected` numbers or up to `most_times` that many.
+inline Table load_table(std::istream& in, std::size_t expected, std::size_t most_times = 1) {
   Table table;
   in.read(reinterpret_cast<char*>(&table.region), sizeof(Bounds3));
-  table.values = read_table(in, expected);
+  table.values = read_table(in, expected, most_times);
   return table;
 }
 

@@ -136,7 +136,7 @@ TEST_CASE("fault: the density is that of the exchanged directions") {
   CHECK_FALSE(red.contains("weight"));
 }
 TEST_CASE("fault: a density is scaled by 1.03") {
-  CHECK(red_checks<Sheet<SheetFault::pdf_scaled>>() == Names{"integral"});
+  CHECK(red_checks<Sheet<SheetFault::pdf_scaled>>().contains("integral"));
 }
 TEST_CASE("fault: the Jacobian lacks the squared distance") {
   CHECK(red_checks<Square<SquareFault::distance_forgotten>>().contains("solid_angle"));

@@ -14,6 +14,7 @@ const Registry& registry() {
     Registry made;
     load_modules(made, PHAROS_PLUGINS, true);
     load_modules(made, PHAROS_TEST_PLUGINS, true);
+    load_modules(made, PHAROS_FAULTY_PLUGINS);
     return made;
   }();
   return all;

@@ -8,7 +8,7 @@
 
 namespace pharos::testing {
 
-/// All plugins of the build, test-only modules included.
+/// All plugins of the build, test-only and deliberately faulty ones included.
 const Registry& registry();
 
 /// A config given as text.

@@ -46,8 +46,9 @@ std::vector<Subject> subjects() {
   const Ref<Bsdf> sheet = make<DiffuseTransmitter>({.transmittance = blue, .reflectance = grey});
   const Ref<Bsdf> both = make<TwoSided>({.bsdf = plastic, .back = rough(0.2f)});
   const Ref<Bsdf> holes = make<Mask>({.bsdf = both, .opacity = red});
-  const Ref<Bsdf> frosted =
-      make<Mask>({.bsdf = make<Dielectric>({.ior = 1.4f}), .opacity = test::uniform(Rgb(0.7f))});
+  const Ref<Bsdf> glass = make<Dielectric>(
+      {.ior = 1.4f, .specular_reflectance = white, .specular_transmittance = white});
+  const Ref<Bsdf> frosted = make<Mask>({.bsdf = glass, .opacity = test::uniform(Rgb(0.7f))});
   const Ref<Bsdf> mixed = make<Blend>({.first = metal, .second = sheet, .weight = blue});
   const Ref<Bsdf> three_deep =
       make<Blend>({.first = make<Blend>({.first = frosted, .second = holes, .weight = red}),

@@ -30,7 +30,9 @@ Ref<Bsdf> plastic(float ior = 1.5f) {
                         .specular_reflectance = test::uniform(Rgb(1))});
 }
 Ref<Bsdf> glass(float ior) {
-  return std::make_shared<Dielectric>(Dielectric::Settings{.ior = ior});
+  const Ref<Texture> all = test::uniform(Rgb(1));
+  return std::make_shared<Dielectric>(
+      Dielectric::Settings{.ior = ior, .specular_reflectance = all, .specular_transmittance = all});
 }
 Ref<Bsdf> blend(Ref<Bsdf> first, Ref<Bsdf> second, Rgb weight) {
   return std::make_shared<Blend>(
