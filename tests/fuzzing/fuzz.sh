@@ -1,0 +1,48 @@
+#!/usr/bin/env bash
+# Runs one fuzzer on seeds and words that come from the scenes and the registry:
+#
+#     cmake --preset fuzz && cmake --build --preset fuzz
+#     tests/fuzzing/fuzz.sh config 600        # or mesh; seconds
+#
+# What it learns stays in build/fuzz/corpus/NAME, input that fails in build/fuzz/found/.
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+build=${PHAROS_BUILD:-$root/build/fuzz}
+name=${1:?usage: fuzz.sh config|mesh [seconds] [libFuzzer options]}
+seconds=${2:-600}
+shift $(($# < 2 ? $# : 2))
+
+corpus=$build/corpus/$name
+mkdir -p "$corpus" "$build/found"
+words=$build/corpus/$name.dict
+export ASAN_OPTIONS=${ASAN_OPTIONS:-detect_leaks=0:allocator_may_return_null=0}
+
+case $name in
+  config)
+    # Configs with every value in force, their scenes in place, and the scenes by themselves.
+    for config in "$root"/configs/*.yaml; do
+      "$build/pharos" validate "$config" >"$corpus/$(basename "$config")" || true
+    done
+    for scene in "$root"/scenes/*/scene.yaml; do
+      { echo 'budget: { spp: 1 }' && echo 'scene:' && sed 's/^/  /' "$scene"; } \
+        >"$corpus/$(basename "$(dirname "$scene")").yaml"
+    done
+    "$build/pharos" plugins --markdown | grep -o '`[a-z0-9_]*`' | sort -u | tr '`' '"' >"$words"
+    limit=16384 ;;
+  mesh)
+    # One triangle in each format; the first byte is the format's number.
+    printf '\0ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n' >"$corpus/ascii.ply"
+    printf '\0ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n\0\0\0\0\0\0\0\0\0\0\0\0\0\0\200?\0\0\0\0\0\0\0\0\0\0\0\0\0\0\200?\0\0\0\0\3\0\0\0\0\1\0\0\0\2\0\0\0' >"$corpus/binary.ply"
+    printf '\1v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nvt 0 0\nf 1/1/1 2/1/1 3/1/1\n' >"$corpus/triangle.obj"
+    printf '\2solid t\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid t\n' >"$corpus/ascii.stl"
+    printf '\3{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}],"bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36,"uri":"data:application_octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]}' >"$corpus/triangle.gltf"
+    printf '"%s"\n' vertex face element property list uchar int float double format end_header \
+      binary_little_endian binary_big_endian vertex_indices mtllib usemtl solid facet endloop \
+      accessors bufferView byteOffset byteStride componentType indices sparse count >"$words"
+    limit=4096 ;;
+  *)
+    echo "fuzz.sh: there is no fuzzer '$name': config or mesh" >&2
+    exit 2 ;;
+esac
+exec "$build/fuzz-$name" "$corpus" -dict="$words" -max_total_time="$seconds" -max_len="$limit" \
+  -timeout=20 -rss_limit_mb=2048 -malloc_limit_mb=1024 -artifact_prefix="$build/found/$name-" "$@"

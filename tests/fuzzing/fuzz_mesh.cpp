@@ -1,0 +1,65 @@
+// The first byte chooses a format, the others are a mesh file of it. Wrong input may end in an
+// InputError alone.
+//
+// No path leads out of the folder that holds the file: where a format can name other files, what a
+// path would need is taken from it.
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+#include <string_view>
+
+#include <pharos/config/module_loader.h>
+#include <pharos/scene/shape.h>
+#include <pharos/tests/fixtures.h>
+
+namespace {
+
+using namespace pharos;
+
+constexpr std::array<std::string_view, 5> kFormats{"ply", "obj", "stl", "gltf", "glb"};
+
+/// Faces, lines and points of OBJ files need slashes and name no files.
+bool names_no_file(std::string_view line) {
+  const std::size_t first = line.find_first_not_of(" \t");
+  return first == std::string_view::npos || line[first] == 'f' || line[first] == 'l' ||
+         line[first] == 'p';
+}
+
+std::string keep_in_folder(std::string_view format, std::string_view bytes) {
+  if (format == "ply" || format == "stl") return std::string(bytes);
+  std::string kept(bytes);
+  for (std::size_t begin = 0, end = 0; begin < kept.size(); begin = end + 1) {
+    end = std::min(kept.find('\n', begin), kept.size());
+    const bool harmless =
+        format == "obj" && names_no_file(std::string_view(kept).substr(begin, end - begin));
+    for (std::size_t i = begin; i < end; ++i) {
+      if (kept[i] == '\\' || (kept[i] == '/' && !harmless)) kept[i] = '_';
+    }
+  }
+  return kept;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const Registry registry = load_default_modules();
+  static const test::TemporaryFolder folder;
+  if (size == 0) return -1;
+  const std::string_view format = kFormats[data[0] % kFormats.size()];
+  const std::string_view bytes(reinterpret_cast<const char*>(data) + 1, size - 1);
+  const auto file = folder.write("fuzz." + std::string(format), keep_in_folder(format, bytes));
+  ConfigNode mesh = ConfigNode::mapping();
+  mesh.set("type", ConfigNode::scalar("mesh"));
+  mesh.set("file", ConfigNode::scalar(file.string()));
+  BuildContext context{registry};
+  ConfigNode resolved;
+  try {
+    registry.build<Shape>(mesh, context, resolved);
+  } catch (const InputError& error) {
+    if (std::string_view(error.what()).find('\n') != std::string_view::npos) std::abort();
+  }
+  return 0;
+}
