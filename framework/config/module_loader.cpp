@@ -48,6 +48,8 @@ class CurrentModule {
 
 void load_module(Registry& registry, const fs::path& path) {
   const Location where{path.string()};
+  const std::string problem = file_problem(path);
+  if (!problem.empty()) throw InputError(where, problem);
   void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) throw InputError(where, "the module cannot be loaded: " + dl_reason());
   auto* const version = entry_point<int()>(library, "pharos_module_abi_version", where);

@@ -221,13 +221,8 @@ std::optional<ConfigNode> parse(std::string_view text, Builder builder) {
 
 std::string read_text(const std::filesystem::path& path) {
   const Location where{path.string()};
-  std::error_code failed;
-  if (!std::filesystem::exists(path, failed)) {
-    throw InputError(where, failed ? failed.message() : "no such file" + file_suggestion(path));
-  }
-  if (std::filesystem::is_directory(path, failed)) {
-    throw InputError(where, "expected a file, found a folder");
-  }
+  const std::string problem = file_problem(path);
+  if (!problem.empty()) throw InputError(where, problem);
   std::ifstream stream(path, std::ios::binary);
   std::string text;
   std::array<char, 4096> part;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <unistd.h>
 #include <vector>
 
 #include <pharos/core/error.h>
@@ -65,6 +66,23 @@ std::string file_suggestion(const std::filesystem::path& missing) {
   }
   std::sort(names.begin(), names.end());
   return suggestion(missing.filename().string(), names);
+}
+
+std::string file_problem(const std::filesystem::path& path) {
+  using std::filesystem::file_type;
+  std::error_code failed;
+  switch (std::filesystem::status(path, failed).type()) {
+    case file_type::regular:
+      return access(path.c_str(), R_OK) == 0 ? "" : "the file may not be read";
+    case file_type::not_found:
+      return "no such file" + file_suggestion(path);
+    case file_type::directory:
+      return "expected a file, found a folder";
+    case file_type::none:
+      return "the file cannot be reached: " + failed.message();
+    default:
+      return "expected a file, found a pipe or device";
+  }
 }
 
 std::string one_line(std::string_view text, std::size_t max_length) {

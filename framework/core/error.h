@@ -56,6 +56,11 @@ std::string suggestion(std::string_view wrong, std::span<const std::string> know
 /// The suggestion for a path that does not exist: the nearest name in its folder.
 std::string file_suggestion(const std::filesystem::path& missing);
 
+/// Why `path` cannot be read as a file: it does not exist (with the nearest name), is a folder, a
+/// pipe or a device, or may not be read; "" when it can. Readers ask first: opening a pipe would
+/// wait for ever.
+std::string file_problem(const std::filesystem::path& path);
+
 /// `text` on one line: line breaks become spaces, other control characters '?', and what exceeds
 /// `max_length` bytes an ellipsis.
 std::string one_line(std::string_view text, std::size_t max_length = 400);

@@ -50,11 +50,8 @@ auto guarded_read(const std::filesystem::path& path, Read&& read) {
 
 std::unique_ptr<OIIO::ImageInput> open_image(const std::filesystem::path& path) {
   keep_to_one_thread();
-  std::error_code failed;
-  if (!std::filesystem::exists(path, failed)) {
-    fail_reading(path, "no such file" + file_suggestion(path));
-  }
-  if (std::filesystem::is_directory(path, failed)) fail_reading(path, "it is a folder");
+  const std::string problem = file_problem(path);
+  if (!problem.empty()) fail_reading(path, problem);
   // Colours under transparent pixels are wanted as they were stored.
   OIIO::ImageSpec wishes;
   wishes.attribute("oiio:UnassociatedAlpha", 1);
