@@ -1,5 +1,8 @@
+#include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -11,24 +14,37 @@
 
 namespace {
 
+/// The first argument is a subcommand or an option; CLI11 would not tell what is wrong with it.
+void check_command(const CLI::App& app, int argc, char** argv) {
+  std::vector<std::string> known;
+  for (const CLI::App* command : app.get_subcommands({})) known.push_back(command->get_name());
+  const std::string first = argc > 1 ? argv[1] : "";
+  const bool is_option = first.size() > 1 && first[0] == '-';
+  if (is_option || std::find(known.begin(), known.end(), first) != known.end()) return;
+  throw pharos::InputError(fmt::format("pharos: error: expected a command, one of {}, found '{}'{}",
+                                       pharos::quoted_list(known), first,
+                                       pharos::suggestion(first, known)));
+}
+
 /// Runs the program and turns every error into one message and an exit code.
 int run(int argc, char** argv) {
   using namespace pharos;
   CLI::App app("Pharos: path guiding and Monte Carlo sampling in rendering");
   app.set_version_flag("--version", version());
-  app.require_subcommand(1);
   int exit_code = kDone;
   add_render_command(app, exit_code);
   add_validate_command(app, exit_code);
   add_plugins_command(app, exit_code);
   add_conformance_command(app, exit_code);
   try {
+    check_command(app, argc, argv);
     app.parse(argc, argv);
     return exit_code;
   } catch (const CLI::Success& success) {  // --help, --version
     return app.exit(success);
   } catch (const CLI::ParseError& error) {
-    fmt::print(stderr, "pharos: error: {}\nRun 'pharos --help' for usage.\n", error.what());
+    fmt::print(stderr, "pharos: error: {} (pharos --help shows what there is)\n",
+               one_line(error.what()));
     return kBadInput;
   } catch (const InputError& error) {
     fmt::print(stderr, "{}\n", error.what());

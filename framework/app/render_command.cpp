@@ -40,10 +40,26 @@ void check_writable(const std::filesystem::path& file) {
   if (std::filesystem::is_directory(file)) {
     throw InputError(fmt::format("{}: error: is a folder, not a file", file.string()));
   }
+  if (std::filesystem::exists(file) && !std::filesystem::is_regular_file(file)) {
+    throw InputError(fmt::format("{}: error: is a pipe or device, not a file", file.string()));
+  }
   if (access(folder.c_str(), W_OK) != 0) {
     throw InputError(
         fmt::format("{}: error: the folder '{}' is not writable", file.string(), folder.string()));
   }
+}
+
+void check_outputs(const OutputSettings& output) {
+  const std::filesystem::path image = output.image;
+  if (image.extension() != ".exr") {
+    throw InputError(
+        fmt::format("{}: error: images are OpenEXR files: expected a name that ends "
+                    "in .exr",
+                    output.image));
+  }
+  check_writable(image);
+  if (output.png) check_writable(std::filesystem::path(image).replace_extension(".png"));
+  check_writable(output.model);
 }
 
 void replay_path(RenderJob& job, const RenderConfig& config,
@@ -78,8 +94,7 @@ int render(const RenderOptions& options) {
   const Registry registry = load_default_modules();
   LoadedConfig loaded = load_render_config(options.config.path, options.config.overrides, registry);
   if (!options.output.empty()) loaded.config.output.image = options.output;
-  check_writable(loaded.config.output.image);
-  check_writable(loaded.config.output.model);
+  check_outputs(loaded.config.output);
 
   const InterruptGuard interrupt;
   RenderJob job(loaded.config);

@@ -53,7 +53,7 @@ class Builder : public YAML::EventHandler {
   void OnDocumentEnd() override {}
 
   void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
-    leaf(mark, anchor, ConfigNode::null(place(mark)));
+    leaf(mark, anchor, ConfigNode::null(place_of_null(mark)));
   }
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
                 const std::string& text) override {
@@ -90,6 +90,12 @@ class Builder : public YAML::EventHandler {
     std::unordered_map<std::string, int> keys = {};  ///< those so far, with their lines
   };
 
+  /// yaml-cpp places a value that was left out at whatever comes next: its key's line is meant.
+  Location place_of_null(const YAML::Mark& mark) const {
+    if (open_.empty() || !open_.back().has_key) return place(mark);
+    const Location& key = open_.back().built.node.entries().back().key_where;
+    return key.line < mark.line + 1 ? key : place(mark);
+  }
   void check_tag(const YAML::Mark& mark, const std::string& tag) const {
     const bool plain = tag.empty() || tag == "?" || tag == "!";
     if (!plain) throw InputError(place(mark), "YAML tags are not supported, found '" + tag + "'");
@@ -149,6 +155,7 @@ class Builder : public YAML::EventHandler {
   void begin_entry(Open& parent, const ConfigNode& node, Location where) const {
     if (!node.is_scalar()) throw InputError(where, "expected a key, found " + node.describe());
     const std::string& key = node.text();
+    if (key == "<<") throw InputError(where, "YAML merge keys are not supported: use 'extends'");
     const auto [first, is_new] = parent.keys.emplace(key, where.line);
     if (!is_new) {
       const std::string line =

@@ -32,6 +32,9 @@ bool continues_character(char c) {
 
 }  // namespace
 
+Error::Error(const std::string& message)
+    : std::runtime_error(one_line(message, std::string::npos)) {}
+
 std::string Location::to_string() const {
   std::string text = file;
   if (line > 0) text += (text.empty() ? "line " : ":") + std::to_string(line);

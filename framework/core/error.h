@@ -18,10 +18,11 @@ struct Location {
   std::string to_string() const;
 };
 
-/// Base of all errors that Pharos reports on purpose.
+/// Base of all errors that Pharos reports on purpose. Messages are one line whatever names and
+/// texts they quote: one_line() is applied to them.
 class Error : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  explicit Error(const std::string& message);
 };
 
 /// The input is wrong: config, scene, mesh, image, model file or command line. The program exits

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <memory>
+#include <mutex>
 #include <new>
 #include <utility>
 
@@ -34,9 +36,31 @@ std::string reason(const std::string& message, const std::string& otherwise) {
   return message.empty() ? otherwise : message;
 }
 
+/// While it lives, what libraries print on standard error goes nowhere: libpng prints there what it
+/// also returns. One at a time, as the stream belongs to the whole process.
+class SilentLibraries {
+ public:
+  SilentLibraries() : nowhere_(std::fopen("/dev/null", "w")) {
+    if (nowhere_ != nullptr) stderr = nowhere_;
+  }
+  ~SilentLibraries() {
+    stderr = kept_;
+    if (nowhere_ != nullptr) std::fclose(nowhere_);
+  }
+  SilentLibraries(const SilentLibraries&) = delete;
+  SilentLibraries& operator=(const SilentLibraries&) = delete;
+
+ private:
+  static inline std::mutex mutex_;
+  std::lock_guard<std::mutex> lock_{mutex_};
+  std::FILE* kept_ = stderr;
+  std::FILE* nowhere_;
+};
+
 /// Runs `read` and turns whatever escapes the image libraries into InputError.
 template <class Read>
 auto guarded_read(const std::filesystem::path& path, Read&& read) {
+  const SilentLibraries silent;
   try {
     return read();
   } catch (const Error&) {

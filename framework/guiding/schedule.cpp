@@ -62,7 +62,7 @@ std::vector<Iteration> TrainingSchedule::divide(const Budget& budget, std::uint3
 }
 
 void Budget::describe(Schema<Budget>& s) {
-  s.field("spp", &Budget::spp, "Samples a pixel, training included").at_least(1);
+  s.field("spp", &Budget::spp, "Samples a pixel, training included").at_least(1).at_most(1 << 30);
   s.field("seconds", &Budget::seconds, "Wall-clock time of rendering and training")
       .unit("s")
       .above(0);

@@ -1,3 +1,5 @@
+#include <set>
+
 #include <fmt/format.h>
 
 #include <pharos/rendering/render_config.h>
@@ -5,8 +7,16 @@
 namespace pharos {
 namespace {
 
+/// As many as fit into an image with all layers that Pharos can read again; about 16 GiB while it
+/// is rendered.
+constexpr std::int64_t kMostPixels = std::int64_t{1} << 26;
+
 bool is_exr_or_empty(const std::string& path) {
   return path.empty() || std::filesystem::path(path).extension() == ".exr";
+}
+
+bool has_no_duplicates(const std::vector<Layer>& layers) {
+  return std::set<Layer>(layers.begin(), layers.end()).size() == layers.size();
 }
 
 /// The node under a path of keys, or the deepest one there is.
@@ -22,6 +32,11 @@ const ConfigNode& nearest_node(const ConfigNode& root, std::initializer_list<con
 
 /// What no single parameter can check.
 void check_together(const RenderConfig& config, const ConfigNode& node) {
+  const auto [width, height] = std::pair<std::int64_t, int>(config.film.width, config.film.height);
+  if (width * height > kMostPixels) {
+    nearest_node(node, {"film"})
+        .fail(fmt::format("a film of {} x {} has more than {} pixels", width, height, kMostPixels));
+  }
   if (config.budget.spp.has_value() == config.budget.seconds.has_value()) {
     nearest_node(node, {"budget"}).fail("expected either 'spp' or 'seconds'");
   }
@@ -52,7 +67,8 @@ void OutputSettings::describe(Schema<OutputSettings>& s) {
   s.field("image", &OutputSettings::image,
           "EXR file, relative to the current folder; by default the config's name")
       .check("a name that ends in .exr", is_exr_or_empty);
-  s.field("aovs", &OutputSettings::aovs, "Further layers of the EXR file");
+  s.field("aovs", &OutputSettings::aovs, "Further layers of the EXR file")
+      .check("each layer once", has_no_duplicates);
   s.field("model", &OutputSettings::model, "File for the learned model of the first method");
   s.field("png", &OutputSettings::png, "Whether a tone-mapped PNG is written beside the EXR file");
   s.field("exposure", &OutputSettings::exposure, "Exposure of the PNG").unit("stops");

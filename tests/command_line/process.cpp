@@ -1,11 +1,12 @@
 #include "process.h"
 
-#include <cstdlib>
+#include <algorithm>
 #include <fstream>
 #include <iterator>
-#include <sstream>
 #include <stdlib.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <fmt/format.h>
 
@@ -23,14 +24,27 @@ Outcome run_shell(const std::string& command, const std::filesystem::path& folde
   const auto out = folder / ".stdout", err = folder / ".stderr";
   const std::string line = fmt::format("cd '{}' && {} > '{}' 2> '{}'", folder.string(), command,
                                        out.string(), err.string());
-  const int status = std::system(line.c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_and_remove(out), read_and_remove(err)};
+  const pid_t shell = fork();
+  if (shell == 0) {
+    execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
+    _exit(127);
+  }
+  int status = -1;
+  rusage usage{};
+  wait4(shell, &status, 0, &usage);
+  return {.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1,
+          .out = read_and_remove(out),
+          .err = read_and_remove(err),
+          .peak_megabytes = static_cast<double>(usage.ru_maxrss) / 1024};
 }
 
 }  // namespace
 
-Outcome run_pharos(const std::string& arguments, const std::filesystem::path& folder) {
-  return run_shell(fmt::format("{} {}", PHAROS_PROGRAM, arguments), folder);
+Outcome run_pharos(const std::string& arguments, const std::filesystem::path& folder,
+                   const std::string& environment) {
+  return run_shell(
+      fmt::format("{} timeout {} {} {}", environment, kTimeoutSeconds, PHAROS_PROGRAM, arguments),
+      folder);
 }
 
 Outcome interrupt_pharos(const std::string& arguments, const std::filesystem::path& folder,
@@ -51,7 +65,17 @@ ScratchFolder::~ScratchFolder() {
 }
 
 void ScratchFolder::write(const std::string& name, const std::string& text) const {
-  std::ofstream(path_ / name) << text;
+  std::ofstream(path_ / name, std::ios::binary) << text;
+}
+
+std::vector<std::string> ScratchFolder::listing() const {
+  std::vector<std::string> all;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(path_)) {
+    const std::uintmax_t size = entry.is_regular_file() ? entry.file_size() : 0;
+    all.push_back(fmt::format("{} {}", entry.path().string(), size));
+  }
+  std::sort(all.begin(), all.end());
+  return all;
 }
 
 std::size_t ScratchFolder::file_count() const {

@@ -2,17 +2,25 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace pharos::testing {
 
 /// What a run of the program left behind.
 struct Outcome {
+  /// As the shell tells it: 124 after kTimeoutSeconds, over 128 for a signal; sanitizers exit
+  /// with 1.
   int exit_code = 0;
   std::string out, err;
+  double peak_megabytes = 0;  ///< largest resident memory
 };
 
-/// Runs `pharos ARGUMENTS` through a shell in `folder`.
-Outcome run_pharos(const std::string& arguments, const std::filesystem::path& folder);
+/// A program that takes longer hangs.
+inline constexpr int kTimeoutSeconds = 100;
+
+/// Runs `pharos ARGUMENTS` through a shell in `folder`; `environment` is such as "NAME=value".
+Outcome run_pharos(const std::string& arguments, const std::filesystem::path& folder,
+                   const std::string& environment = "");
 /// As above, with `signal` ("INT", "TERM") after `seconds`.
 Outcome interrupt_pharos(const std::string& arguments, const std::filesystem::path& folder,
                          double seconds, const char* signal);
@@ -29,6 +37,8 @@ class ScratchFolder {
   void write(const std::string& name, const std::string& text) const;
   bool has(const std::string& name) const { return std::filesystem::exists(path_ / name); }
   std::size_t file_count() const;
+  /// Every file and folder below it, with sizes, sorted.
+  std::vector<std::string> listing() const;
 
  private:
   std::filesystem::path path_;

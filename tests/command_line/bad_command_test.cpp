@@ -1,0 +1,114 @@
+// Command lines: subcommands, options, overrides, configs and outputs that cannot be.
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <doctest/doctest.h>
+
+#include "refusal.h"
+
+namespace pharos::testing {
+namespace {
+
+/// Arguments in a folder that holds the sound config good.yaml.
+Mistake typed(const std::string& arguments) {
+  return {.arguments = arguments,
+          .prepare = [](const ScratchFolder& f) { f.write("good.yaml", config_with("")); }};
+}
+
+TEST_CASE("subcommands and options") {
+  check_refused(typed(""), {"pharos: error: ", "expected a command", "'render'"});
+  check_refused(typed("rendre good.yaml"), {"did you mean 'render'?"});
+  check_refused(typed("--wrong"), {"--wrong"});
+  check_refused(typed("render"), {"config"});
+  check_refused(typed("render good.yaml other.yaml"), {"other.yaml"});
+  check_refused(typed("render good.yaml --spp 3"), {"--spp"});
+  check_refused(typed("render good.yaml --threads=-1"), {"--threads", "-1"});
+  check_refused(typed("render good.yaml --threads 100000"), {"--threads", "100000"});
+  check_refused(typed("render good.yaml --threads many"), {"--threads", "many"});
+  check_refused(typed("render good.yaml --threads 99999999999999999999"), {"--threads"});
+  check_refused(typed("render good.yaml --threads"), {"--threads"});
+  check_refused(typed("plugins pth"), {"did you mean 'path'?"});
+  check_refused(typed("plugins a b"), {"b"});
+}
+
+TEST_CASE("replays of paths that are not there") {
+  check_refused(typed("render good.yaml --replay 512,0,0"), {"--replay: error: ", "512 x 512"});
+  check_refused(typed("render good.yaml --replay 1,2"), {"--replay"});
+  check_refused(typed("render good.yaml --replay 1,2,x"), {"--replay", "x"});
+  check_refused(typed("render good.yaml --replay 0,0,0,7"), {"iteration 7"});
+}
+
+TEST_CASE("overrides") {
+  const auto overridden = [](const std::string& assignment, const std::vector<std::string>& says) {
+    check_refused(typed("render good.yaml --set '" + assignment + "'"), says);
+  };
+  overridden("film.widht=3", {"--set film.widht=3: error: ", "'width'"});
+  overridden("film.width=no", {"--set film.width=no: error: ", "an integer", "'no'"});
+  overridden("film.width=0", {"--set film.width=0: error: ", ">= 1"});
+  overridden("film.width", {"--set film.width: error: ", "KEY=VALUE"});
+  overridden("=3", {"--set =3: error: ", "KEY=VALUE"});
+  overridden("film..width=3", {"--set film..width=3: error: ", "KEY=VALUE"});
+  overridden(".=3", {"--set .=3: error: ", "KEY=VALUE"});
+  overridden("film.width=[1", {"--set film.width=[1: error: ", "YAML"});
+  overridden("film.width=", {"--set film.width=: error: ", "nothing"});
+  overridden("scene.shapes.7=sphere", {"--set ", "index", "'7'"});
+  overridden("scene.shapes.first=sphere", {"--set ", "index", "'first'"});
+  overridden("budget.spp.x=1", {"--set ", "cannot set 'x'", "'budget.spp'"});
+  check_refused(typed("render good.yaml --set"), {"--set"});
+}
+
+TEST_CASE("configs that are no files") {
+  check_refused(typed("render goood.yaml"), {"goood.yaml: error: ", "'good.yaml'"});
+  check_refused(typed("validate goood.yaml"), {"goood.yaml: error: ", "'good.yaml'"});
+  check_refused(typed("render ."), {".: error: ", "found a folder"});
+  check_refused(typed("render /dev/zero"), {"/dev/zero: error: ", "pipe or device"});
+  check_refused(typed("render good.yaml/more.yaml"), {"good.yaml/more.yaml: error: "});
+  check_refused(typed("render " + std::string(5000, 'x')), {": error: ", "name too long"});
+  check_refused(
+      {.arguments = "render pipe",
+       .prepare = [](const ScratchFolder& f) { mkfifo((f.path() / "pipe").c_str(), 0600); }},
+      {"pipe: error: ", "pipe or device"});
+}
+
+TEST_CASE("outputs that cannot be written") {
+  check_refused(typed("render good.yaml -o no-such-folder/x.exr"),
+                {"no-such-folder", "does not exist"});
+  check_refused(typed("render good.yaml -o good.yaml/x.exr"), {"'good.yaml'"});
+  check_refused(typed("render good.yaml -o picture.jpg"), {"picture.jpg", ".exr"});
+  check_refused(typed("render good.yaml -o /dev/full"), {"/dev/full", ".exr"});
+  check_refused(typed("render good.yaml --set output.model=."), {"is a folder"});
+  check_refused(typed("render good.yaml --set output.model=/dev/full"), {"/dev/full"});
+  check_refused(typed("render good.yaml --set output.model=none/model"), {"'none'"});
+  for (const char* name : {"x.exr", "x.png"}) {
+    check_refused({.arguments = "render good.yaml -o x.exr",
+                   .prepare =
+                       [&](const ScratchFolder& f) {
+                         f.write("good.yaml", config_with(""));
+                         std::filesystem::create_directory(f.path() / name);
+                       }},
+                  {name, "is a folder"});
+  }
+}
+
+TEST_CASE("what only root may do" * doctest::skip(geteuid() == 0)) {
+  using std::filesystem::perms;
+  check_refused({.arguments = "render secret.yaml",
+                 .prepare =
+                     [](const ScratchFolder& f) {
+                       f.write("secret.yaml", config_with(""));
+                       permissions(f.path() / "secret.yaml", perms::none);
+                     }},
+                {"secret.yaml: error: ", "may not be read"});
+  check_refused({.arguments = "render good.yaml -o locked/x.exr",
+                 .prepare =
+                     [](const ScratchFolder& f) {
+                       f.write("good.yaml", config_with(""));
+                       std::filesystem::create_directory(f.path() / "locked");
+                       permissions(f.path() / "locked", perms::owner_read | perms::owner_exec);
+                     }},
+                {"locked/x.exr", "not writable"});
+}
+
+}  // namespace
+}  // namespace pharos::testing

@@ -1,0 +1,98 @@
+// Scenes and methods whose parts do not fit together.
+
+#include <doctest/doctest.h>
+
+#include "refusal.h"
+
+namespace pharos::testing {
+namespace {
+
+/// A scene of these lines, which begin in line 2 with two spaces.
+std::string scene_of(const std::string& lines) {
+  return "scene:\n" + lines + "budget: { spp: 1 }\n";
+}
+
+TEST_CASE("a scene's own keys") {
+  check_refused(scene_of("  shapes: []\n"), {"bad.yaml:1:1: error: ", "no sensor"});
+  check_refused(scene_of("  sensor: null\n"), {"bad.yaml:1:1: error: ", "no sensor"});
+  check_refused(scene_of("  sensr: perspective\n"), {"bad.yaml:2:3: error: ", "'sensor'"});
+  check_refused(scene_of("  shapes: sphere\n"), {"bad.yaml:2:11: error: ", "a list of shapes"});
+  check_refused(scene_of("  shapes: { type: sphere }\n"), {"bad.yaml:2:11", "a list of shapes"});
+  check_refused(scene_of("  materials: [diffuse]\n"), {"bad.yaml:2:14: error: ", "a mapping"});
+  check_refused(scene_of("  emitters: { type: constant }\n"), {"bad.yaml:2:13: ", "a list"});
+  check_refused("scene: 3\nbudget: { spp: 1 }\n", {"bad.yaml:1:8: error: ", "'"});
+  check_refused("scene: [a.yaml]\nbudget: { spp: 1 }\n", {"bad.yaml:1:8: error: ", "a scene"});
+}
+
+TEST_CASE("materials and textures by name") {
+  check_refused(
+      scene_of("  materials: { gold: diffuse }\n  shapes: [{ type: quad, material: glod }]\n"),
+      {"bad.yaml:3:36: error: ", "did you mean 'gold'?", "named in the scene: 'gold'"});
+  check_refused(scene_of("  materials:\n    a: b\n    b: a\n"),
+                {"bad.yaml:3:8: error: ", "unknown bsdf 'b'"});
+  check_refused(scene_of("  materials:\n    a: a\n"), {"bad.yaml:3:8: error: ", "bsdf 'a'"});
+  check_refused(scene_of("  textures:\n    t: { type: bitmap, file: 3 }\n"),
+                {"bad.yaml:3:", "/3'"});
+  check_refused(scene_of("  textures: { wood: 0.2 }\n  shapes: [{ type: quad, material: wood }]\n"),
+                {"bad.yaml:3:36: error: ", "unknown bsdf 'wood'"});
+  check_refused(scene_of("  materials: { m: { type: diffuse, reflectance: wodo } }\n"),
+                {"bad.yaml:2:", "unknown texture 'wodo'"});
+  check_refused(scene_of("  shapes: [{ type: quad, interior: fog }]\n"),
+                {"bad.yaml:2:36: error: ", "'fog'"});
+}
+
+TEST_CASE("emitters in the wrong place") {
+  check_refused(config_with_shape("{ type: quad, emitter: { type: constant } }"),
+                {"bad.yaml:4:30: error: ", "stands alone"});
+  check_refused(scene_of("  emitters: [{ type: area, radiance: 1 }]\n"),
+                {"bad.yaml:2:14: error: ", "needs a shape"});
+  check_refused(config_with_shape("{ type: quad, emitter: { type: area } }"),
+                {"bad.yaml:4:30: error: ", "'radiance'"});
+  check_refused(config_with_shape("{ type: quad, emitter: area }"),
+                {"bad.yaml:4:30: error: ", "'radiance'"});
+  check_refused(scene_of("  emitters: [sphere]\n"), {"bad.yaml:2:14", "unknown emitter"});
+}
+
+TEST_CASE("shapes") {
+  check_refused(config_with_shape("{ radius: 2 }"), {"bad.yaml:4:7: error: ", "'type'"});
+  check_refused(config_with_shape("null"), {"bad.yaml:4:7: error: ", "shape", "nothing"});
+  check_refused(config_with_shape("[sphere]"), {"bad.yaml:4:7: error: ", "shape"});
+  check_refused(config_with_shape("{ type: sphere, radius: 0 }"),
+                {"bad.yaml:4:31: error: ", "radius must be > 0"});
+  check_refused(config_with_shape("{ type: sphere, to_world: { scale: [1, 2, 1] } }"),
+                {"bad.yaml:4:", "scale"});
+  check_refused(config_with_shape("{ type: mesh }"), {"bad.yaml:4:7: error: ", "'file'"});
+  check_refused(config_with_shape("{ type: mesh, file: [a.ply] }"), {"bad.yaml:4:27", "a path"});
+  check_refused(config_with_shape("{ type: mesh, file: \"\" }"), {"bad.yaml:4:27", "a path"});
+}
+
+TEST_CASE("guiding that does not fit together") {
+  const auto refused = [](const std::string& guiding, const std::vector<std::string>& says) {
+    check_refused({.arguments = "render bad.yaml",
+                   .prepare =
+                       [&](const ScratchFolder& f) {
+                         f.write(
+                             "bad.yaml",
+                             config_with("integrator: { type: path, guiding: " + guiding + " }\n"));
+                       },
+                   .environment = "PHAROS_MODULE_PATH=" PHAROS_TEST_PLUGINS},
+                  says);
+  };
+  refused("{}", {"bad.yaml:5:36: error: ", "a learner and a guider"});
+  refused("{ learner: stub_direction }", {"bad.yaml:5:36: error: ", "no guider"});
+  refused("{ guider: stub_direction }", {"bad.yaml:5:36: error: ", "no learner"});
+  refused("{ learner: stub_dirextion, guider: stub_direction }",
+          {"bad.yaml:5:47: error: ", "'stub_direction'"});
+  refused("{ learner: stub_segments, guider: stub_direction }",
+          {"bad.yaml:5:36: error: ", "stub_segments", "stub_direction"});
+  refused("{ methods: [{ learner: stub_direction }] }", {"bad.yaml:5:48: error: ", "'guider'"});
+  refused("{ methods: [{ learner: stub_direction, guider: stub_direction, weight: 0 }] }",
+          {"bad.yaml:5:", "weight must be > 0"});
+  refused("{ learner: stub_direction, guider: stub_direction, training: { share: 1 } }",
+          {"bad.yaml:5:", "share must be", "< 1"});
+  refused("{ learner: stub_direction, guider: stub_direction, training: { iterations: -1 } }",
+          {"bad.yaml:5:", "error: "});
+}
+
+}  // namespace
+}  // namespace pharos::testing

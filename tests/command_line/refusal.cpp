@@ -1,0 +1,47 @@
+#include "refusal.h"
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+namespace pharos::testing {
+namespace {
+
+/// More than any refusal needs, sanitizers included.
+constexpr double kMostMegabytes = 1024;
+
+}  // namespace
+
+void check_refused(const Mistake& mistake, const std::vector<std::string>& says) {
+  const ScratchFolder folder;
+  if (mistake.prepare) mistake.prepare(folder);
+  const std::vector<std::string> before = folder.listing();
+  const Outcome outcome = run_pharos(mistake.arguments, folder.path(), mistake.environment);
+  CAPTURE(mistake.arguments);
+  CAPTURE(outcome.err);
+  CHECK(outcome.exit_code == 2);
+  CHECK(outcome.out.empty());
+  CHECK(outcome.err.find('\n') == outcome.err.size() - 1);
+  for (const std::string& part : says) {
+    CAPTURE(part);
+    CHECK(outcome.err.find(part) != std::string::npos);
+  }
+  CHECK(outcome.peak_megabytes < kMostMegabytes);
+  CHECK(folder.listing() == before);
+}
+
+void check_refused(const std::string& config, const std::vector<std::string>& says) {
+  CAPTURE(config);
+  check_refused({.arguments = "render bad.yaml",
+                 .prepare = [&](const ScratchFolder& f) { f.write("bad.yaml", config); }},
+                says);
+}
+
+std::string config_with(const std::string& more) {
+  return "scene:\n  sensor: perspective\n  shapes: [sphere]\nbudget: { spp: 1 }\n" + more;
+}
+
+std::string config_with_shape(const std::string& shape) {
+  return "scene:\n  sensor: perspective\n  shapes:\n    - " + shape + "\nbudget: { spp: 1 }\n";
+}
+
+}  // namespace pharos::testing
