@@ -67,6 +67,22 @@ TEST_CASE("one_line keeps messages on one line and whole characters") {
   CHECK(one_line("aää", 2) == "a…");
 }
 
+TEST_CASE("messages are one line whatever they quote") {
+  CHECK(std::string(InputError({"a\nb", 1, 2}, "no '\x1b[1m\n'").what()) ==
+        "a b:1:2: error: no '?[1m '");
+  CHECK(std::string(RunError("a\r\nb").what()) == "a  b");
+}
+
+TEST_CASE("what cannot be read as a file, and why") {
+  const test::TemporaryFolder folder;
+  folder.write("scene.yaml", "");
+  CHECK(file_problem(folder / "scene.yaml").empty());
+  CHECK(file_problem(folder / "scen.yaml") == "no such file (did you mean 'scene.yaml'?)");
+  CHECK(file_problem(folder.path()) == "expected a file, found a folder");
+  CHECK(file_problem("/dev/null") == "expected a file, found a pipe or device");
+  CHECK(file_problem(std::string(5000, 'x')).find("the file cannot be reached: ") == 0);
+}
+
 TEST_CASE("quoted lists") {
   CHECK(quoted_list(std::vector<std::string>{"a", "b"}) == "'a', 'b'");
   CHECK(quoted_list({}) == "none");

@@ -152,7 +152,7 @@ TEST_CASE("images that cannot be read are input errors on one line") {
   CHECK(test::input_error_in(folder, [&] { read_metadata(folder / "none.exr"); }) ==
         "cannot read the image 'none.exr': no such file");
   CHECK(test::input_error([&] { read_image(folder.path()); }) ==
-        "cannot read the image '" + folder.path().string() + "': it is a folder");
+        "cannot read the image '" + folder.path().string() + "': expected a file, found a folder");
 }
 
 TEST_CASE("images that are cut off are input errors, also where the reader fills the gap") {

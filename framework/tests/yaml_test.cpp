@@ -96,6 +96,12 @@ TEST_CASE("aliases are copied out and keep the place where they were written") {
   CHECK(root.find("b")->find("k")->where().to_string() == "a.yaml:1:11");
 }
 
+TEST_CASE("a value that was left out stands where its key does") {
+  const ConfigNode root = parse_yaml("a:\n\nb: null\n", "a.yaml");
+  CHECK(root.find("a")->where().to_string() == "a.yaml:1:1");
+  CHECK(root.find("b")->where().to_string() == "a.yaml:3:4");
+}
+
 TEST_CASE("documents that are refused") {
   CHECK(parse_error("a: 1\nb: 2\n a: 3\n").find("a.yaml:3:3: error: YAML: ") == 0);
   CHECK(parse_error("a: [1, 2\n").find("a.yaml:2:1: error: YAML: ") == 0);
@@ -121,6 +127,8 @@ TEST_CASE("documents that are refused") {
         "a.yaml:1:4: error: YAML tags are not supported, found 'tag:yaml.org,2002:int'");
   CHECK(parse_error("a: !include b.yaml") ==
         "a.yaml:1:4: error: YAML tags are not supported, found '!include'");
+  CHECK(parse_error("a: &x { b: 1 }\nc: { <<: *x }\n") ==
+        "a.yaml:2:6: error: YAML merge keys are not supported: use 'extends'");
   CHECK(parse_error("a: *b").find("a.yaml:1:4: error: YAML: ") == 0);
   CHECK(parse_error("a: &x [*x]") ==
         "a.yaml:1:8: error: an alias may not stand inside the node that it names");

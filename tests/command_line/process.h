@@ -16,7 +16,7 @@ struct Outcome {
 };
 
 /// A program that takes longer hangs.
-inline constexpr int kTimeoutSeconds = 100;
+inline constexpr int kTimeoutSeconds = 30;
 
 /// Runs `pharos ARGUMENTS` through a shell in `folder`; `environment` is such as "NAME=value".
 Outcome run_pharos(const std::string& arguments, const std::filesystem::path& folder,

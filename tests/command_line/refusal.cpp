@@ -36,6 +36,17 @@ void check_refused(const std::string& config, const std::vector<std::string>& sa
                 says);
 }
 
+void check_mesh_refused(const std::string& name, const std::string& text) {
+  CAPTURE(text);
+  check_refused({.arguments = "render bad.yaml",
+                 .prepare =
+                     [&](const ScratchFolder& f) {
+                       f.write("bad.yaml", config_with_shape("{ type: mesh, file: " + name + " }"));
+                       f.write(name, text);
+                     }},
+                {"bad.yaml:4:7: error: ", name});
+}
+
 std::string config_with(const std::string& more) {
   return "scene:\n  sensor: perspective\n  shapes: [sphere]\nbudget: { spp: 1 }\n" + more;
 }

@@ -23,6 +23,10 @@ void check_refused(const Mistake& mistake, const std::vector<std::string>& says)
 /// The same for `render bad.yaml` with this text.
 void check_refused(const std::string& config, const std::vector<std::string>& says);
 
+/// The same for a config whose shape is the mesh in file `name` with this text: the message must
+/// name the file.
+void check_mesh_refused(const std::string& name, const std::string& text);
+
 /// A config of four lines that is fine, with `more` from line 5 on.
 std::string config_with(const std::string& more);
 

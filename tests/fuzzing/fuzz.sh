@@ -21,7 +21,8 @@ case $name in
   config)
     # Configs with every value in force, their scenes in place, and the scenes by themselves.
     for config in "$root"/configs/*.yaml; do
-      "$build/pharos" validate "$config" >"$corpus/$(basename "$config")" || true
+      seed=$corpus/$(basename "$config")
+      "$build/pharos" validate "$config" >"$seed" 2>/dev/null || cp "$config" "$seed"
     done
     for scene in "$root"/scenes/*/scene.yaml; do
       { echo 'budget: { spp: 1 }' && echo 'scene:' && sed 's/^/  /' "$scene"; } \
