@@ -350,7 +350,9 @@ class PathWalk {
     if (!step || settings_.roulette == Roulette::off || bounce_ < settings_.roulette_depth) {
       return step;
     }
-    if (contains(EventMask::transmit, step->event)) note_refraction();
+    const bool refracts =
+        step->event == Event::smooth_transmit || step->event == Event::discrete_transmit;
+    if (refracts) note_refraction();
     const float value = max_component(throughput_) * solid_angle_scale_ / first_throughput_;
     const float survival = std::min(settings_.roulette_limit, value);
     if (stream_.get_1d({Purpose::roulette, bounce_}) >= survival) return std::nullopt;
