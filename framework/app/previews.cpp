@@ -13,15 +13,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The plugin as a config states it; paths in its example are those of `files`.
-ConfigNode plugin_node(const PluginInfo& plugin, const fs::path& files) {
+/// What is shown of a plugin: what `chosen` says, else its first example, else its defaults. Paths
+/// are those of `files`.
+ConfigNode plugin_node(const PluginInfo& plugin, const ConfigNode& chosen, const fs::path& files) {
   const Location where{(files / "example.yaml").string(), 1, 1};
-  ConfigNode node = ConfigNode::mapping(where);
-  node.set("type", ConfigNode::scalar(plugin.name, where));
-  if (plugin.examples.empty()) return node;
-  const ConfigNode example = parse_yaml_at(plugin.examples.front(), where);
-  for (const ConfigNode::Entry& entry : example.entries()) node.set(entry.key, entry.value);
-  return node;
+  ConfigNode settings = ConfigNode::mapping(where);
+  const ConfigNode* contract = chosen.find(plugin.contract);
+  const ConfigNode* given = contract == nullptr ? nullptr : contract->find(plugin.name);
+  if (given != nullptr) {
+    settings = parse_yaml_at(to_flow_yaml(*given), where);
+  } else if (!plugin.examples.empty()) {
+    settings = parse_yaml_at(plugin.examples.front(), where);
+  }
+  settings.set("type", ConfigNode::scalar(plugin.name, where));
+  return settings;
 }
 
 /// Puts `plugin` in the place of every mapping with the key `preview`.
@@ -39,9 +44,8 @@ bool needs_shape(const ConfigNode& emitter, const Registry& registry) {
   return registry.build<Emitter>(emitter, context, resolved)->needs_shape();
 }
 
-void render_preview(const PluginInfo& plugin, const Registry& registry, const fs::path& folder,
-                    const fs::path& files) {
-  const ConfigNode node = plugin_node(plugin, files);
+void render_preview(const PluginInfo& plugin, const ConfigNode& node, const Registry& registry,
+                    const fs::path& folder) {
   const bool on_shape = plugin.contract == Emitter::contract_name && needs_shape(node, registry);
   ConfigNode config =
       read_config(folder / (plugin.contract + (on_shape ? "-on-shape" : "") + ".yaml"));
@@ -60,10 +64,12 @@ std::string preview_name(const PluginInfo& plugin) {
 
 void render_previews(const Registry& registry, const fs::path& folder) {
   const conformance::ExampleFolder files;
+  const ConfigNode chosen = read_config(folder / "settings.yaml");
   for (const std::string contract : {"bsdf", "emitter", "shape"}) {
     for (const std::string& name : registry.names(contract)) {
       log_info(fmt::format("preview of the {} '{}'", contract, name));
-      render_preview(*registry.find(contract, name), registry, folder, files.path());
+      const PluginInfo& plugin = *registry.find(contract, name);
+      render_preview(plugin, plugin_node(plugin, chosen, files.path()), registry, folder);
     }
   }
 }
