@@ -16,7 +16,7 @@ PHAROS_MODULE(registry) {
   registry.add<pharos::Heightfield>("heightfield",
                                     "A landscape over [-1,1]^2, as high as a texture is bright");
   registry.add<pharos::Lathe>("lathe", "A profile turned about the z axis");
-  registry.add<pharos::Mesh>("mesh", "Triangles from a file: OBJ, PLY, glTF, ...");
+  registry.add<pharos::Mesh>("mesh", "Triangles from a file: glTF, OBJ, PLY or STL");
   registry.add<pharos::Quad>("quad", "The square [-1,1]^2 that faces +z, transformed");
   registry.add<pharos::Sphere>("sphere", "An exact sphere");
 }

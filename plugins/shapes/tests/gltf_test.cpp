@@ -9,6 +9,7 @@
 #include <pharos/tests/fixtures.h>
 
 #include "../mesh.h"
+#include "gltf_test_kit.h"
 
 namespace pharos {
 namespace {
@@ -29,18 +30,6 @@ struct Buffer {
   }
 };
 static_assert(sizeof(Buffer) == 36 + 36 + 24 + 12 + 36);
-
-std::string base64(const std::string& bytes) {
-  const char* const digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;  // the buffer's size divides by three: no padding
-  for (std::size_t i = 0; i + 2 < bytes.size(); i += 3) {
-    unsigned group = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      group = group << 8 | static_cast<unsigned char>(bytes[i + k]);
-    for (int shift = 18; shift >= 0; shift -= 6) text += digits[group >> shift & 63];
-  }
-  return text;
-}
 
 /// A boat at x = 10: its sail twice as large, the same sail mirrored and stretched along z, and a
 /// deck without normals and texture coordinates.
@@ -74,22 +63,11 @@ std::string boat_json(const std::string& uri) {
 }
 
 std::string boat_gltf() {
-  return boat_json("data:application/octet-stream;base64," + base64(Buffer{}.bytes()));
-}
-
-std::string little_endian(std::size_t v) {
-  std::string text;
-  for (int shift = 0; shift < 32; shift += 8) text += static_cast<char>(v >> shift & 255);
-  return text;
+  return boat_json(test::data_uri(Buffer{}.bytes()));
 }
 
 std::string boat_glb() {
-  std::string json = boat_json("");
-  json.resize((json.size() + 3) / 4 * 4, ' ');
-  const std::string chunks = little_endian(json.size()) + "JSON" + json +
-                             little_endian(sizeof(Buffer)) + std::string("BIN\0", 4) +
-                             Buffer{}.bytes();
-  return "glTF" + little_endian(2) + little_endian(12 + chunks.size()) + chunks;
+  return test::glb(boat_json(""), Buffer{}.bytes());
 }
 
 /// A boat in a file of its own, as text and as binary.
@@ -175,32 +153,6 @@ TEST_CASE("a part that a file lacks is an error with the nearest name and a list
   CHECK(message ==
         "mesh 'boat.gltf': it has no part 'sial' (did you mean 'sail'?); its parts are "
         "'boat', 'deck', 'hull', 'mast', 'reflection', 'sail'");
-}
-
-TEST_CASE("parts have names in other formats too") {
-  const test::TemporaryFolder folder;
-  const auto path = folder.write("two.obj",
-                                 "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
-                                 "o floor\nf 1 2 3\no wall\nf 1 2 4\nf 1 3 4\n");
-  CHECK(Mesh({.file = path, .part = "floor"}).primitive_count() == 1);
-  CHECK(Mesh({.file = path, .part = "wall"}).primitive_count() == 2);
-}
-
-TEST_CASE("damaged glTF files are errors that name the file") {
-  const test::TemporaryFolder folder;
-  const auto check_error = [&](const std::string& name, const std::string& text) {
-    const std::string message =
-        test::input_error_in(folder, [&] { Mesh({.file = folder.write(name, text)}); });
-    INFO(message);
-    CHECK(message.find("mesh '" + name + "': ") == 0);
-  };
-  const std::string glb = boat_glb();
-  check_error("empty.gltf", "");
-  check_error("cut.gltf", boat_gltf().substr(0, 700));
-  check_error("cut.glb", glb.substr(0, glb.size() - 40));
-  check_error("header.glb", glb.substr(0, 16));
-  check_error("device.gltf", boat_json("/dev/zero"));
-  check_error("missing.gltf", boat_json("nowhere.bin"));
 }
 
 }  // namespace

@@ -120,7 +120,7 @@ TEST_CASE("PLY: a mesh names the file, has no parts, and needs triangles") {
   };
   const std::string whole = header("ascii", "3", "1") + kTriangle + "3 0 1 2\n";
   CHECK(message(whole, "") == "no error");
-  CHECK(message(whole, "lid") == "mesh 'a.PLY': PLY files have no parts");
+  CHECK(message(whole, "lid") == "mesh 'a.PLY': .ply files have no parts");
   CHECK(message(whole.substr(0, whole.size() - 3), "") ==
         "mesh 'a.PLY': face 0 is cut off or not made of numbers");
   CHECK(message(header("ascii", "3", "0") + kTriangle, "") ==
