@@ -71,10 +71,11 @@ GltfAccessor::GltfAccessor(GltfFile& file, const GltfValue& reference, std::stri
   }
   type_ = type_of(accessor);
   normalized_ = accessor.truth("normalized", false);
+  components_ = components_of(type);
   size_ = accessor.member("count").whole();
   const GltfValue view = file.document.referenced(accessor.member("bufferView"), "bufferViews");
   bytes_ = from_offset(view_bytes(file, view), accessor.whole("byteOffset", 0), accessor);
-  const std::uint64_t element = components_of(type) * size_of(type_);
+  const std::uint64_t element = components_ * size_of(type_);
   stride_ = view.whole("byteStride", element);
   if (stride_ < element) view.fail(fmt::format("has a byteStride of {} for {}", stride_, type));
   const bool fits = size_ == 0 || (bytes_.size() >= element &&
@@ -86,16 +87,20 @@ bool GltfAccessor::is_unsigned() const {
   return type_ == Type::uint8 || type_ == Type::uint16 || type_ == Type::uint32;
 }
 
-const char* GltfAccessor::component(std::uint64_t i, int c) const {
-  return bytes_.data() + i * stride_ + static_cast<std::size_t>(c) * size_of(type_);
+Vec3 GltfAccessor::vector(std::uint64_t i) const {
+  const char* const first = at(i);
+  const std::size_t step = size_of(type_);
+  const auto component = [&](std::size_t c) {
+    return type_ == Type::float32 ? value_at<float>(first + c * step) : number(first + c * step);
+  };
+  return {component(0), components_ > 1 ? component(1) : 0, components_ > 2 ? component(2) : 0};
 }
 
 float GltfAccessor::scaled(float integer, float largest) const {
   return normalized_ ? std::max(integer / largest, -1.0f) : integer;
 }
 
-float GltfAccessor::number(std::uint64_t i, int c) const {
-  const char* const at = component(i, c);
+float GltfAccessor::number(const char* at) const {
   switch (type_) {
     case Type::int8:
       return scaled(value_at<std::int8_t>(at), 127);
@@ -114,14 +119,13 @@ float GltfAccessor::number(std::uint64_t i, int c) const {
 }
 
 std::uint32_t GltfAccessor::index(std::uint64_t i) const {
-  const char* const at = component(i, 0);
   switch (type_) {
     case Type::uint8:
-      return value_at<std::uint8_t>(at);
+      return value_at<std::uint8_t>(at(i));
     case Type::uint16:
-      return value_at<std::uint16_t>(at);
+      return value_at<std::uint16_t>(at(i));
     default:
-      return value_at<std::uint32_t>(at);
+      return value_at<std::uint32_t>(at(i));
   }
 }
 

@@ -1,8 +1,10 @@
 #pragma once
 
-#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
+
+#include <pharos/core/vec.h>
 
 #include "gltf_buffers.h"
 #include "gltf_value.h"
@@ -26,9 +28,10 @@ class GltfAccessor {
   std::uint64_t size() const { return size_; }
   /// Whether its numbers are unsigned integers, as indices must be.
   bool is_unsigned() const;
-  /// Component `c` of vector `i`; integers that are normalised in [0,1] or [-1,1].
-  float number(std::uint64_t i, int c) const;
-  /// The same of accessors that are unsigned.
+  /// Vector `i`, with zeros for what its type lacks; integers that are normalised in [0,1] or
+  /// [-1,1].
+  Vec3 vector(std::uint64_t i) const;
+  /// The only number of vector `i`, of accessors that are unsigned.
   std::uint32_t index(std::uint64_t i) const;
 
  private:
@@ -37,11 +40,13 @@ class GltfAccessor {
 
   static Type type_of(const GltfValue& accessor);
   static std::size_t size_of(Type type);
-  const char* component(std::uint64_t i, int c) const;
+  const char* at(std::uint64_t i) const { return bytes_.data() + i * stride_; }
+  float number(const char* at) const;
   float scaled(float integer, float largest) const;
 
   Type type_;
   bool normalized_;
+  std::size_t components_;
   std::uint64_t size_;
   std::uint64_t stride_ = 0;  ///< [bytes] from one vector to the next
   std::string_view bytes_;    ///< from the first vector on

@@ -118,7 +118,8 @@ std::string_view GltfBuffers::bytes(const GltfValue& buffer) {
 
 std::string_view GltfBuffers::all_bytes(const GltfValue& buffer) {
   if (!buffer.has("uri")) {
-    if (!chunks_.has_binary) buffer.fail("has no 'uri', and the file no binary chunk");
+    const bool is_chunk = chunks_.has_binary && buffer.place() == "buffers[0]";
+    if (!is_chunk) buffer.fail("has no 'uri' and is no binary chunk of a GLB file");
     return chunks_.binary;
   }
   const GltfValue uri = buffer.member("uri");

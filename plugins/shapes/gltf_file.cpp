@@ -28,8 +28,7 @@ constexpr std::array<std::string_view, 3> kCompressions{
 struct GltfMesh {
   std::string name;
   std::vector<GltfPrimitive> primitives;  ///< those with triangles
-  std::uint64_t triangle_count = 0;
-  VertexAttributes attributes;  ///< that any of them has
+  MeshExtent extent;
 };
 
 GltfMesh read_mesh(GltfFile& file, const GltfValue& mesh) {
@@ -37,13 +36,23 @@ GltfMesh read_mesh(GltfFile& file, const GltfValue& mesh) {
   const GltfValue primitives = mesh.member("primitives");
   for (std::size_t i = 0; i < primitives.size(); ++i) {
     GltfPrimitive primitive(file, primitives.item(i));
-    if (primitive.triangle_count() == 0) continue;
-    result.triangle_count += primitive.triangle_count();
-    result.attributes.normals |= primitive.attributes().normals;
-    result.attributes.uvs |= primitive.attributes().uvs;
+    if (primitive.extent().triangles == 0) continue;
+    result.extent += primitive.extent();
     result.primitives.push_back(std::move(primitive));
   }
   return result;
+}
+
+/// An empty mesh that can take so much without growing.
+TriangleMesh with_room(const MeshExtent& extent) {
+  check_triangle_count(extent.triangles, "it");
+  const auto vertices = static_cast<std::size_t>(extent.vertices);
+  TriangleMesh mesh;
+  mesh.triangles.reserve(static_cast<std::size_t>(extent.triangles));
+  mesh.positions.reserve(vertices);
+  if (extent.attributes.normals) mesh.normals.reserve(vertices);
+  if (extent.attributes.uvs) mesh.uvs.reserve(vertices);
+  return mesh;
 }
 
 void check_supported(const GltfValue& root) {
@@ -93,7 +102,8 @@ class SceneReader {
   /// to the part.
   bool visit(const GltfValue& reference, const NodeTransform& parent, bool selected, int level) {
     const GltfValue node = file_.document.referenced(reference, "nodes");
-    if (!visited_.insert(node.place()).second) node.fail("is the child of two nodes");
+    if (!visited_.insert(node.place()).second)
+      node.fail("is reached twice; nodes must form a tree");
     if (level > kMostLevels) node.fail(fmt::format("lies deeper than {} levels", kMostLevels));
     const NodeTransform to_root = parent * node_transform(node);
     const std::string name = node.text("name", "");
@@ -125,19 +135,12 @@ class SceneReader {
   }
 
   TriangleMesh joined() const {
-    double triangles = 0;
-    VertexAttributes attributes;
-    for (const Placed& placed : placed_) {
-      triangles += static_cast<double>(placed.mesh.triangle_count);
-      attributes.normals |= placed.mesh.attributes.normals;
-      attributes.uvs |= placed.mesh.attributes.uvs;
-    }
-    check_triangle_count(triangles, "it");
-    TriangleMesh mesh;
-    mesh.triangles.reserve(static_cast<std::size_t>(triangles));
+    MeshExtent extent;
+    for (const Placed& placed : placed_) extent += placed.mesh.extent;
+    TriangleMesh mesh = with_room(extent);
     for (const Placed& placed : placed_) {
       for (const GltfPrimitive& primitive : placed.mesh.primitives) {
-        primitive.append_to(mesh, placed.to_root, attributes);
+        primitive.append_to(mesh, placed.to_root, extent.attributes);
       }
     }
     return mesh;

@@ -15,10 +15,6 @@ std::optional<GltfAccessor> accessor_if_any(GltfFile& file, const GltfValue& own
   return GltfAccessor(file, owner.member(key), type);
 }
 
-Vec3 vec3_at(const GltfAccessor& accessor, std::uint64_t i) {
-  return {accessor.number(i, 0), accessor.number(i, 1), accessor.number(i, 2)};
-}
-
 }  // namespace
 
 GltfPrimitive::Mode GltfPrimitive::mode_of(const GltfValue& primitive) {
@@ -62,6 +58,13 @@ std::uint64_t GltfPrimitive::triangle_count() const {
   return chained && corner_count() >= 3 ? corner_count() - 2 : 0;
 }
 
+MeshExtent GltfPrimitive::extent() const {
+  const auto triangles = static_cast<double>(triangle_count());
+  return {.triangles = triangles,
+          .vertices = takes_all_vertices() ? static_cast<double>(positions_.size()) : 3 * triangles,
+          .attributes = {.normals = normals_.has_value(), .uvs = uvs_.has_value()}};
+}
+
 std::array<std::uint32_t, 3> GltfPrimitive::corners(std::uint64_t triangle) const {
   const std::uint64_t i = triangle;
   std::array<std::uint64_t, 3> corners{i, i + 1, i + 2};
@@ -80,17 +83,14 @@ std::array<std::uint32_t, 3> GltfPrimitive::corners(std::uint64_t triangle) cons
 
 void GltfPrimitive::append_to(TriangleMesh& mesh, const NodeTransform& to_root,
                               VertexAttributes attributes) const {
-  // Many primitives may share a long list of vertices and name few of it. Those get a vertex for
-  // every corner, so that no more than three vertices a triangle are ever made.
-  const std::uint64_t triangles = triangle_count();
-  const bool all_vertices = positions_.size() <= 3 * triangles;
+  const bool all_vertices = takes_all_vertices();
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
   const auto append = [&](std::uint32_t vertex) {
     append_vertex(mesh, vertex, to_root, attributes);
     return static_cast<std::uint32_t>(mesh.positions.size() - 1);
   };
   for (std::uint32_t i = 0; all_vertices && i < positions_.size(); ++i) append(i);
-  for (std::uint64_t i = 0; i < triangles; ++i) {
+  for (std::uint64_t i = 0; i < triangle_count(); ++i) {
     std::array<std::uint32_t, 3> vertices = corners(i);
     for (std::uint32_t& vertex : vertices) vertex = all_vertices ? first + vertex : append(vertex);
     if (to_root.mirrors()) std::swap(vertices[1], vertices[2]);
@@ -100,17 +100,16 @@ void GltfPrimitive::append_to(TriangleMesh& mesh, const NodeTransform& to_root,
 
 void GltfPrimitive::append_vertex(TriangleMesh& mesh, std::uint32_t vertex,
                                   const NodeTransform& to_root, VertexAttributes attributes) const {
-  const Point3 position = to_root.point(vec3_at(positions_, vertex));
-  const Vec3 raw_normal = normals_ ? vec3_at(*normals_, vertex) : Vec3{};
+  const Point3 position = to_root.point(positions_.vector(vertex));
+  const Vec3 raw_normal = normals_ ? normals_->vector(vertex) : Vec3{};
   const Vec3 normal = to_root.normal(raw_normal);
-  // In files v runs from the top.
-  const Vec3 uv = uvs_ ? Vec3{uvs_->number(vertex, 0), 1 - uvs_->number(vertex, 1), 0} : Vec3{};
+  const Vec3 uv = uvs_ ? uvs_->vector(vertex) : Vec3{0, 1, 0};
   const bool finite =
       is_finite(position) && is_finite(raw_normal) && is_finite(normal) && is_finite(uv);
   if (!finite) fail(fmt::format("has vertex {}, which is not finite", vertex));
   mesh.positions.push_back(position);
   if (attributes.normals) mesh.normals.push_back(normal);
-  if (attributes.uvs) mesh.uvs.push_back({uv.x, uv.y});
+  if (attributes.uvs) mesh.uvs.push_back({uv.x, 1 - uv.y});  // in files v runs from the top
 }
 
 }  // namespace pharos

@@ -136,8 +136,8 @@ TEST_CASE("glTF: nodes that are no tree, or placed by what is no map") {
   const auto node = [](const std::string& more) {
     return refusal("\"mesh\": 0", "\"mesh\": 0, " + more);
   };
-  CHECK(node("\"children\": [0]") == "nodes[0] is the child of two nodes");
-  CHECK(refusal("[0]", "[0, 0]") == "nodes[0] is the child of two nodes");
+  CHECK(node("\"children\": [0]") == "nodes[0] is reached twice; nodes must form a tree");
+  CHECK(refusal("[0]", "[0, 0]") == "nodes[0] is reached twice; nodes must form a tree");
   CHECK(node("\"children\": [1]") == "nodes[0].children[0] names item 1 of nodes, which has 1");
   CHECK(node("\"scale\": [1, 1]") == "nodes[0].scale has 2 numbers instead of 3");
   CHECK(node("\"translation\": [1, 1, \"1\"]") == "nodes[0].translation[2] is no number");

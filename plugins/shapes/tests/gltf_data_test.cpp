@@ -169,7 +169,13 @@ TEST_CASE("glTF: a buffer is a chunk, base64 of any length, or a file beside") {
         "buffers[0].uri is data of another kind than base64");
   CHECK(refusal(with_uri("data:;base64,AA?A")) == "buffers[0].uri holds what is no base64");
   CHECK(refusal(with_uri("data:;base64,AAAA")) == "buffers[0] has 3 bytes instead of 104");
-  CHECK(refusal(test::kGltfTriangle) == "buffers[0] has no 'uri', and the file no binary chunk");
+  CHECK(refusal(test::kGltfTriangle) ==
+        "buffers[0] has no 'uri' and is no binary chunk of a GLB file");
+  const std::string second =
+      test::with(test::with(test::kGltfTriangle, "\"buffer\": 0", "\"buffer\": 1"),
+                 "{\"byteLength\": 104}", "{\"byteLength\": 104}, {\"byteLength\": 104}");
+  CHECK(refusal(test::glb(second, test::triangle_bytes())) ==
+        "buffers[1] has no 'uri' and is no binary chunk of a GLB file");
 }
 
 }  // namespace

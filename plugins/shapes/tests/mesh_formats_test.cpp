@@ -145,9 +145,10 @@ TEST_CASE("one shape in every format is the same mesh") {
   const std::map<std::string, std::string> files{
       {"a.obj", obj(mesh)},        {"a.ply", ply(mesh)},   {"a.STL", text_stl(mesh)},
       {"b.stl", binary_stl(mesh)}, {"a.gltf", gltf(mesh)}, {"a.glb", glb(mesh)}};
-  for (const auto& [name, bytes] : files) {
+  for (const auto& file : files) {
+    const std::string& name = file.first;
     INFO(name);
-    const TriangleMesh read = read_mesh_file(folder.write(name, bytes), "", false);
+    const TriangleMesh read = read_mesh_file(folder.write(name, file.second), "", false);
     const bool is_stl = name.ends_with("stl") || name.ends_with("STL");
     CHECK(read.normals.empty() == is_stl);
     CHECK(read.uvs.empty() == is_stl);
