@@ -88,12 +88,10 @@ bool GltfAccessor::is_unsigned() const {
 }
 
 Vec3 GltfAccessor::vector(std::uint64_t i) const {
-  const char* const first = at(i);
-  const std::size_t step = size_of(type_);
   const auto component = [&](std::size_t c) {
-    return type_ == Type::float32 ? value_at<float>(first + c * step) : number(first + c * step);
+    return c < components_ ? number(at(i) + c * size_of(type_)) : 0;
   };
-  return {component(0), components_ > 1 ? component(1) : 0, components_ > 2 ? component(2) : 0};
+  return {component(0), component(1), component(2)};
 }
 
 float GltfAccessor::scaled(float integer, float largest) const {
@@ -101,6 +99,7 @@ float GltfAccessor::scaled(float integer, float largest) const {
 }
 
 float GltfAccessor::number(const char* at) const {
+  if (type_ == Type::float32) return value_at<float>(at);  // first, as nearly all are
   switch (type_) {
     case Type::int8:
       return scaled(value_at<std::int8_t>(at), 127);
@@ -110,12 +109,9 @@ float GltfAccessor::number(const char* at) const {
       return scaled(value_at<std::int16_t>(at), 32767);
     case Type::uint16:
       return scaled(value_at<std::uint16_t>(at), 65535);
-    case Type::uint32:
+    default:
       return scaled(static_cast<float>(value_at<std::uint32_t>(at)), 4294967295.0f);
-    case Type::float32:
-      break;
   }
-  return value_at<float>(at);
 }
 
 std::uint32_t GltfAccessor::index(std::uint64_t i) const {

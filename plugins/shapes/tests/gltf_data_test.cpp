@@ -29,7 +29,7 @@ std::string refusal(const std::string& bytes) {
 using Corners = std::array<std::uint32_t, 3>;
 
 TEST_CASE("glTF: numbers of all types mean what glTF says") {
-  // Five vertices of eight bytes, of which positions take the first two or four, by type.
+  // Vertex i has its three numbers at byte 3 + 16 i.
   const auto positions = [](int type, bool normalized, const std::string& bytes) {
     const std::string json = R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}],
       "nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
@@ -42,7 +42,7 @@ TEST_CASE("glTF: numbers of all types mean what glTF says") {
                              std::to_string(bytes.size()) + "}]}";
     return read(test::glb(json, bytes)).positions;
   };
-  const auto rows = [](auto one, auto two, auto three) {  // three bytes, then rows of 16
+  const auto rows = [](auto one, auto two, auto three) {
     std::string bytes = "...";
     for (int i = 0; i < 3; ++i) {
       bytes += test::bytes_of<decltype(one)>({one, two, three});
