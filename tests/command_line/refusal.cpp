@@ -36,7 +36,8 @@ void check_refused(const std::string& config, const std::vector<std::string>& sa
                 says);
 }
 
-void check_mesh_refused(const std::string& name, const std::string& text) {
+void check_mesh_refused(const std::string& name, const std::string& text,
+                        const std::string& place) {
   CAPTURE(text);
   check_refused({.arguments = "render bad.yaml",
                  .prepare =
@@ -44,7 +45,7 @@ void check_mesh_refused(const std::string& name, const std::string& text) {
                        f.write("bad.yaml", config_with_shape("{ type: mesh, file: " + name + " }"));
                        f.write(name, text);
                      }},
-                {"bad.yaml:4:7: error: ", name});
+                {(place.empty() ? "bad.yaml:4:7" : name + ":" + place) + ": error: ", name});
 }
 
 std::string config_with(const std::string& more) {

@@ -24,8 +24,9 @@ void check_refused(const Mistake& mistake, const std::vector<std::string>& says)
 void check_refused(const std::string& config, const std::vector<std::string>& says);
 
 /// The same for a config whose shape is the mesh in file `name` with this text: the message must
-/// name the file.
-void check_mesh_refused(const std::string& name, const std::string& text);
+/// name the file, and stand at `place`, "line:column" of the file, or where the config names it.
+void check_mesh_refused(const std::string& name, const std::string& text,
+                        const std::string& place = "");
 
 /// A config of four lines that is fine, with `more` from line 5 on.
 std::string config_with(const std::string& more);
