@@ -39,6 +39,7 @@ int run(int argc, char** argv) {
   try {
     check_command(app, argc, argv);
     app.parse(argc, argv);
+    if (app.get_subcommands().empty()) throw InputError("pharos: error: expected a command");
     return exit_code;
   } catch (const CLI::Success& success) {  // --help, --version
     return app.exit(success);

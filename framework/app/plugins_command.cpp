@@ -78,7 +78,7 @@ void print_markdown(const Registry& registry, const std::filesystem::path& previ
     for (const std::string& name : registry.names(contract)) {
       const PluginInfo& plugin = *registry.find(contract, name);
       fmt::print("\n### {} `{}`\n\n{}.\n", contract, plugin.name, plugin.summary);
-      if (std::filesystem::exists(previews / preview_name(plugin))) {
+      if (!previews.empty() && std::filesystem::exists(previews / preview_name(plugin))) {
         fmt::print("\n![{}](../{}/{})\n", plugin.name, previews.filename().string(),
                    preview_name(plugin));
       }
@@ -126,7 +126,9 @@ void add_plugins_command(CLI::App& app, int&) {
   command->callback([wanted, markdown, previews] {
     const Registry registry = load_default_modules();
     if (!previews->empty()) render_previews(registry, *previews);
-    *markdown ? print_markdown(registry, *previews) : list(registry, *wanted);
+    const std::filesystem::path folder = std::filesystem::path(*previews) / "";
+    *markdown ? print_markdown(registry, previews->empty() ? "" : folder.parent_path())
+              : list(registry, *wanted);
   });
 }
 

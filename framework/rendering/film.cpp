@@ -91,12 +91,9 @@ FilmTile::Pixel& FilmTile::Pixel::operator+=(const Pixel& other) {
   return *this;
 }
 
-Rgb FilmTile::Pixel::weighted_mean() const {
+Rgb FilmTile::Pixel::weighted_mean(float least_weight) const {
   if (absolute_weight == 0) return {};
-  // Mitchell and Netravali's filter (B = C = 1/3) never comes near the limit; the sharper
-  // Catmull-Rom does in one of 2500 pixels of a single sample, and no longer with two.
-  constexpr float kLeastShare = 0.1f;
-  const float least = kLeastShare * absolute_weight;
+  const float least = least_weight * absolute_weight;
   return radiance / std::copysign(std::max(std::abs(weight), least), weight);
 }
 
@@ -131,9 +128,10 @@ Film::Pixel& Film::Pixel::operator+=(const Pixel& other) {
   return *this;
 }
 
-Film::Film(int width, int height, Ref<Filter> filter)
+Film::Film(int width, int height, Ref<Filter> filter, float least_weight)
     : pixels_{0, 0, width, height},
       filter_(std::move(filter)),
+      least_weight_(least_weight),
       total_(pixels_.area()),
       pass_(pixels_.area()),
       moments_(pixels_.area()) {}
@@ -186,8 +184,8 @@ void Film::find_splat_norms() {
   }
 }
 
-Rgb Film::value(const Pixel& pixel, double paths) {
-  Rgb sum = pixel.sum.weighted_mean();
+Rgb Film::value(const Pixel& pixel, double paths) const {
+  Rgb sum = pixel.sum.weighted_mean(least_weight_);
   if (paths > 0) sum += static_cast<float>(1 / paths) * pixel.splats;
   return sum;
 }

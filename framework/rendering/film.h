@@ -68,7 +68,7 @@ class FilmTile {
       absolute_weight += std::abs(filter_weight);
     }
     Pixel& operator+=(const Pixel& other);
-    Rgb weighted_mean() const;
+    Rgb weighted_mean(float least_weight) const;
   };
   struct Splat {
     Vec2 film;
@@ -90,14 +90,17 @@ class FilmTile {
 
 /// The image of one iteration: a weight-normalised layer of pixel samples plus a splat layer.
 /// Filters with negative lobes may leave a pixel of few samples next to no weight; where less than
-/// a tenth of the weights' magnitude is left, that tenth divides instead, so that no value is more
-/// than ten times the brightest sample in reach. Tiles
-/// are merged in the order of work units, by one thread at a time. Passes end with end_pass(); the
-/// variance of a pixel comes from the spread of its pass means, which is right for stratified
-/// samples and splats too (and an upper bound where passes of one sequence complement each other).
+/// the share `least_weight` of the weights' magnitude is left, that share divides instead, so that
+/// no value is more than 1 / least_weight times the brightest sample in reach. Tiles are merged in
+/// the order of work units, by one thread at a time. Passes end with end_pass(); the variance of a
+/// pixel comes from the spread of its pass means, which is right for stratified samples and splats
+/// too (and an upper bound where passes of one sequence complement each other).
 class Film {
  public:
-  Film(int width, int height, Ref<Filter> filter);
+  /// See FilmSettings::least_weight, of which this is the default.
+  static constexpr float kLeastWeight = 0.1f;
+
+  Film(int width, int height, Ref<Filter> filter, float least_weight = kLeastWeight);
 
   int width() const { return pixels_.width(); }
   int height() const { return pixels_.height(); }
@@ -130,12 +133,13 @@ class Film {
     Rgb mean;
     Rgb squares;  ///< sum of weight x squared deviation
   };
-  static Rgb value(const Pixel& pixel, double paths);
+  Rgb value(const Pixel& pixel, double paths) const;
   void find_splat_norms();
   void add_splat(const FilmTile::Splat& splat);
 
   PixelRect pixels_;
   Ref<Filter> filter_;
+  float least_weight_;
   std::vector<Pixel> total_, pass_;
   std::vector<Moments> moments_;
   /// One over the filter's integral over the film, as seen from each pixel: light that falls beside

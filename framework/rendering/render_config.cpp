@@ -61,6 +61,11 @@ void FilmSettings::describe(Schema<FilmSettings>& s) {
       .unit("pixels")
       .at_least(1)
       .at_most(1024);
+  s.field("least_weight", &FilmSettings::least_weight,
+          "Least share of the weights' magnitude that divides a pixel; for filters with negative "
+          "lobes")
+      .above(0)
+      .at_most(1);
 }
 
 void OutputSettings::describe(Schema<OutputSettings>& s) {

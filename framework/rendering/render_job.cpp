@@ -148,7 +148,7 @@ class RenderJob::Implementation {
     result_ = {};
     combiner_ = {};
     has_image_ = false;
-    last_image_ = Film(config_.film.width, config_.film.height, config_.film.filter).layers();
+    last_image_ = make_film().layers();
     const GuidingSettings* settings = config_.integrator->guiding();
     guiding_ = settings == nullptr ? nullptr
                                    : std::make_unique<GuidingState>(
@@ -165,7 +165,7 @@ class RenderJob::Implementation {
   void run_iteration(std::uint32_t index) {
     const Iteration& iteration = iterations_[index];
     const Stopwatch watch;
-    Film film(config_.film.width, config_.film.height, config_.film.filter);
+    Film film = make_film();
     PassSizes sizes(iteration, config_.sampler->preferred_samples());
     std::uint32_t done = 0;
     double last_pass = 0;
@@ -193,6 +193,11 @@ class RenderJob::Implementation {
   }
 
   /// Renders `size` samples of every pixel; false when it was cut short.
+  Film make_film() const {
+    const FilmSettings& film = config_.film;
+    return {film.width, film.height, film.filter, film.least_weight};
+  }
+
   bool run_pass(std::uint32_t index, std::uint32_t first_sample, std::uint32_t size, Film& film) {
     const IterationContext shared = context(iterations_[index].training);
     // Large passes are cut into chunks: chunk by chunk, each over all tiles.

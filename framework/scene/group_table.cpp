@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <pharos/scene/group_table.h>
+#include <pharos/scene/placement.h>
 
 namespace pharos {
 namespace {
@@ -21,6 +22,14 @@ Transform composed(const Transform& outer, const InstanceEntry& entry) {
   } catch (const InputError&) {  // elements that a float cannot hold
   }
   throw InputError(entry.where, "this instance is scaled beyond what a float can hold");
+}
+
+void check_extent(const Bounds3& group, const Transform& to_world, const Location& where) {
+  try {
+    placed_bounds(group, to_world);
+  } catch (const InputError& e) {
+    throw InputError(where, e.what());
+  }
 }
 
 }  // namespace
@@ -108,7 +117,9 @@ void GroupTable::place_instances(const EntryList& entries,
       if (group.index == kUnplaced) {
         group.index = static_cast<std::uint32_t>(parts.groups.size());
         parts.groups.push_back({group.entries.objects});
+        for (const SceneObject& o : group.entries.objects) group.bounds.add(o.shape->bounds());
       }
+      check_extent(group.bounds, map, entries.instances[i].where);
       parts.instances.push_back({group.index, map});
     }
     place_instances(group.entries, group.targets, map, parts);

@@ -29,7 +29,7 @@ class GroupTable {
  public:
   /// Levels of groups within groups, and instances in the world.
   static constexpr std::size_t kDeepest = 64;
-  static constexpr std::uint64_t kMostInstances = 1u << 24;
+  static constexpr std::uint64_t kMostInstances = 1u << 22;  ///< some 2 GiB
 
   void add(std::string name, EntryList entries);
   /// Takes the world's entries to `parts`, with all groups that are seen there. Throws InputError
@@ -49,6 +49,7 @@ class GroupTable {
     std::uint64_t count = 0;          ///< instances that one of it comes to, capped
     std::size_t depth = 1;            ///< levels of groups, itself included
     std::uint32_t index = kUnplaced;  ///< in SceneParts::groups
+    Bounds3 bounds;                   ///< of its own objects, once it is placed
   };
 
   std::vector<std::uint32_t> targets_of(const EntryList& entries) const;

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <limits>
 
+#include <pharos/core/error.h>
 #include <pharos/scene/placement.h>
 
 namespace pharos {
@@ -37,6 +38,20 @@ Frame frame_along(Vec3 n, Vec3 tangent) {
 }
 
 }  // namespace
+
+Bounds3 placed_bounds(const Bounds3& local, const Transform& to_world) {
+  Bounds3 all;
+  if (local.empty()) return all;
+  for (int corner = 0; corner < 8; ++corner) {
+    all.add(to_world.point({(corner & 1) != 0 ? local.high.x : local.low.x,
+                            (corner & 2) != 0 ? local.high.y : local.low.y,
+                            (corner & 4) != 0 ? local.high.z : local.low.z}));
+  }
+  if (!is_finite(all.low) || !is_finite(all.high)) {
+    throw InputError("an instance lies beyond what a float can hold");
+  }
+  return all;
+}
 
 Placement::Placement(const Transform& to_world) : to_world_(to_world) {
   const Transform::Matrix& m = to_world.matrix();

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include <pharos/core/bounds.h>
 #include <pharos/core/ray.h>
 #include <pharos/core/transform.h>
 #include <pharos/scene/surface_point.h>
@@ -13,6 +14,9 @@ struct PlacementError {
   float world = 0;   ///< SurfacePoint::error in world space [scene units]
   float margin = 0;  ///< what to keep from the edges in local space [local units]
 };
+
+/// The box of a placed box; empty for an empty one. Throws InputError where a float cannot hold it.
+Bounds3 placed_bounds(const Bounds3& local, const Transform& to_world);
 
 /// Where a group stands: takes rays to the group's local space and surface points back to world
 /// space. The outer side of a surface stays its outer side, mirrored or not.

@@ -14,26 +14,12 @@ Bounds3 bounds_of(const std::vector<SceneObject>& objects) {
   return box;
 }
 
-/// The box of a box in another space; empty for an empty one.
-Bounds3 transformed(const Bounds3& box, const Transform& to_world) {
-  Bounds3 all;
-  if (box.empty()) return all;
-  for (int corner = 0; corner < 8; ++corner) {
-    all.add(to_world.point({(corner & 1) != 0 ? box.high.x : box.low.x,
-                            (corner & 2) != 0 ? box.high.y : box.low.y,
-                            (corner & 4) != 0 ? box.high.z : box.low.z}));
-  }
-  if (!is_finite(all.low) || !is_finite(all.high)) {
-    throw InputError("an instance lies beyond what a float can hold");
-  }
-  return all;
-}
-
 Bounds3 geometry_bounds(const SceneParts& parts) {
   Bounds3 box = bounds_of(parts.objects);
   std::vector<Bounds3> groups;
   for (const SceneGroup& group : parts.groups) groups.push_back(bounds_of(group.objects));
-  for (const SceneInstance& i : parts.instances) box.add(transformed(groups[i.group], i.to_world));
+  for (const SceneInstance& i : parts.instances)
+    box.add(placed_bounds(groups[i.group], i.to_world));
   return box;
 }
 

@@ -50,16 +50,23 @@ float largest(Vec3 v) {
 }
 
 /// The step within the triangle's plane that takes the point of weights `b` to a distance of at
-/// least `margin` from every edge, or about half-way where the triangle is narrower than that.
+/// least `margin` from every edge, or towards half the inradius where the triangle is narrower.
 [[gnu::noinline, gnu::cold]] Vec3 step_off_edges(const std::array<Point3, 3>& p,
                                                  const std::array<float, 3>& b, Vec3 normal,
                                                  float double_area, float margin) {
+  std::array<Vec3, 3> edges;  // the one that vertex i faces
+  float perimeter = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    edges[i] = p[(i + 2) % 3] - p[(i + 1) % 3];
+    perimeter += length(edges[i]);
+  }
+  // The inradius is double_area / perimeter: with half of it no edge pushes past another.
+  const float kept = std::min(margin, 0.5f * double_area / perimeter);
   Vec3 step;
   for (std::size_t i = 0; i < 3; ++i) {
-    const Vec3 edge = p[(i + 2) % 3] - p[(i + 1) % 3];  // the one that vertex i faces
-    const float edge_length = length(edge);
+    const float edge_length = length(edges[i]);
     const float distance = b[i] * double_area / edge_length;
-    if (distance < margin) step += (margin - distance) / edge_length * cross(normal, edge);
+    if (distance < kept) step += (kept - distance) / edge_length * cross(normal, edges[i]);
   }
   return step;
 }

@@ -271,8 +271,8 @@ std::string doubling(int levels, const std::string& last, bool outermost_first) 
 TEST_CASE("instances that multiply beyond measure are refused, empty ones cost nothing") {
   CHECK(load(doubling(11, "square", true)).parts.instances.size() == 1024);
   CHECK(load(doubling(64, "", true)).parts.instances.empty());
-  check_error(doubling(26, "square", true), "makes more than 16777216 instances");
-  check_error(doubling(64, "square", false), "makes more than 16777216 instances");
+  check_error(doubling(26, "square", true), "makes more than 4194304 instances");
+  check_error(doubling(64, "square", false), "makes more than 4194304 instances");
   check_error(doubling(65, "square", true), "nested more than 64 levels deep");
   check_error(doubling(65, "square", false), "nested more than 64 levels deep");
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 #include <numbers>
+#include <unistd.h>
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -32,7 +33,7 @@ TEST_CASE("a band of an environment map") {
     irradiance += 3 * pi * std::sin(2 * (row + 0.5) * w) * std::pow(std::sin(w), 2) / w;
   }
   const std::filesystem::path path =
-      std::filesystem::temp_directory_path() / "pharos-analytic-test.exr";
+      std::filesystem::temp_directory_path() / fmt::format("pharos-analytic-test-{}.exr", getpid());
   write_exr(image, path);
   Floor("", fmt::format("    - {{ type: environment_map, file: '{}', "
                         "to_world: {{ rotate: {{ axis: [1, 0, 0], degrees: 90 }} }} }}\n",

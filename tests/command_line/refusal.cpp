@@ -20,6 +20,7 @@ void check_refused(const Mistake& mistake, const std::vector<std::string>& says)
   CAPTURE(outcome.err);
   CHECK(outcome.exit_code == 2);
   CHECK(outcome.out.empty());
+  REQUIRE_FALSE(outcome.err.empty());
   CHECK(outcome.err.find('\n') == outcome.err.size() - 1);
   for (const std::string& part : says) {
     CAPTURE(part);
