@@ -30,6 +30,12 @@ void print_contract(const Registry& registry, const std::string& contract) {
   }
 }
 
+/// `{ type: conductor, material: Au }` for the settings `{ material: Au }`.
+std::string stated(const PluginInfo& plugin, const std::string& settings) {
+  return fmt::format("{{ type: {}, {}", plugin.name,
+                     settings.substr(settings.find_first_not_of("{ ")));
+}
+
 void print_plugin(const PluginInfo& plugin) {
   fmt::print("{} '{}' (module {})\n  {}\n", plugin.contract, plugin.name, plugin.module,
              plugin.summary);
@@ -37,6 +43,9 @@ void print_plugin(const PluginInfo& plugin) {
     fmt::print("\n  {}: {}  (default: {})\n", p.key, type_text(p), default_text(p));
     if (!p.range.empty()) fmt::print("      {}\n", p.range);
     fmt::print("      {}\n", p.help);
+  }
+  for (const std::string& example : plugin.examples) {
+    fmt::print("\n  {}\n", stated(plugin, example));
   }
 }
 
@@ -55,12 +64,6 @@ void print_parameters(const PluginInfo& plugin) {
     fmt::print("| `{}` | {} | {} | {} | {} |\n", p.key, cell(type_text(p)), cell(default_text(p)),
                cell(p.range), cell(p.help));
   }
-}
-
-/// `{ type: conductor, material: Au }` for the settings `{ material: Au }`.
-std::string stated(const PluginInfo& plugin, const std::string& settings) {
-  return fmt::format("{{ type: {}, {}", plugin.name,
-                     settings.substr(settings.find_first_not_of("{ ")));
 }
 
 void print_examples(const PluginInfo& plugin) {

@@ -8,7 +8,7 @@ namespace pharos {
 struct Frame {
   Vec3 s{1, 0, 0}, t{0, 1, 0}, n{0, 0, 1};
 
-  /// A frame around the unit normal `n`, continuous but for one pole
+  /// A frame around the unit normal `n`; s and t are arbitrary, and jump where n.z changes its sign
   /// (Duff et al. 2017, "Building an Orthonormal Basis, Revisited").
   static Frame from_normal(Vec3 n) {
     const float sign = std::copysign(1.0f, n.z);

@@ -96,8 +96,8 @@ class Sampler : public Component {
                                                          const SamplePlan& plan,
                                                          const IntegrandProbe* probe) const = 0;
 
-  /// Size of the finite sets that a sampler works with: renders run whole sets, in passes of this
-  /// many samples a pixel. 1: any count is as good.
+  /// Size of the finite sets that a sampler works with: passes are whole sets, but for the last of
+  /// an iteration whose number of samples is no multiple. 1: any count is as good.
   virtual std::uint32_t preferred_samples() const { return 1; }
   /// Whether prepare() needs a probe.
   virtual bool needs_probe() const { return false; }

@@ -347,12 +347,11 @@ class PathWalk {
   std::optional<ScatterStep> next_step() {
     std::optional<ScatterStep> step =
         sample_step(*scattering_, guidance_, VertexStream(stream_, bounce_));
-    if (!step || settings_.roulette == Roulette::off || bounce_ < settings_.roulette_depth) {
-      return step;
-    }
+    if (!step || settings_.roulette == Roulette::off) return step;
     const bool refracts =
         step->event == Event::smooth_transmit || step->event == Event::discrete_transmit;
     if (refracts) note_refraction();
+    if (bounce_ < settings_.roulette_depth) return step;
     const float value = max_component(throughput_) * solid_angle_scale_ / first_throughput_;
     const float survival = std::min(settings_.roulette_limit, value);
     if (stream_.get_1d({Purpose::roulette, bounce_}) >= survival) return std::nullopt;
