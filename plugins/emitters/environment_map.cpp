@@ -1,5 +1,5 @@
 // environment_map: radiance from infinitely far away, by direction, from an image in
-// latitude-longitude layout (equirectangular, 2:1). In the map's own space +y is up: the top row of
+// latitude-longitude layout (equirectangular). In the map's own space +y is up: the top row of
 // the image is what is seen looking along +y, the bottom row along -y. A direction d meets the
 // image at
 //
@@ -7,9 +7,10 @@
 //     v = acos(d.y) / pi               from the top edge
 //
 // so that the middle of the image is seen along +z and columns go on to the right of it along -x,
-// as in Mitsuba 0.6. Scenes where +z is up turn it by 90 degrees about x. Radiance is bilinear
-// between the pixels' centres, around in u and up to the edge in v, times `scale`. Files of 8 and
-// 16 bit are taken as sRGB.
+// as in Mitsuba 0.6. The image covers the whole sphere, whatever its shape: pixels are as wide as
+// high at the horizon if it is 2:1, and any other ratio is stretched. Scenes where +z is up turn it
+// by 90 degrees about x. Radiance is bilinear between the pixels' centres, around in u and up to
+// the edge in v, times `scale`. Files of 8 and 16 bit are taken as sRGB.
 //
 // Sampled in proportion to radiance, nearly: the density is bilinear between the pixels' means of
 // channels, so that nothing that shines is missed. It is inverted in latitude first, then along the

@@ -71,11 +71,13 @@ std::optional<Vec3> LatLongDistribution::sample(Vec2 u) const {
   const int lower = image_.clamped(static_cast<int>(b));
   const double share = (target - bands_[b]) / (bands_[b + 1] - bands_[b]);
   const double t = linear_from_unit(share, row_sum(upper), row_sum(lower));
+  const Blend rows{upper, lower, t};
+  if (!(cumulative(image_.width(), rows) > 0)) return std::nullopt;
   const double above = edges_[b] + t * (edges_[b + 1] - edges_[b]);
-  return LatLong::direction(sample_column(u.x, {upper, lower, t}), above);
+  return LatLong::direction(sample_column(u.x, rows), above);
 }
 
-/// The coordinate u within a pair of rows.
+/// The coordinate u within a pair of rows that is not black.
 float LatLongDistribution::sample_column(float u, const Blend& rows) const {
   const double target = double{u} * cumulative(image_.width(), rows);
   int low = 0, high = image_.width();  // cumulative(low) <= target < cumulative(high)

@@ -19,7 +19,8 @@ class LatLongDistribution {
   explicit LatLongDistribution(const LatLongImage& image);
 
   /// The place that belongs to `u`, continuous in it where the density is not zero: the marginal
-  /// of `above` inverted, then the conditional of u. Empty when the image is black.
+  /// of `above` inverted, then the conditional of u. Empty when the image is black, and for the few
+  /// u.y, of no measure, that fall on the edge of a black row.
   std::optional<Vec3> sample(Vec2 u) const;
   /// The density of sample() [1/sr]; 0 when the image is black.
   float pdf(const LatLong& place) const;

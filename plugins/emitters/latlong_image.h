@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <filesystem>
 #include <vector>
@@ -24,14 +26,15 @@ struct LatLong {
 };
 
 /// The bilinear cell that a coordinate lies in: between pixel centres `low` and `low + 1`, at the
-/// fraction `t` in [0, 1] of the way. `low` is -1 before the first centre.
+/// fraction `t` in [0, 1] of the way. `low` is -1 before the first centre, and never names a pixel
+/// further outside, whatever the coordinate, NaN included.
 struct PixelPair {
   int low = 0;
   float t = 0;
 
   static PixelPair at(float coordinate, int pixels) {
     const float x = coordinate * static_cast<float>(pixels) - 0.5f;
-    const float low = std::floor(x);
+    const float low = std::min(std::max(-1.0f, std::floor(x)), static_cast<float>(pixels - 1));
     return {static_cast<int>(low), x - low};
   }
 };

@@ -218,6 +218,28 @@ TEST_CASE("environment_map: a black map is never sampled") {
   CHECK(sky.light->power() == 0);
 }
 
+TEST_CASE("environment_map: black rows, sampled at the ends of the primary numbers") {
+  for (const unsigned lit : {1u, 2u, 4u, 8u, 9u, 6u, 5u, 15u}) {
+    for (const int column : {-1, 0, 7}) {  // -1: all of them
+      const Sky sky(image_of(8, 4, [&](int x, int y) {
+        return Rgb((lit >> y & 1) != 0 && (column < 0 || x == column));
+      }));
+      for (const float x : {0.0f, 0.5f, kOneMinusEpsilon}) {
+        for (const float y : {0.0f, 0.5f, kOneMinusEpsilon}) {
+          CAPTURE(lit);
+          const LightSample s = sky.light->sample({}, {x, y});
+          CHECK(std::isfinite(s.pdf));
+          if (s.pdf > 0) CHECK(length(s.direction) == doctest::Approx(1));
+        }
+      }
+      CHECK(sky.light->sample({}, {0.3f, 0.2f}).pdf > 0);
+    }
+  }
+  const Sky sky(noise(8, 4, 1, 2));
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  CHECK_FALSE(sky.light->pdf_direction({nan, nan, nan}) > 0);
+}
+
 TEST_CASE("environment_map: wrong images and settings") {
   Image image = noise(4, 2, 0, 1);
   image.set_rgb(3, 1, {0, -1, 0});
