@@ -43,7 +43,6 @@ class ObjReader {
       read_statement();
     } while (scanner_.next_line());
     check_part(part_, names_);
-    check_triangle_count(static_cast<double>(triangles_.size()), "it");
     return has_uvs_ || has_normals_ ? with_vertex_per_corner() : with_positions_alone();
   }
 
@@ -68,7 +67,7 @@ class ObjReader {
       while (scanner_.has_word()) groups_.emplace_back(scanner_.word());
       begin_part();
     } else {
-      pass_over(keyword);
+      check_passed_over(keyword);
     }
   }
 
@@ -89,11 +88,10 @@ class ObjReader {
     named_ = false;
   }
 
-  void pass_over(std::string_view keyword) {
+  void check_passed_over(std::string_view keyword) {
     if (std::find(kPassedOver.begin(), kPassedOver.end(), keyword) == kPassedOver.end()) {
       scanner_.fail(fmt::format("'{}' is no statement that can be read", one_line(keyword, 40)));
     }
-    while (scanner_.has_word()) scanner_.word();  // goes on over continued lines
   }
 
   void read_face() {
@@ -110,6 +108,7 @@ class ObjReader {
     if (!named_) name_part();
     if (!wanted_) return;
     triangles_.push_back(corners);
+    check_triangle_count(static_cast<double>(triangles_.size()), "it");
     for (const Corner& corner : corners) {
       has_uvs_ = has_uvs_ || corner[kUv] != kAbsent;
       has_normals_ = has_normals_ || corner[kNormal] != kAbsent;

@@ -80,15 +80,28 @@ class TextReader {
       scanner_.rest();
       read_solid();
     }
-    check_triangle_count(static_cast<double>(mesh_.triangles.size()), "it");
     return std::move(mesh_);
   }
 
  private:
-  std::string_view next() {
+  void pass_over_breaks() {
     while (!scanner_.has_word() && scanner_.next_line()) {
     }
+  }
+
+  std::string_view next() {
+    pass_over_breaks();
     return scanner_.word();
+  }
+
+  float next_number() {
+    pass_over_breaks();
+    return scanner_.number();
+  }
+
+  Point3 next_point() {
+    const float x = next_number(), y = next_number();
+    return {x, y, next_number()};
   }
 
   void expect(std::string_view expected) {
@@ -118,11 +131,12 @@ class TextReader {
     std::array<Point3, 3> corners;
     for (Point3& corner : corners) {
       expect("vertex");
-      corner = scanner_.vec3();
+      corner = next_point();
     }
     expect("endloop");
     expect("endfacet");
     add_triangle(mesh_, corners);
+    check_triangle_count(static_cast<double>(mesh_.triangles.size()), "it");
   }
 
   TextScanner scanner_;

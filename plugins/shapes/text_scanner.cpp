@@ -1,7 +1,6 @@
 #include "text_scanner.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <system_error>
 #include <utility>
@@ -9,6 +8,8 @@
 #include <fmt/core.h>
 
 #include <pharos/core/error.h>
+
+#include "decimal.h"
 
 namespace pharos {
 namespace {
@@ -37,6 +38,7 @@ TextScanner::TextScanner(std::string_view text, std::string file)
 }
 
 bool TextScanner::next_line() {
+  while (has_word()) word();  // goes on over continued lines
   at_ = std::find(at_, end_, '\n');
   if (at_ == end_) return false;
   line_begin_ = word_ = ++at_;
@@ -85,13 +87,11 @@ float TextScanner::number() {
   if (text.empty()) fail("a number is missing");
   if (text.front() == '+') text.remove_prefix(1);
   double value = 0;
-  const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool is_number = error != std::errc::invalid_argument && rest == text.data() + text.size();
+  const auto [rest, error] = read_decimal(text.data(), text.data() + text.size(), value);
+  const bool is_number = error == std::errc{} && rest == text.data() + text.size();
   if (!is_number) fail(fmt::format("'{}' is not a number", one_line(text, 40)));
   const auto number = static_cast<float>(value);
-  if (error != std::errc{} || !std::isfinite(number)) {
-    fail(fmt::format("'{}' is not finite", one_line(text, 40)));
-  }
+  if (!std::isfinite(number)) fail(fmt::format("'{}' is not finite", one_line(text, 40)));
   return number;
 }
 

@@ -14,7 +14,7 @@ class TextScanner {
   /// `file`: for messages.
   TextScanner(std::string_view text, std::string file);
 
-  /// Passes over the rest of the line; false at the end of the text.
+  /// Passes over the rest of the line and of those that continue it; false at the end of the text.
   bool next_line();
   /// Whether the line has another word.
   bool has_word();
@@ -22,7 +22,8 @@ class TextScanner {
   std::string_view word();
   /// The rest of the line, without blanks around it.
   std::string_view rest();
-  /// The next word, which must be a number that is finite in float.
+  /// The next word, which must be a number that is finite in float; 0 where it is too small for
+  /// one.
   float number();
   /// The next three numbers.
   Vec3 vec3();

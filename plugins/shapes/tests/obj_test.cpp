@@ -54,6 +54,14 @@ TEST_CASE("OBJ: comments, continued lines, blanks and what says nothing of surfa
   CHECK(mesh.positions == std::vector<Point3>{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
 }
 
+TEST_CASE("OBJ: a statement ends with its last continued line, though what is there is not used") {
+  const TriangleMesh mesh = read(
+      "v 1 2 3 \\\n1.0\nv 0 1 0 \\\r\n\\\r\n0.5 0.5 0.5\nvt 0.5 0.5 \\\n0\n"
+      "vn 0 0 1 \\\n # weight \\\nv 1e-400 -1e-60 1\nf 1/1/1 2/1/1 3/1/1\n");
+  CHECK(mesh.positions == std::vector<Point3>{{1, 2, 3}, {0, 1, 0}, {0, 0, 1}});
+  CHECK(refusal("v 0 0 0 \\\n1\nv 0 0\n") == "a.obj:3:6: error: a number is missing");
+}
+
 TEST_CASE("OBJ: objects and groups are parts, and positions are counted through the file") {
   const std::string text = kSquare +
                            "f 1 2 3\n"

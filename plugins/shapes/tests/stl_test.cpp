@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <doctest/doctest.h>
 
 #include <pharos/tests/fixtures.h>
@@ -44,11 +46,15 @@ TEST_CASE("STL: text and binary files say the same, and the order of vertices co
   }
 }
 
-TEST_CASE("STL: a text may hold several solids, a facet stand on one line") {
+TEST_CASE("STL: a text may hold several solids, a facet stand on one line or on many") {
   const std::string line =
       "facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop endfacet ";
   CHECK(read("solid\n" + line + line + "endsolid x\nsolid facet\n" + line + "endsolid")
             .triangles.size() == 3);
+  std::string column = line;
+  std::replace(column.begin(), column.end(), ' ', '\n');
+  CHECK(read("solid\n" + column + "endsolid").positions ==
+        std::vector<Point3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
   CHECK(read("solid nothing\nendsolid\n").triangles.empty());
 }
 
@@ -68,7 +74,9 @@ TEST_CASE("STL: what is damaged is refused with its line or triangle") {
   CHECK(refusal("solid a\nendsolid\nfacet\n") ==
         "a.stl:3:1: error: expected 'solid', found 'facet'");
   CHECK(refusal("solid a\n" + test::with(kFacet, "1.5 0 0", "1.5 0")) ==
-        "a.stl:5:15: error: a number is missing");
+        "a.stl:6:3: error: 'vertex' is not a number");
+  CHECK(refusal("solid a\nfacet normal 0 0 1 outer loop vertex 0 0\n") ==
+        "a.stl:3:1: error: a number is missing");
   CHECK(refusal("solid a\n" + test::with(kFacet, "1.5", "1.5.1")) ==
         "a.stl:5:10: error: '1.5.1' is not a number");
   CHECK(refusal("solid a\n" + test::with(kFacet, "1.5", "inf")) ==
