@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <charconv>
 #include <cstring>
 #include <string>
 #include <utility>
@@ -12,7 +11,9 @@
 
 #include <pharos/core/error.h>
 
+#include "decimal.h"
 #include "ply_header.h"
+#include "triangle_shape.h"
 
 namespace pharos {
 namespace {
@@ -36,12 +37,10 @@ class Numbers {
  private:
   bool next_word(double& value) {
     while (at_ < end_ && static_cast<unsigned char>(*at_) <= ' ') ++at_;
-    const auto [rest, error] = std::from_chars(at_, end_, value);
+    const auto [rest, error] = read_decimal(at_, end_, value);
     const bool ends_there = rest == end_ || static_cast<unsigned char>(*rest) <= ' ';
     at_ = rest;
-    // What overflows is for the caller to find not finite.
-    if (error == std::errc::result_out_of_range) value = kInfinity;
-    return error != std::errc::invalid_argument && ends_there;
+    return error == std::errc{} && ends_there;
   }
 
   bool next_binary(PlyType type, double& value) {
@@ -105,10 +104,7 @@ class PlyReader {
 
   TriangleMesh read() {
     for (const PlyElement& element : header_.elements) {
-      if (element.count > numbers_.left()) {
-        throw InputError(fmt::format("it ends before its {} elements '{}'", element.count,
-                                     one_line(element.name, 40)));
-      }
+      check_room(element);
       read_rows(element);
     }
     check_indices();
@@ -116,8 +112,17 @@ class PlyReader {
   }
 
  private:
+  /// Every property takes at least a byte.
+  void check_room(const PlyElement& element) const {
+    const std::uint64_t properties = element.properties.size();
+    if (properties == 0 || element.count <= numbers_.left() / properties) return;
+    throw InputError(fmt::format("it ends before its {} elements '{}'", element.count,
+                                 one_line(element.name, 40)));
+  }
+
   void read_rows(const PlyElement& element) {
     if (element.name == "vertex") find_columns(element);
+    if (element.properties.empty()) return;  // its rows take no bytes, however many there are
     for (row_ = 0; row_ < element.count; ++row_) {
       if (element.name == "vertex") {
         read_vertex(element);
@@ -199,6 +204,9 @@ class PlyReader {
 
   void read_polygon(const PlyElement& element, const PlyProperty& property) {
     const std::uint64_t corners = list_size(element, property);
+    const std::uint64_t triangles =
+        mesh_.triangles.size() + std::max<std::uint64_t>(corners, 2) - 2;
+    check_triangle_count(static_cast<double>(triangles), "it");
     std::uint32_t first = 0, last = 0;
     for (std::uint64_t i = 0; i < corners; ++i) {
       const double value = number(element, property.type);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <charconv>
+#include <set>
 #include <sstream>
 #include <utility>
 
@@ -43,7 +44,8 @@ class HeaderParser {
         has_format = true;
       } else if (keyword == "element") {
         header_.elements.push_back(element(words));
-      } else if (keyword == "property" && !header_.elements.empty()) {
+      } else if (keyword == "property") {
+        if (header_.elements.empty()) fail("belongs to no element");
         header_.elements.back().properties.push_back(property(words));
       } else if (!keyword.empty() && keyword != "comment" && keyword != "obj_info") {
         fail("is unknown");
@@ -79,10 +81,11 @@ class HeaderParser {
     fail("names no known format");
   }
 
-  PlyElement element(std::istringstream& words) const {
+  PlyElement element(std::istringstream& words) {
     PlyElement element;
     std::string count;
     words >> element.name >> count;
+    if (!names_.insert(element.name).second) fail("names an element for the second time");
     const auto [end, error] =
         std::from_chars(count.data(), count.data() + count.size(), element.count);
     if (error != std::errc{} || end != count.data() + count.size()) fail("has no valid count");
@@ -115,6 +118,7 @@ class HeaderParser {
   std::string line_;
   int line_number_ = 0;
   PlyHeader header_;
+  std::set<std::string> names_;  ///< of the elements so far
 };
 
 }  // namespace

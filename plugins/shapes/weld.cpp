@@ -1,14 +1,45 @@
 #include "weld.h"
 
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <utility>
 #include <vector>
 
+#include <pharos/core/error.h>
+
 namespace pharos {
 namespace {
 
 constexpr std::uint32_t kNone = ~std::uint32_t{0};
+
+/// Position, normal and texture coordinates of a vertex; zeros where the mesh has none.
+using VertexBits = std::array<std::uint32_t, 8>;
+
+VertexBits bits_of(const TriangleMesh& mesh, std::uint32_t vertex) {
+  const Point3 p = mesh.positions[vertex];
+  const Vec3 n = mesh.normals.empty() ? Vec3{} : mesh.normals[vertex];
+  const Vec2 uv = mesh.uvs.empty() ? Vec2{} : mesh.uvs[vertex];
+  return std::bit_cast<VertexBits>(std::array{p.x, p.y, p.z, n.x, n.y, n.z, uv.x, uv.y});
+}
+
+std::uint64_t hash(const VertexBits& bits) {
+  std::uint64_t h = 0;
+  for (const std::uint32_t word : bits) {
+    h = (h ^ word) * 0x9e3779b97f4a7c15u;
+    h ^= h >> 32;
+  }
+  return h;
+}
+
+void check_sizes(const TriangleMesh& mesh) {
+  const auto fits = [&](const auto& list) {
+    return list.empty() || list.size() == mesh.positions.size();
+  };
+  if (!fits(mesh.normals) || !fits(mesh.uvs)) {
+    throw InputError("its vertices, normals and texture coordinates differ in number");
+  }
+}
 
 /// The vertices met so far, found by a hash of their bits.
 class Welder {
@@ -30,30 +61,12 @@ class Welder {
  private:
   /// Linear probing; the table is at most half full.
   std::uint32_t find_or_add(std::uint32_t vertex) {
-    std::size_t slot = hash(vertex) & (slots_.size() - 1);
+    const VertexBits bits = bits_of(mesh_, vertex);
+    std::size_t slot = hash(bits) & (slots_.size() - 1);
     for (; slots_[slot] != kNone; slot = (slot + 1) & (slots_.size() - 1)) {
-      if (same(vertex, slots_[slot])) return slots_[slot];
+      if (bits_of(result_, slots_[slot]) == bits) return slots_[slot];
     }
     return slots_[slot] = add(vertex);
-  }
-
-  std::uint64_t hash(std::uint32_t vertex) const {
-    std::uint64_t h = 0;
-    const auto mix = [&h](float v) {
-      h = (h ^ std::bit_cast<std::uint32_t>(v)) * 0x9e3779b97f4a7c15u;
-      h ^= h >> 32;
-    };
-    const auto mix_all = [&mix](Vec3 v) { mix(v.x), mix(v.y), mix(v.z); };
-    mix_all(mesh_.positions[vertex]);
-    if (!mesh_.normals.empty()) mix_all(mesh_.normals[vertex]);
-    if (!mesh_.uvs.empty()) mix(mesh_.uvs[vertex].x), mix(mesh_.uvs[vertex].y);
-    return h;
-  }
-
-  bool same(std::uint32_t vertex, std::uint32_t known) const {
-    return mesh_.positions[vertex] == result_.positions[known] &&
-           (mesh_.normals.empty() || mesh_.normals[vertex] == result_.normals[known]) &&
-           (mesh_.uvs.empty() || mesh_.uvs[vertex] == result_.uvs[known]);
   }
 
   std::uint32_t add(std::uint32_t vertex) {
@@ -72,6 +85,7 @@ class Welder {
 }  // namespace
 
 TriangleMesh welded(const TriangleMesh& mesh) {
+  check_sizes(mesh);
   Welder welder(mesh);
   std::vector<std::array<std::uint32_t, 3>> triangles;
   triangles.reserve(mesh.triangles.size());

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstring>
+#include <limits>
 
 #include <doctest/doctest.h>
 
@@ -8,6 +9,7 @@
 #include "../mesh.h"
 #include "../ply_file.h"
 #include "../weld.h"
+#include "gltf_test_kit.h"
 
 namespace pharos {
 namespace {
@@ -96,6 +98,9 @@ TEST_CASE("PLY: what is damaged is refused, naming the vertex or face") {
   CHECK(refusal("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n0\n") ==
         "its vertices lack x, y or z");
 
+  CHECK(refusal("ply\nformat ascii 1.0\nproperty float x\n") ==
+        "line 3 of its header, 'property float x', belongs to no element");
+
   const std::string whole = header("ascii", "3", "1");
   CHECK(refusal(whole + kTriangle) == "face 0 is cut off or not made of numbers");
   CHECK(refusal(whole + kTriangle + "3 0 1") == "face 0 is cut off or not made of numbers");
@@ -110,6 +115,43 @@ TEST_CASE("PLY: what is damaged is refused, naming the vertex or face") {
     CHECK(refusal(header(format, "4000000000", "1") + kTriangle) ==
           "it ends before its 4000000000 elements 'vertex'");
   }
+}
+
+TEST_CASE("PLY: an element comes once, so that every vertex has the same properties") {
+  const std::string normals = "property float nx\nproperty float ny\nproperty float nz\n";
+  const std::string begin = "ply\nformat ascii 1.0\nelement vertex 1\n" + kVertexHeader;
+  const std::string faces = "element face 1\nproperty list uchar int vertex_indices\n";
+  CHECK(refusal(begin + normals + "element vertex 2\n" + kVertexHeader + faces +
+                "end_header\n0 0 0 0 0 1\n1 0 0\n0 1 0\n3 0 1 2\n") ==
+        "line 10 of its header, 'element vertex 2', names an element for the second time");
+  CHECK(refusal(begin + faces + faces + "end_header\n0 0 0\n3 0 0 0\n3 0 0 0\n") ==
+        "line 9 of its header, 'element face 1', names an element for the second time");
+}
+
+TEST_CASE("PLY: counts are believed no further than the bytes reach") {
+  // Rows without properties take none: such a loop would not end.
+  const std::string empty = "element nothing 18446744073709551615\n";
+  const TriangleMesh mesh =
+      read_ply(test::with(header("ascii", "3", "1"), "element face", empty + "element face") +
+               kTriangle + "3 0 1 2\n");
+  CHECK(mesh.triangles.size() == 1);
+  CHECK(refusal("ply\nformat ascii 1.0\nelement vertex 9\nend_header\n" + kTriangle) ==
+        "its vertices lack x, y or z");
+  CHECK(refusal(header("ascii", "9", "1") + kTriangle) == "it ends before its 9 elements 'vertex'");
+  CHECK(refusal(header("ascii", "6148914691236517206", "1") + kTriangle) ==
+        "it ends before its 6148914691236517206 elements 'vertex'");
+
+  std::string many =
+      test::with(header("binary_little_endian", "0", "1"), "uchar int", "uint uchar");
+  append(many, std::uint32_t{200'000'003}, false);
+  many.resize(many.size() + 200'000'003);
+  CHECK(refusal(many) == "it would have 200000001 triangles; at most 200000000 are possible");
+}
+
+TEST_CASE("PLY: numbers too small for a float are 0") {
+  const TriangleMesh mesh =
+      read_ply(header("ascii", "3", "1") + "1e-400 -1e-60 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  CHECK(mesh.positions[0] == Point3{0, 0, 0});
 }
 
 TEST_CASE("PLY: a mesh names the file, has no parts, and needs triangles") {
@@ -146,6 +188,29 @@ TEST_CASE(
   }
   CHECK(joined.triangles[0][1] == joined.triangles[1][1]);
   CHECK(joined.triangles[0][2] != joined.triangles[1][0]);  // a seam of the texture
+}
+
+TEST_CASE(
+    "welding tells zeros apart by their sign, joins NaN, and refuses lists of other lengths") {
+  // As numbers all of these are equal.
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  TriangleMesh mesh;
+  for (int i = 0; i < 64; ++i) {
+    mesh.positions.push_back({i & 1 ? -0.0f : 0.0f, i & 2 ? -0.0f : 0.0f, i & 4 ? -0.0f : 0.0f});
+    mesh.normals.push_back({i & 8 ? -0.0f : 0.0f, i & 16 ? -0.0f : 0.0f, i & 32 ? -0.0f : 0.0f});
+    const auto k = static_cast<std::uint32_t>(i);
+    mesh.triangles.push_back({k, k, k});
+  }
+  CHECK(welded(mesh).positions.size() == 64);
+  for (Vec3& n : mesh.normals) n = {nan, nan, nan};
+  CHECK(welded(mesh).positions.size() == 8);
+
+  const std::string differ = "its vertices, normals and texture coordinates differ in number";
+  mesh.normals.pop_back();
+  CHECK(test::input_error([&] { welded(mesh); }) == differ);
+  mesh.normals.clear();
+  mesh.uvs.resize(65);
+  CHECK(test::input_error([&] { welded(mesh); }) == differ);
 }
 
 }  // namespace
