@@ -116,7 +116,14 @@ std::string_view GltfBuffers::bytes(const GltfValue& buffer) {
   return all.substr(0, size);
 }
 
+/// Compares no URI again, which may be as long as the file.
 std::string_view GltfBuffers::all_bytes(const GltfValue& buffer) {
+  const auto known = known_.find(buffer.place());
+  if (known != known_.end()) return known->second;
+  return known_.emplace(buffer.place(), find(buffer)).first->second;
+}
+
+std::string_view GltfBuffers::find(const GltfValue& buffer) {
   if (!buffer.has("uri")) {
     const bool is_chunk = chunks_.has_binary && buffer.place() == "buffers[0]";
     if (!is_chunk) buffer.fail("has no 'uri' and is no binary chunk of a GLB file");

@@ -36,11 +36,13 @@ class GltfBuffers {
 
  private:
   std::string_view all_bytes(const GltfValue& buffer);
+  std::string_view find(const GltfValue& buffer);
   std::string load(const GltfValue& uri) const;
 
   GltfChunks chunks_;
   std::filesystem::path folder_;
-  std::map<std::string_view, std::string> loaded_;  ///< by URI
+  std::map<std::string, std::string_view> known_;   ///< by place of the buffer
+  std::map<std::string_view, std::string> loaded_;  ///< by URI, which several buffers may share
 };
 
 }  // namespace pharos

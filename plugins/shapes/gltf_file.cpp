@@ -21,9 +21,11 @@ namespace {
 
 constexpr int kMostLevels = 500;
 
-/// Extensions without which the triangles of a file that needs them are not to be had.
-constexpr std::array<std::string_view, 3> kCompressions{
-    "KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression"};
+/// How the names of extensions begin that are read or leave the triangles as they are; any other
+/// that a file needs may place, hide or encode them.
+constexpr std::array<std::string_view, 9> kHarmless{
+    "KHR_mesh_quantization", "KHR_materials_", "KHR_texture_", "KHR_lights_",  "KHR_xmp",
+    "EXT_materials_",        "EXT_texture_",   "EXT_lights_",  "MSFT_texture_"};
 
 struct GltfMesh {
   std::string name;
@@ -64,8 +66,10 @@ void check_supported(const GltfValue& root) {
   const GltfValue required = root.member("extensionsRequired");
   for (std::size_t i = 0; i < required.size(); ++i) {
     const std::string& name = required.item(i).text();
-    if (std::find(kCompressions.begin(), kCompressions.end(), name) != kCompressions.end()) {
-      throw InputError(fmt::format("it is compressed by {}, which is not read", name));
+    const bool harmless = std::any_of(kHarmless.begin(), kHarmless.end(),
+                                      [&](auto prefix) { return name.starts_with(prefix); });
+    if (!harmless) {
+      throw InputError(fmt::format("it needs '{}', which is not read", one_line(name, 60)));
     }
   }
 }

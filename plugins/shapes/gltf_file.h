@@ -10,8 +10,9 @@ namespace pharos {
 /// one, with the transforms of all nodes applied. Its nodes and meshes are its parts. Numbers of
 /// every type that glTF has are read, also those of KHR_mesh_quantization; skins, morph targets and
 /// animations are passed over. Throws InputError, with the place in the JSON, for what is damaged
-/// or missing, compressed or sparse, for nodes that form no tree or one of more than 500 levels,
-/// and when there is no such part.
+/// or missing, or sparse, for extensions that the file needs and that may bear on its triangles,
+/// such as compression, for nodes that form no tree or one of more than 500 levels, and when there
+/// is no such part.
 TriangleMesh read_gltf(const MeshSource& source);
 
 }  // namespace pharos

@@ -18,9 +18,9 @@
 // them.
 //
 // A damaged file is an error that says where: no count in it is believed before the bytes are
-// there. glTF files may use every type of numbers, KHR_mesh_quantization included; compressed files
-// (KHR_draco_mesh_compression, EXT_meshopt_compression), sparse accessors and
-// EXT_mesh_gpu_instancing are refused by name.
+// there. glTF files may use every type of numbers, KHR_mesh_quantization included; sparse accessors
+// and EXT_mesh_gpu_instancing are refused by name, as are required extensions other than those of
+// materials, textures and lights (KHR_draco_mesh_compression, EXT_meshopt_compression, …).
 //
 //     type: mesh
 //     file: kitchen.glb

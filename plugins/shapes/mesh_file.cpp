@@ -46,11 +46,11 @@ const Format& format_of(const std::filesystem::path& path) {
 }
 
 TriangleMesh read_triangles(const std::filesystem::path& path, const std::string& part) {
-  const std::string bytes = read_regular_file(path);
   const Format& format = format_of(path);
   if (!part.empty() && !format.has_parts) {
     throw InputError(fmt::format("{} files have no parts", format.extension));
   }
+  const std::string bytes = read_regular_file(path);
   TriangleMesh mesh = format.read({path, bytes, part});
   if (mesh.triangles.empty()) throw InputError("it holds no triangles");
   return mesh;

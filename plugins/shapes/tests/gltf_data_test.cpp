@@ -163,6 +163,11 @@ TEST_CASE("glTF: a buffer is a chunk, base64 of any length, or a file beside") {
                              }) ==
         "buffers[0].uri is 'my bufer.bin': there is no such file (did you mean "
         "'my buffer.bin'?)");
+  // Two buffers of one file may be of different lengths.
+  const std::string shared = test::with(
+      test::with(json, "{\"buffer\": 0, \"byteOffset\": 36", "{\"buffer\": 1, \"byteOffset\": 36"),
+      "\"buffers\": [", "\"buffers\": [{\"byteLength\": 106, \"uri\": \"my%20buffer.bin\"}, ");
+  CHECK(read_gltf({folder / "a.gltf", shared, ""}).normals[1] == Vec3{0, 0, 1});
   CHECK(refusal(with_uri("/dev/zero")) ==
         "buffers[0].uri is '/dev/zero': it is not a regular file");
   CHECK(refusal(with_uri("data:text/plain,hello")) ==

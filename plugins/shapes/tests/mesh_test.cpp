@@ -117,6 +117,9 @@ TEST_CASE("other formats are refused with a list and the nearest") {
   CHECK(message("a.gltff", "") ==
         "mesh 'a.gltff': the format '.gltff' is not known (did you mean '.gltf'?)" + list);
   CHECK(message("mesh", "") == "mesh 'mesh': the format '' is not known" + list);
+  CHECK(test::input_error([] {
+          Mesh({.file = "/dev/zero"});
+        }).starts_with("mesh '/dev/zero': the format '' is not known"));  // nothing is read before
   CHECK(message("a.stl", "lid") == "mesh 'a.stl': .stl files have no parts");
   CHECK(message("a.ply", "lid") == "mesh 'a.ply': .ply files have no parts");
 }
