@@ -10,7 +10,7 @@
 
 #include "discrete_choice.h"
 #include "fresnel.h"
-#include "specular_factor.h"
+#include "parameters.h"
 
 namespace pharos {
 

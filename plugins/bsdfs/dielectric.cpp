@@ -9,12 +9,12 @@
 
 #include "discrete_choice.h"
 #include "fresnel.h"
-#include "specular_factor.h"
+#include "parameters.h"
 
 namespace pharos {
 
 void Dielectric::Settings::describe(Schema<Settings>& s) {
-  s.field("ior", &Settings::ior, "Refractive index inside over outside").above(0);
+  describe_ior(s, "Refractive index inside over outside");
   describe_factor(s, "specular_reflectance", &Settings::specular_reflectance,
                   "Factor on what is reflected");
   describe_factor(s, "specular_transmittance", &Settings::specular_transmittance,

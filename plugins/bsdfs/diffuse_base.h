@@ -4,19 +4,6 @@
 
 namespace pharos {
 
-/// Mean of f(cosine) over the cosine-weighted hemisphere, the integral of 2 c f(c) dc over [0, 1]
-/// [unit of f]. The midpoint rule is good to about 1e-6 for Fresnel's equations.
-template <class F>
-float hemisphere_mean(const F& f) {
-  constexpr int kPoints = 1024;
-  double sum = 0;
-  for (int i = 0; i < kPoints; ++i) {
-    const double cosine = (i + 0.5) / kPoints;
-    sum += 2 * cosine * double{f(static_cast<float>(cosine))};
-  }
-  return static_cast<float>(sum / kPoints);
-}
-
 /// A matt base under a clear coat. Light that enters through the coat is scattered by the base; a
 /// share of it leaves, the rest is reflected back onto the base by the coat's inner side, again and
 /// again. With the coat's transmittance T(c) from outside, its mean T' over the hemisphere, the
@@ -32,19 +19,20 @@ class DiffuseBase {
   /// `nonlinear` the base's colour does not deepen with every reflection: s(a) = a.
   DiffuseBase(float transmittance, float ior, bool nonlinear)
       : transmittance_(transmittance),
-        internal_(1 - transmittance / (ior * ior)),
+        escaping_(transmittance / (ior * ior)),
         nonlinear_(nonlinear) {}
 
   /// The share s(a) [1] of light in the coat that leaves it in the end.
   Rgb emerging(Rgb reflectance) const {
     if (!nonlinear_) return reflectance;
-    return (1 - internal_) * reflectance / (Rgb(1) - internal_ * reflectance);
+    // 1 - a F' in a form that keeps the digits of small 1 - F'.
+    return escaping_ * reflectance / (Rgb(1) - reflectance + escaping_ * reflectance);
   }
 
-  /// Value f |cos| over the density cos / pi [1], for the coat's transmittances towards both
-  /// directions.
-  Rgb weight(Rgb reflectance, float entering, float leaving) const {
-    return (entering * leaving / transmittance_) * emerging(reflectance);
+  /// Value f |cos| over the density cos / pi [1], for a share `emerging` and the coat's
+  /// transmittances towards both directions.
+  Rgb weight(Rgb emerging, float entering, float leaving) const {
+    return (entering * leaving / transmittance_) * emerging;
   }
 
   /// Share [1] of light from everywhere above that base and coat reflect together.
@@ -54,7 +42,7 @@ class DiffuseBase {
 
  private:
   float transmittance_;
-  float internal_;  ///< F'
+  float escaping_;  ///< 1 - F'
   bool nonlinear_;
 };
 

@@ -3,8 +3,13 @@
 // the side it came from. Both sides are alike. sample() chooses between them by the mean of the
 // channels.
 //
+// The two must not add up to more than 1. Of uniform colours that is tested in each channel; of a
+// texture that varies only its largest value is known, which stands for all channels and places.
+//
 //     { type: diffuse_transmitter, transmittance: [0.2, 0.4, 0.05], reflectance: 0.3 }
 #include "diffuse_transmitter.h"
+
+#include <cmath>
 
 #include <fmt/core.h>
 
@@ -12,6 +17,26 @@
 #include <pharos/core/warp.h>
 
 namespace pharos {
+namespace {
+
+/// A bound of `texture` in each channel: its colour if it is uniform, as far as probes can tell,
+/// and else its largest value.
+Rgb upper_bound(const Texture& texture) {
+  const Rgb average = texture.average();
+  constexpr int kProbes = 64;
+  for (int i = 0; i < kProbes; ++i) {
+    // Points that fill the square evenly (Roberts 2018, "The Unreasonable Effectiveness of
+    // Quasirandom Sequences").
+    const float x = 0.7548777f * static_cast<float>(i), y = 0.5698403f * static_cast<float>(i);
+    SurfacePoint point;
+    point.uv = {x - std::floor(x), y - std::floor(y)};
+    point.position = {point.uv.x, point.uv.y, 0};
+    if (texture.evaluate(point) != average) return Rgb(texture.maximum());
+  }
+  return average;
+}
+
+}  // namespace
 
 void DiffuseTransmitter::Settings::describe(Schema<Settings>& s) {
   s.field("transmittance", &Settings::transmittance, "Share of light that is let through")
@@ -25,13 +50,15 @@ void DiffuseTransmitter::Settings::describe(Schema<Settings>& s) {
 }
 
 DiffuseTransmitter::DiffuseTransmitter(const Settings& settings) : settings_(settings) {
-  const float transmitted = settings.transmittance->maximum();
-  const float reflected = settings.reflectance->maximum();
-  if (transmitted + reflected <= 1) return;
-  throw InputError(
-      fmt::format("transmittance and reflectance must not add up to more than 1, but reach {:.4g} "
-                  "and {:.4g}",
-                  transmitted, reflected));
+  const Rgb transmitted = upper_bound(*settings.transmittance);
+  const Rgb reflected = upper_bound(*settings.reflectance);
+  for (int c = 0; c < 3; ++c) {
+    if (transmitted[c] + reflected[c] <= 1) continue;
+    throw InputError(
+        fmt::format("transmittance and reflectance must not add up to more than 1, but their "
+                    "largest values are {:.4g} and {:.4g}",
+                    transmitted[c], reflected[c]));
+  }
 }
 
 EventMask DiffuseTransmitter::events() const {

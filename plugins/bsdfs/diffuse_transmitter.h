@@ -16,7 +16,7 @@ class DiffuseTransmitter final : public Bsdf {
     Ref<Texture> reflectance;
     static void describe(Schema<Settings>& s);
   };
-  /// Throws InputError when more light might leave than arrives.
+  /// Throws InputError when more light might leave than arrives; see the .cpp for what is tested.
   explicit DiffuseTransmitter(const Settings& settings);
 
   EventMask events() const override;

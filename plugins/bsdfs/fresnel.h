@@ -6,6 +6,8 @@
 #include <pharos/core/rgb.h>
 #include <pharos/core/vec.h>
 
+#include "hemisphere_mean.h"
+
 namespace pharos {
 
 /// What a smooth interface does with unpolarised light.
@@ -29,14 +31,7 @@ inline DielectricFresnel dielectric_fresnel(float cos_incident, float eta) {
 
 /// Mean of dielectric_fresnel over the cosine-weighted hemisphere of incident directions [1].
 inline float average_dielectric_fresnel(float eta) {
-  constexpr int kPoints = 64;
-  float sum = 0;
-  for (int i = 0; i < kPoints; ++i) {
-    // The square of the cosine is uniform.
-    const float cos_squared = (static_cast<float>(i) + 0.5f) / kPoints;
-    sum += dielectric_fresnel(std::sqrt(cos_squared), eta).reflectance;
-  }
-  return sum / kPoints;
+  return hemisphere_mean([eta](float c) { return dielectric_fresnel(c, eta).reflectance; });
 }
 
 /// Exact reflectance [1] of a conductor of complex index eta - i k seen from vacuum, unpolarised;
@@ -44,6 +39,7 @@ inline float average_dielectric_fresnel(float eta) {
 /// n_t cos_t = a - i b (Born and Wolf 1999, section 14.2).
 inline float conductor_fresnel(float cos_incident, float eta, float k) {
   const float cos_squared = cos_incident * cos_incident;
+  if (cos_squared == 0) return 1;  // at grazing incidence; what follows may be 0 / 0
   const float sin_squared = std::max(0.0f, 1 - cos_squared);
   const float difference = eta * eta - k * k - sin_squared;  // a^2 - b^2
   const float twice_product = 2 * eta * k;                   // 2 a b

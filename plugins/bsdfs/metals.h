@@ -41,13 +41,17 @@ ComplexIor stated_ior(std::optional<Metal> material, std::optional<Rgb> eta, std
 /// Mean reflectance over the cosine-weighted hemisphere of incident directions [1], approximately.
 Rgb average_conductor_fresnel(const ComplexIor& ior);
 
-/// Declares the parameters `material`, `eta` and `k` of a BSDF of metal.
+/// Declares the parameters `material`, `eta` and `k` of a BSDF of metal. Within their ranges, far
+/// beyond those of metals, conductor_fresnel() neither overflows nor vanishes to 0 / 0.
 template <class Settings>
 void describe_metal(Schema<Settings>& s) {
   s.field("material", &Settings::material, "Measured metal; Cu where neither it nor eta, k stand");
   s.field("eta", &Settings::eta, "Real part of the refractive index, with k instead of material")
-      .above(0);
-  s.field("k", &Settings::k, "Imaginary part of the refractive index, with eta").at_least(0);
+      .at_least(1e-4)
+      .at_most(1e4);
+  s.field("k", &Settings::k, "Imaginary part of the refractive index, with eta")
+      .at_least(0)
+      .at_most(1e4);
 }
 
 }  // namespace pharos

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <pharos/config/values.h>
 #include <pharos/core/vec.h>
@@ -19,6 +20,16 @@ struct EnumNames<Masking> {
   static constexpr std::array<std::pair<std::string_view, Masking>, 2> names{
       {{"height_correlated", Masking::height_correlated}, {"separable", Masking::separable}}};
 };
+
+/// The unit vector halfway between two directions with z > 0; nothing where both are so nearly
+/// level and opposite that no digit of it is left.
+inline std::optional<Vec3> half_vector(Vec3 wo, Vec3 wi) {
+  const Vec3 half = wo + wi;
+  const float squared = length_squared(half);
+  constexpr float kDegenerate = 1e-12f;
+  if (squared < kDegenerate) return {};
+  return half / std::sqrt(squared);
+}
 
 /// Euler's beta function B(a, b) for a, b in [1, 1e18], to about 1e-5 of its value: Stirling's
 /// formula for all three Gamma functions, joined so that large arguments do not cancel.

@@ -16,12 +16,13 @@
 #include <pharos/core/warp.h>
 
 #include "fresnel.h"
-#include "specular_factor.h"
+#include "hemisphere_mean.h"
+#include "parameters.h"
 
 namespace pharos {
 
 void Plastic::Settings::describe(Schema<Settings>& s) {
-  s.field("ior", &Settings::ior, "Refractive index of the coat over that outside").at_least(1);
+  describe_coat_ior(s);
   s.field("reflectance", &Settings::reflectance, "Share of light that the base reflects")
       .otherwise("0.5")
       .check("at most 1 everywhere", [](const Ref<Texture>& t) { return t->maximum() <= 1; });
@@ -42,50 +43,53 @@ float Plastic::coat(float cosine) const {
   return dielectric_fresnel(std::min(1.0f, cosine), settings_.ior).reflectance;
 }
 
-LobeChoice Plastic::lobes(const SurfacePoint& point, float cosine, EventMask allowed) const {
-  const float reflected = coat(cosine);
-  const bool mirrors = contains(allowed, Event::discrete_reflect);
-  const bool scatters = contains(allowed, Event::smooth_reflect);
-  return {mirrors ? reflected * mean(settings_.specular_reflectance->evaluate(point)) : 0,
-          scatters ? (1 - reflected) * mean(base_.emerging(settings_.reflectance->evaluate(point)))
-                   : 0};
+Plastic::Layers Plastic::layers(const SurfacePoint& point, float cosine, EventMask allowed) const {
+  const auto value = [&](Event event, const Texture& texture) {
+    return contains(allowed, event) ? texture.evaluate(point) : Rgb();
+  };
+  const float reflected = coat(cosine), entering = 1 - reflected;
+  const Rgb mirrored = reflected * value(Event::discrete_reflect, *settings_.specular_reflectance);
+  const Rgb emerging = base_.emerging(value(Event::smooth_reflect, *settings_.reflectance));
+  return {mirrored, emerging, entering, {mean(mirrored), entering * mean(emerging)}};
+}
+
+ScatterValue Plastic::scattered(const Layers& layers, Vec3 wi) const {
+  if (wi.z <= 0) return {};
+  const float density = warp::cosine_hemisphere_pdf(wi.z);
+  return {density * base_.weight(layers.emerging, layers.entering, 1 - coat(wi.z)),
+          density * layers.choice.second()};
 }
 
 ScatterValue Plastic::evaluate(const SurfacePoint& point, Vec3 wo, Vec3 wi,
                                ScatterOptions options) const {
   if (wo.z <= 0 || wi.z <= 0 || !contains(options.events, Event::smooth_reflect)) return {};
-  const float density = warp::cosine_hemisphere_pdf(wi.z);
-  const Rgb weight =
-      base_.weight(settings_.reflectance->evaluate(point), 1 - coat(wo.z), 1 - coat(wi.z));
-  return {density * weight, density * lobes(point, wo.z, options.events).second()};
+  return scattered(layers(point, wo.z, options.events), wi);
 }
 
 std::optional<ScatterSample> Plastic::sample(const SurfacePoint& point, Vec3 wo, float u_choice,
                                              Vec2 u, ScatterOptions options) const {
   if (wo.z <= 0) return {};
-  const LobeChoice choice = lobes(point, wo.z, options.events);
-  if (choice.nothing()) return {};
-  if (choice.takes_first(u_choice)) {
-    const DiscreteOutcome mirrored = discrete(point, wo, options).outcomes[0];
-    return ScatterSample{mirrored.direction, mirrored.event, mirrored.value / mirrored.probability,
-                         mirrored.probability};
+  const Layers all = layers(point, wo.z, options.events);
+  if (all.choice.nothing()) return {};
+  if (all.choice.takes_first(u_choice)) {
+    const float probability = all.choice.first();
+    return ScatterSample{
+        {-wo.x, -wo.y, wo.z}, Event::discrete_reflect, all.mirrored / probability, probability};
   }
   const Vec3 wi = warp::cosine_hemisphere_from_square(u);
-  const ScatterValue scattered = evaluate(point, wo, wi, options);
-  if (scattered.pdf == 0) return {};
-  return ScatterSample{wi, Event::smooth_reflect, scattered.value / scattered.pdf, scattered.pdf};
+  const ScatterValue value = scattered(all, wi);
+  if (value.pdf == 0) return {};
+  return ScatterSample{wi, Event::smooth_reflect, value.value / value.pdf, value.pdf};
 }
 
 DiscreteOutcomes Plastic::discrete(const SurfacePoint& point, Vec3 wo,
                                    ScatterOptions options) const {
   DiscreteOutcomes outcomes;
   if (wo.z <= 0) return outcomes;
-  const float probability = lobes(point, wo.z, options.events).first();
+  const Layers all = layers(point, wo.z, options.events);
+  const float probability = all.choice.first();
   if (probability == 0) return outcomes;
-  outcomes.add({Event::discrete_reflect,
-                {-wo.x, -wo.y, wo.z},
-                coat(wo.z) * settings_.specular_reflectance->evaluate(point),
-                probability});
+  outcomes.add({Event::discrete_reflect, {-wo.x, -wo.y, wo.z}, all.mirrored, probability});
   return outcomes;
 }
 

@@ -19,14 +19,10 @@ float RoughCoat::transmittance(float cosine) const {
 }
 
 RoughCoat::Reflection RoughCoat::reflect(Vec3 wo, Vec3 wi) const {
-  const Vec3 half = wo + wi;
-  const float squared = length_squared(half);
-  // Both directions so nearly level and opposite that no digit of the half vector is left.
-  constexpr float kDegenerate = 1e-12f;
-  if (squared < kDegenerate) return {};
-  const Vec3 m = half / std::sqrt(squared);
-  const float fresnel = dielectric_fresnel(std::min(1.0f, dot(wo, m)), ior_).reflectance;
-  return {fresnel * facets_.shadowing(wo, wi, masking_), facets_.visible_reflection_pdf(wo, m)};
+  const std::optional<Vec3> m = half_vector(wo, wi);
+  if (!m) return {};
+  const float fresnel = dielectric_fresnel(std::min(1.0f, dot(wo, *m)), ior_).reflectance;
+  return {fresnel * facets_.shadowing(wo, wi, masking_), facets_.visible_reflection_pdf(wo, *m)};
 }
 
 Vec3 RoughCoat::sample(Vec3 wo, Vec2 u) const {

@@ -15,7 +15,7 @@
 #include "rough_conductor.h"
 
 #include "fresnel.h"
-#include "specular_factor.h"
+#include "parameters.h"
 
 namespace pharos {
 
@@ -57,16 +57,12 @@ std::optional<ScatterSample> RoughConductor::sample(const SurfacePoint& point, V
 
 RoughConductor::Reflection RoughConductor::reflect(const SurfacePoint& point, Vec3 wo,
                                                    Vec3 wi) const {
-  const Vec3 half = wo + wi;
-  const float squared = length_squared(half);
-  // Both directions so nearly level and opposite that no digit of the half vector is left.
-  constexpr float kDegenerate = 1e-12f;
-  if (squared < kDegenerate) return {};
-  const Vec3 m = half / std::sqrt(squared);
+  const std::optional<Vec3> m = half_vector(wo, wi);
+  if (!m) return {};
   const float shadowing = facets_.shadowing(wo, wi, settings_.masking);
-  const Rgb fresnel = conductor_fresnel(std::min(1.0f, dot(wo, m)), ior_.eta, ior_.k);
+  const Rgb fresnel = conductor_fresnel(std::min(1.0f, dot(wo, *m)), ior_.eta, ior_.k);
   return {shadowing * fresnel * settings_.specular_reflectance->evaluate(point),
-          facets_.visible_reflection_pdf(wo, m)};
+          facets_.visible_reflection_pdf(wo, *m)};
 }
 
 Rgb RoughConductor::albedo(const SurfacePoint& point) const {

@@ -23,7 +23,7 @@
 #include <pharos/core/error.h>
 
 #include "fresnel.h"
-#include "specular_factor.h"
+#include "parameters.h"
 
 namespace pharos {
 namespace {
@@ -48,7 +48,7 @@ Vec3 turned(Vec3 w, Vec3 wo) {
 
 void RoughDielectric::Settings::describe(Schema<Settings>& s) {
   s.field("alpha", &Settings::alpha, "GGX roughness").at_least(1e-4).at_most(1);
-  s.field("ior", &Settings::ior, "Refractive index inside over outside").above(0);
+  describe_ior(s, "Refractive index inside over outside");
   s.field("masking", &Settings::masking, "How masking and shadowing are combined");
   describe_factor(s, "specular_reflectance", &Settings::specular_reflectance,
                   "Factor on what is reflected");
@@ -111,18 +111,14 @@ RoughDielectric::Scattering RoughDielectric::scatter(const SurfacePoint& point, 
 
 RoughDielectric::Scattering RoughDielectric::reflect(const SurfacePoint& point, Vec3 wo, Vec3 wi,
                                                      float eta, EventMask events) const {
-  const Vec3 half = wo + wi;
-  const float squared = length_squared(half);
-  // Both directions so nearly level and opposite that no digit of the half vector is left.
-  constexpr float kDegenerate = 1e-12f;
-  if (squared < kDegenerate) return {};
-  const Vec3 m = half / std::sqrt(squared);
-  const float fresnel = dielectric_fresnel(std::min(1.0f, dot(wo, m)), eta).reflectance;
+  const std::optional<Vec3> m = half_vector(wo, wi);
+  if (!m) return {};
+  const float fresnel = dielectric_fresnel(std::min(1.0f, dot(wo, *m)), eta).reflectance;
   const float probability = reflect_probability(fresnel, events);
   if (probability == 0) return {};
   const float share = fresnel / probability * facets_.shadowing(wo, wi, settings_.masking);
   return {share * settings_.specular_reflectance->evaluate(point),
-          probability * facets_.visible_reflection_pdf(wo, m)};
+          probability * facets_.visible_reflection_pdf(wo, *m)};
 }
 
 RoughDielectric::Scattering RoughDielectric::refract(const SurfacePoint& point, Vec3 wo, Vec3 wi,

@@ -15,13 +15,14 @@
 #include <pharos/config/registry.h>
 #include <pharos/core/warp.h>
 
-#include "specular_factor.h"
+#include "hemisphere_mean.h"
+#include "parameters.h"
 
 namespace pharos {
 
 void RoughPlastic::Settings::describe(Schema<Settings>& s) {
   s.field("alpha", &Settings::alpha, "GGX roughness of the coat").at_least(1e-4).at_most(1);
-  s.field("ior", &Settings::ior, "Refractive index of the coat over that outside").at_least(1);
+  describe_coat_ior(s);
   s.field("reflectance", &Settings::reflectance, "Share of light that the base reflects")
       .otherwise("0.5")
       .check("at most 1 everywhere", [](const Ref<Texture>& t) { return t->maximum() <= 1; });
@@ -40,36 +41,40 @@ RoughPlastic::RoughPlastic(const Settings& settings)
       base_(hemisphere_mean([this](float cosine) { return coat_.transmittance(cosine); }),
             settings.ior, settings.nonlinear) {}
 
-LobeChoice RoughPlastic::lobes(const SurfacePoint& point, float cosine) const {
+RoughPlastic::Layers RoughPlastic::layers(const SurfacePoint& point, float cosine) const {
+  const Rgb specular = settings_.specular_reflectance->evaluate(point);
+  const Rgb emerging = base_.emerging(settings_.reflectance->evaluate(point));
   const float entering = coat_.transmittance(cosine);
-  return {(1 - entering) * mean(settings_.specular_reflectance->evaluate(point)),
-          entering * mean(base_.emerging(settings_.reflectance->evaluate(point)))};
+  return {
+      specular, emerging, entering, {(1 - entering) * mean(specular), entering * mean(emerging)}};
+}
+
+ScatterValue RoughPlastic::scattered(const Layers& layers, Vec3 wo, Vec3 wi) const {
+  if (wi.z <= 0) return {};
+  const RoughCoat::Reflection mirrored = coat_.reflect(wo, wi);
+  const float density = warp::cosine_hemisphere_pdf(wi.z);
+  const Rgb base = base_.weight(layers.emerging, layers.entering, coat_.transmittance(wi.z));
+  return {mirrored.pdf * mirrored.weight * layers.specular + density * base,
+          mirrored.pdf * layers.choice.first() + density * layers.choice.second()};
 }
 
 ScatterValue RoughPlastic::evaluate(const SurfacePoint& point, Vec3 wo, Vec3 wi,
                                     ScatterOptions options) const {
   if (wo.z <= 0 || wi.z <= 0 || !contains(options.events, Event::smooth_reflect)) return {};
-  const LobeChoice choice = lobes(point, wo.z);
-  const RoughCoat::Reflection mirrored = coat_.reflect(wo, wi);
-  const float density = warp::cosine_hemisphere_pdf(wi.z);
-  const Rgb coat = mirrored.weight * settings_.specular_reflectance->evaluate(point);
-  const Rgb base = base_.weight(settings_.reflectance->evaluate(point), coat_.transmittance(wo.z),
-                                coat_.transmittance(wi.z));
-  return {mirrored.pdf * coat + density * base,
-          mirrored.pdf * choice.first() + density * choice.second()};
+  return scattered(layers(point, wo.z), wo, wi);
 }
 
 std::optional<ScatterSample> RoughPlastic::sample(const SurfacePoint& point, Vec3 wo,
                                                   float u_choice, Vec2 u,
                                                   ScatterOptions options) const {
-  if (wo.z <= 0) return {};
-  const LobeChoice choice = lobes(point, wo.z);
-  if (choice.nothing()) return {};
-  const Vec3 wi =
-      choice.takes_first(u_choice) ? coat_.sample(wo, u) : warp::cosine_hemisphere_from_square(u);
-  const ScatterValue scattered = evaluate(point, wo, wi, options);
-  if (scattered.pdf == 0) return {};
-  return ScatterSample{wi, Event::smooth_reflect, scattered.value / scattered.pdf, scattered.pdf};
+  if (wo.z <= 0 || !contains(options.events, Event::smooth_reflect)) return {};
+  const Layers all = layers(point, wo.z);
+  if (all.choice.nothing()) return {};
+  const Vec3 wi = all.choice.takes_first(u_choice) ? coat_.sample(wo, u)
+                                                   : warp::cosine_hemisphere_from_square(u);
+  const ScatterValue value = scattered(all, wo, wi);
+  if (value.pdf == 0) return {};
+  return ScatterSample{wi, Event::smooth_reflect, value.value / value.pdf, value.pdf};
 }
 
 Rgb RoughPlastic::albedo(const SurfacePoint& point) const {

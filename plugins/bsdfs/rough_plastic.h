@@ -33,8 +33,16 @@ class RoughPlastic final : public Bsdf {
   Rgb albedo(const SurfacePoint& point) const override;
 
  private:
-  /// The coat first, the base second.
-  LobeChoice lobes(const SurfacePoint& point, float cosine) const;
+  /// What light from one direction meets at a point.
+  struct Layers {
+    Rgb specular;       ///< factor on what the coat mirrors [1]
+    Rgb emerging;       ///< share of what has entered that leaves in the end [1]
+    float entering;     ///< share that enters the coat [1]
+    LobeChoice choice;  ///< the coat first, the base second
+  };
+  Layers layers(const SurfacePoint& point, float cosine) const;
+  /// What both layers send to `wi`.
+  ScatterValue scattered(const Layers& layers, Vec3 wo, Vec3 wi) const;
 
   Settings settings_;
   RoughCoat coat_;

@@ -13,20 +13,22 @@
 
 #include "discrete_choice.h"
 #include "fresnel.h"
-#include "specular_factor.h"
+#include "hemisphere_mean.h"
+#include "parameters.h"
 
 namespace pharos {
 namespace {
 
-/// What a pane reflects, given what one of its faces does [1].
-float with_interreflection(float fresnel) {
+/// The share [1] that a pane reflects at `cosine` to its normal, in [0, 1].
+float pane_reflectance(float cosine, float ior) {
+  const float fresnel = dielectric_fresnel(cosine, ior).reflectance;
   return 2 * fresnel / (1 + fresnel);
 }
 
 }  // namespace
 
 void ThinDielectric::Settings::describe(Schema<Settings>& s) {
-  s.field("ior", &Settings::ior, "Refractive index of the pane over its surroundings").above(0);
+  describe_ior(s, "Refractive index of the pane over its surroundings");
   describe_factor(s, "specular_reflectance", &Settings::specular_reflectance,
                   "Factor on what is reflected");
   describe_factor(s, "specular_transmittance", &Settings::specular_transmittance,
@@ -37,14 +39,13 @@ void ThinDielectric::Settings::describe(Schema<Settings>& s) {
 
 ThinDielectric::ThinDielectric(const Settings& settings)
     : settings_(settings),
-      average_reflected_(with_interreflection(average_dielectric_fresnel(settings.ior))) {}
+      average_reflected_(
+          hemisphere_mean([&](float cosine) { return pane_reflectance(cosine, settings.ior); })) {}
 
 DiscreteOutcomes ThinDielectric::discrete(const SurfacePoint& point, Vec3 wo,
                                           ScatterOptions options) const {
   if (wo.z == 0) return {};
-  const float cosine = std::min(1.0f, std::abs(wo.z));
-  const float reflected =
-      with_interreflection(dielectric_fresnel(cosine, settings_.ior).reflectance);
+  const float reflected = pane_reflectance(std::min(1.0f, std::abs(wo.z)), settings_.ior);
   const float transmitted = 1 - reflected;
   return allowed_outcomes(
       {Event::discrete_reflect,

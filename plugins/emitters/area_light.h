@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <utility>
 
 #include <pharos/config/registry.h>
@@ -59,7 +60,8 @@ class AreaLight final : public Light {
   }
 
   Rgb radiance(const SurfacePoint& point, Vec3 direction) const override {
-    const float cosine = dot(direction, point.normal);
+    // Of two rounded unit vectors the product may exceed one, which narrow lobes magnify.
+    const float cosine = std::min(1.0f, dot(direction, point.normal));
     if (cosine <= 0) return {};
     return scale_ * lobe_(cosine) * radiance_.evaluate(point);
   }

@@ -6,7 +6,8 @@
 //     smooth:  with a Hermite step 3 t^2 - 2 t^3 in t = (cos a - cos c) / (cos b - cos c), as pbrt
 //
 // where b is the beam's width, c the cutoff and a the angle from the axis. Both angles are measured
-// from the axis: a cutoff of 20 degrees makes a cone 40 degrees wide. No path runs into it by
+// from the axis: a cutoff of 20 degrees makes a cone 40 degrees wide. A cutoff below 0.001 degrees
+// is refused: single precision resolves directions to about 0.00001. No path runs into the light by
 // chance: next event estimation alone finds it.
 //
 //     emitters:
@@ -53,14 +54,23 @@ class SpotLight final : public Light {
     if (angle <= beam_) return 1;
     if (angle >= cutoff_) return 0;
     if (falloff_ == SpotFalloff::linear) return (cutoff_ - angle) / (cutoff_ - beam_);
-    const float t = (std::cos(angle) - std::cos(cutoff_)) / (std::cos(beam_) - std::cos(cutoff_));
+    const float t = above_cutoff(angle) / above_cutoff(beam_);
     return t * t * (3 - 2 * t);
+  }
+
+  /// Half of cos a - cos c for an `angle` a up to the cutoff c, as a product, since the difference
+  /// has no digits left where both are small.
+  float above_cutoff(float angle) const {
+    return std::sin(0.5f * (cutoff_ + angle)) * std::sin(0.5f * (cutoff_ - angle));
   }
 
   /// The integral of share() over solid angle, by 2 pi [sr].
   double integrated_share() const {
     const double b = beam_, c = cutoff_;
-    if (falloff_ == SpotFalloff::smooth) return 1 - (std::cos(b) + std::cos(c)) / 2;
+    if (falloff_ == SpotFalloff::smooth) {
+      const double sin_b = std::sin(b / 2), sin_c = std::sin(c / 2);
+      return sin_b * sin_b + sin_c * sin_c;  // 1 - (cos b + cos c) / 2
+    }
     // 1 - (sin c - sin b) / (c - b), which the second form lets b reach c.
     const double half = (c - b) / 2;
     const double sinc = half > 0 ? std::sin(half) / half : 1;
@@ -80,7 +90,7 @@ void SpotEmitter::Settings::describe(Schema<Settings>& s) {
   s.field("intensity", &Settings::intensity, "Intensity within the beam").unit("W/sr").at_least(0);
   s.field("cutoff_angle", &Settings::cutoff_angle, "Angle from the axis beyond which it is dark")
       .unit("degrees")
-      .above(0)
+      .at_least(0.001)
       .at_most(180);
   s.field("beam_width", &Settings::beam_width,
           "Angle from the axis up to which it is brightest; at most cutoff_angle")

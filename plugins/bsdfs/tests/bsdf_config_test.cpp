@@ -71,6 +71,25 @@ TEST_CASE("materials: defaults are matt") {
   CHECK(build("two_sided", context)->albedo({}) == Rgb(0.5f));
 }
 
+TEST_CASE("materials: finite at the ends of the ranges of refractive indices") {
+  for (const char* yaml :
+       {"{ type: conductor, eta: 1e-4, k: 0 }", "{ type: conductor, eta: 1e4, k: 1e4 }",
+        "{ type: rough_conductor, eta: 1e-4, k: 1e4 }", "{ type: dielectric, ior: 0.01 }",
+        "{ type: dielectric, ior: 100 }", "{ type: rough_dielectric, ior: 0.01 }",
+        "{ type: rough_dielectric, ior: 100 }", "{ type: thin_dielectric, ior: 0.01 }",
+        "{ type: thin_dielectric, ior: 100 }",
+        "{ type: plastic, ior: 100, reflectance: 1, nonlinear: true }",
+        "{ type: rough_plastic, ior: 100, reflectance: 1, nonlinear: true }"}) {
+    CAPTURE(yaml);
+    const Ref<Bsdf> bsdf = build(yaml);
+    CHECK(is_finite(bsdf->albedo({})));
+    CHECK(max_component(bsdf->albedo({})) <= 1.0001f);
+    for (const double theta : {0.0, 60.0, 89.9, 100.0, 180.0}) {
+      test::check_samples(*bsdf, test::direction(theta, 30), {});
+    }
+  }
+}
+
 TEST_CASE("materials: wrong settings say what is wrong, and where") {
   const auto fails = [](const std::string& yaml, const char* message) {
     CAPTURE(yaml);
@@ -81,10 +100,12 @@ TEST_CASE("materials: wrong settings say what is wrong, and where") {
   fails("{ type: two_sided, bsdf: { type: dielectric } }",
         "test:1:1: error: bsdf must be opaque, but 'dielectric' lets light through");
   fails("{ type: diffuse_transmitter, reflectance: 0.8 }",
-        "test:1:1: error: transmittance and reflectance must not add up to more than 1, but reach "
-        "0.5 and 0.8");
+        "test:1:1: error: transmittance and reflectance must not add up to more than 1, but their "
+        "largest values are 0.5 and 0.8");
   fails("{ type: mask, opacity: 1.5 }",
         "test:1:24: error: opacity must be at most 1 everywhere, got 1.5");
+  fails("{ type: dielectric, ior: 1e-20 }", "test:1:26: error: ior must be >= 0.01, got 1e-20");
+  fails("{ type: rough_plastic, ior: 1e20 }", "test:1:29: error: ior must be <= 100, got 1e20");
   fails("{ type: plastic, ior: 0.9 }", "test:1:23: error: ior must be >= 1, got 0.9");
   fails("{ type: rough_plastic, alpha: 0 }", "test:1:31: error: alpha must be >= 0.0001, got 0");
   CHECK_THROWS_WITH_AS(build("{ type: blend, first: { type: diffuse } }"),

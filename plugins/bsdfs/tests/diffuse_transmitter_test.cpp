@@ -14,6 +14,16 @@ DiffuseTransmitter sheet(Rgb transmittance, Rgb reflectance) {
       {.transmittance = test::uniform(transmittance), .reflectance = test::uniform(reflectance)});
 }
 
+/// Of one colour on the left, of another on the right.
+class Halves final : public Texture {
+ public:
+  Rgb evaluate(const SurfacePoint& point) const override {
+    return point.uv.x < 0.5f ? Rgb(0.6f, 0.2f, 0) : Rgb(0.6f, 0.4f, 0);
+  }
+  float maximum() const override { return 0.6f; }
+  Rgb average() const override { return {0.6f, 0.3f, 0}; }
+};
+
 }  // namespace
 
 TEST_CASE("diffuse transmitter: Lambert's law on both sides, from both sides") {
@@ -47,10 +57,18 @@ TEST_CASE("diffuse transmitter: its events are those that can occur") {
 
 TEST_CASE("diffuse transmitter: gives no light away") {
   CHECK_NOTHROW(sheet(Rgb(0.3f), Rgb(0.7f)));
+  CHECK_NOTHROW(sheet({0.1f, 0.8f, 0}, {0.9f, 0.2f, 1}));
   CHECK_THROWS_WITH_AS(sheet(Rgb(0.3f), {0.1f, 0.8f, 0}),
-                       "transmittance and reflectance must not add up to more than 1, but reach "
-                       "0.3 and 0.8",
+                       "transmittance and reflectance must not add up to more than 1, but their "
+                       "largest values are 0.3 and 0.8",
                        InputError);
+  // The texture's blue is 0 everywhere, but that it does not tell.
+  const auto build = [](Rgb reflectance) {
+    return DiffuseTransmitter(
+        {.transmittance = std::make_shared<Halves>(), .reflectance = test::uniform(reflectance)});
+  };
+  CHECK_NOTHROW(build(Rgb(0.4f)));
+  CHECK_THROWS_WITH_AS(build({0, 0, 0.5f}), doctest::Contains("are 0.6 and 0.5"), InputError);
 }
 
 }  // namespace pharos

@@ -63,6 +63,22 @@ TEST_CASE("conductor Fresnel: complex arithmetic") {
   }
 }
 
+TEST_CASE("conductor Fresnel: the ends of the ranges that settings may have") {
+  for (const double eta : {1e-4, 1.0, 1e4}) {
+    for (const double k : {0.0, 1e-4, 1.0, 1e4}) {
+      for (const double cosine : {1.0, 0.5, 1e-2}) {
+        CAPTURE(eta);
+        CAPTURE(k);
+        CAPTURE(cosine);
+        const float value = conductor_fresnel(static_cast<float>(cosine), static_cast<float>(eta),
+                                              static_cast<float>(k));
+        CHECK(value == doctest::Approx(complex_fresnel(cosine, {eta, -k})).epsilon(2e-3));
+      }
+      CHECK(conductor_fresnel(0, static_cast<float>(eta), static_cast<float>(k)) == 1);
+    }
+  }
+}
+
 TEST_CASE("conductor Fresnel: limits") {
   CHECK(conductor_fresnel(1, 0.2f, 3.9f) == doctest::Approx((0.64 + 15.21) / (1.44 + 15.21)));
   CHECK(conductor_fresnel(0, 0.2f, 3.9f) == doctest::Approx(1));

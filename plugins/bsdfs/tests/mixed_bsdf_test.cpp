@@ -8,6 +8,7 @@
 #include "../mask.h"
 #include "../plastic.h"
 #include "../rough_conductor.h"
+#include "../rough_dielectric.h"
 #include "bsdf_checks.h"
 
 namespace pharos {
@@ -33,6 +34,11 @@ Ref<Bsdf> glass(float ior) {
   const Ref<Texture> all = test::uniform(Rgb(1));
   return std::make_shared<Dielectric>(
       Dielectric::Settings{.ior = ior, .specular_reflectance = all, .specular_transmittance = all});
+}
+Ref<Bsdf> frosted(float ior) {
+  const Ref<Texture> all = test::uniform(Rgb(1));
+  return std::make_shared<RoughDielectric>(RoughDielectric::Settings{
+      .ior = ior, .specular_reflectance = all, .specular_transmittance = all});
 }
 Ref<Bsdf> blend(Ref<Bsdf> first, Ref<Bsdf> second, Rgb weight) {
   return std::make_shared<Blend>(
@@ -134,6 +140,9 @@ TEST_CASE("blend: a surface has one index of refraction") {
                        InputError);
   // Of index one, it refracts straight on.
   CHECK_THROWS_AS(blend(mask(glass(1.5f), Rgb(0.5f)), glass(1), Rgb(0.5f)), InputError);
+  CHECK_THROWS_AS(blend(frosted(1.5f), glass(1), Rgb(0.5f)), InputError);
+  CHECK_THROWS_AS(blend(glass(1), frosted(1.5f), Rgb(0.5f)), InputError);
+  CHECK_NOTHROW(blend(frosted(1.5f), glass(1.5f), Rgb(0.5f)));
 }
 
 TEST_CASE("mask: opaque it is its material, and clear it is nothing") {

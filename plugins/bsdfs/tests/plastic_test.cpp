@@ -4,6 +4,7 @@
 
 #include "../diffuse.h"
 #include "../fresnel.h"
+#include "../hemisphere_mean.h"
 #include "bsdf_checks.h"
 
 namespace pharos {
@@ -33,6 +34,19 @@ TEST_CASE("plastic: a white base reflects all light, at any angle and index") {
     }
     CHECK(bsdf.albedo({}).g == doctest::Approx(1));
   }
+}
+
+TEST_CASE("plastic: repeated reflection under a coat of large index") {
+  // Nearly all light that has entered stays until it is absorbed: (1 - F') a / (1 - a).
+  const Plastic bsdf(settings(Rgb(0.5f), 100));
+  const float outside =
+      hemisphere_mean([](float c) { return dielectric_fresnel(c, 100).reflectance; });
+  const double escaping = (1 - double{outside}) / 1e4;
+  const double emerging = escaping * 0.5 / (0.5 + 0.5 * escaping);
+  const Vec3 wo{0, 0, 1};
+  const double entering = 1 - double{dielectric_fresnel(1, 100).reflectance};
+  CHECK(test::smooth_albedo(bsdf, wo) == doctest::Approx(entering * emerging).epsilon(1e-3));
+  CHECK(reflected(Plastic(settings(Rgb(1), 100)), wo) == doctest::Approx(1).epsilon(1e-4));
 }
 
 TEST_CASE("plastic: the average reflectances of Fresnel's equations") {

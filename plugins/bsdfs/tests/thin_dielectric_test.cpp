@@ -62,6 +62,24 @@ TEST_CASE("thin dielectric: total reflection at a gap, and no pane at all") {
   CHECK(pane(1.5f).discrete({}, {0, 1, 0}, {}).count == 0);
 }
 
+TEST_CASE("thin dielectric: albedo is the mean over directions of what is reflected") {
+  for (const float ior : {1.1f, 1.5f, 2.4f, 0.75f}) {
+    CAPTURE(ior);
+    const ThinDielectric mirror = pane(ior, Rgb(1), Rgb(0));
+    double sum = 0;
+    constexpr int kPoints = 20'000;
+    for (int i = 0; i < kPoints; ++i) {
+      // The square of the cosine is uniform.
+      const double squared = (i + 0.5) / kPoints;
+      const Vec3 wo{static_cast<float>(std::sqrt(1 - squared)), 0,
+                    static_cast<float>(std::sqrt(squared))};
+      const DiscreteOutcome o = mirror.discrete({}, wo, {}).outcomes[0];
+      sum += double{o.event == Event::discrete_reflect ? o.value.g : 0} / kPoints;
+    }
+    CHECK(mirror.albedo({}).g == doctest::Approx(sum).epsilon(5e-4));
+  }
+}
+
 TEST_CASE("thin dielectric: conditioning on events, and factors") {
   const ThinDielectric tinted = pane(1.5f, {0.9f, 0.5f, 0}, {0.1f, 1, 0.3f});
   for (const double theta : {10.0, 85.0, 100.0}) {

@@ -54,6 +54,14 @@ TEST_CASE("directional_area: radiance is the peak of the lobe") {
   CHECK(fisher.at_cosine(0) == 0);
 }
 
+TEST_CASE("directional_area: never more than the peak where a direction is rounded up") {
+  for (const Settings& settings : {cosine_power(1e5f), von_mises_fisher(1e5f)}) {
+    const LitCeiling ceiling(settings);
+    const SurfacePoint point = ceiling.shape.sample({0.2f, 0.7f}).point;
+    CHECK(ceiling.light->radiance(point, {0, 0, -1 - 1.2e-7f}) == Rgb(2));
+  }
+}
+
 TEST_CASE("directional_area: power is the integral over area and hemisphere") {
   for (const Settings& settings :
        {cosine_power(0), cosine_power(1), cosine_power(300, 2), von_mises_fisher(0),

@@ -44,6 +44,36 @@ TEST_CASE("spot: smooth falloff in the cosine") {
         doctest::Approx(8 * t * t * (3 - 2 * t)).epsilon(1e-4));
 }
 
+TEST_CASE("spot: narrow beams keep their falloff") {
+  for (const float cutoff : {0.1f, 0.01f}) {
+    CAPTURE(cutoff);
+    const auto light = spot({.intensity = Rgb(8),
+                             .cutoff_angle = cutoff,
+                             .beam_width = cutoff / 2,
+                             .falloff = SpotFalloff::smooth});
+    for (const double share : {0.51, 0.6, 0.75, 0.9, 0.99}) {
+      // The cosine of small angles is 1 - angle^2 / 2.
+      const double t = (1 - share * share) / (1 - 0.25);
+      CHECK(at_angle(*light, share * double{cutoff}) ==
+            doctest::Approx(8 * t * t * (3 - 2 * t)).epsilon(5e-3));
+    }
+  }
+}
+
+TEST_CASE("spot: power of narrow beams") {
+  const double cutoff = 0.001 * 3.14159265358979 / 180, square = cutoff * cutoff;
+  const auto power = [](SpotFalloff falloff) {
+    return SpotEmitter({.cutoff_angle = 0.001f, .beam_width = 0, .falloff = falloff})
+        .place({})
+        ->power();
+  };
+  // Series in the angle of 2 pi (1 - sin c / c) and of 2 pi (1 - (1 + cos c) / 2).
+  CHECK(power(SpotFalloff::linear) ==
+        doctest::Approx(2 * 3.14159265358979 * square / 6).epsilon(1e-4));
+  CHECK(power(SpotFalloff::smooth) ==
+        doctest::Approx(2 * 3.14159265358979 * square / 4).epsilon(1e-4));
+}
+
 TEST_CASE("spot: sampled like a point") {
   const auto light = spot({.intensity = {8, 4, 2}, .scale = 0.5f});
   const LightSample s = light->sample({2, 0, 1}, {0.1f, 0.9f});
