@@ -21,6 +21,7 @@ struct ParameterInfo {
   std::string range;          ///< such as ">= 0" or "one | all"; empty for "any"
   std::string help;           ///< one line
   bool required = false;
+  std::vector<std::string> choices;  ///< all values of a choice or switch; empty for others
 };
 
 /// The parameters of a settings struct, each declared once:
@@ -93,6 +94,7 @@ class Schema {
     info->type = Value<T>::type_name();
     info->default_value = Value<T>::default_text(Settings{}.*member);
     info->range = Value<T>::range();
+    info->choices = Value<T>::choices();
     info->help = std::move(help);
     const auto text = [member](const Settings& s) { return Value<T>::default_text(s.*member); };
     const auto read = [info, checks, member](Settings& settings, const ConfigNode& node,

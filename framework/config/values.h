@@ -122,10 +122,11 @@ bool all_below(const T& v, double high) {
   return all_numbers(v, [high](auto x) { return x < bound_for(x, high); });
 }
 
-/// Types without a range of their own. `default_text` is YAML text that reads as the given value;
-/// "" when there is none, and then the field keeps its C++ initialiser.
+/// Types without a range of their own and too many values to list. `default_text` is YAML text that
+/// reads as the given value; "" when there is none, and then the field keeps its C++ initialiser.
 struct PlainValue {
   static std::string range() { return {}; }
+  static std::vector<std::string> choices() { return {}; }
 };
 
 template <std::floating_point T>
@@ -156,6 +157,7 @@ struct Value<T> : PlainValue {
 template <>
 struct Value<bool> : PlainValue {
   static std::string type_name() { return "boolean"; }
+  static std::vector<std::string> choices() { return {"false", "true"}; }
   static std::string default_text(bool v) { return v ? "true" : "false"; }
   static bool read(const ConfigNode& node, BuildContext&, ConfigNode& resolved);
 };
@@ -216,7 +218,7 @@ struct Value<Transform> : PlainValue {
 template <class E>
 requires std::is_enum_v<E>
 struct Value<E> {
-  static std::vector<std::string> names() {
+  static std::vector<std::string> choices() {
     std::vector<std::string> all;
     for (const auto& [name, value] : EnumNames<E>::names) all.emplace_back(name);
     return all;
@@ -224,7 +226,7 @@ struct Value<E> {
   static std::string type_name() { return "choice"; }
   static std::string range() {
     std::string text;
-    for (const std::string& n : names()) text += (text.empty() ? "" : " | ") + n;
+    for (const std::string& n : choices()) text += (text.empty() ? "" : " | ") + n;
     return text;
   }
   static std::string default_text(E v) {
@@ -234,7 +236,7 @@ struct Value<E> {
     return {};
   }
   static E read(const ConfigNode& node, BuildContext&, ConfigNode& resolved) {
-    const E v = EnumNames<E>::names[read_choice(node, names())].second;
+    const E v = EnumNames<E>::names[read_choice(node, choices())].second;
     resolved = ConfigNode::scalar(default_text(v));
     return v;
   }
@@ -244,6 +246,7 @@ template <class T>
 struct Value<std::optional<T>> {
   static std::string type_name() { return Value<T>::type_name(); }
   static std::string range() { return Value<T>::range(); }
+  static std::vector<std::string> choices() { return Value<T>::choices(); }
   static std::string default_text(const std::optional<T>& v) {
     return v ? Value<T>::default_text(*v) : std::string{};
   }

@@ -85,7 +85,7 @@ class CaseBuilder {
     if (cases.subjects.empty()) return;
     const ConfigNode base = cases.subjects.front().node;
     const ConfigNode* given = base.find(parameter.key);
-    for (const std::string& value : values_of(parameter)) {
+    for (const std::string& value : parameter.choices) {
       if (value == (given != nullptr ? given->text() : parameter.default_value)) continue;
       ConfigNode varied = base;
       varied.take("type");
@@ -116,19 +116,6 @@ class CaseBuilder {
       message.erase(at, prefix.size());
     }
     return message;
-  }
-
-  /// All values of a choice or switch; none for other parameters.
-  static std::vector<std::string> values_of(const ParameterInfo& parameter) {
-    if (parameter.type == "boolean") return {"false", "true"};
-    if (parameter.type != "choice") return {};
-    std::vector<std::string> values;
-    const std::string range = parameter.range.substr(0, parameter.range.find(" and "));
-    for (std::size_t begin = 0, end = 0; begin < range.size(); begin = end + 3) {
-      end = std::min(range.find(" | ", begin), range.size());
-      values.push_back(range.substr(begin, end - begin));
-    }
-    return values;
   }
 
   const Registry& registry_;

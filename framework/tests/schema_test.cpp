@@ -197,6 +197,8 @@ TEST_CASE("what a schema tells about its parameters") {
   CHECK_FALSE(all[0].required);
   CHECK(all[11].type == "choice");
   CHECK(all[11].range == "one | all");
+  CHECK(all[11].choices == std::vector<std::string>{"one", "all"});
+  CHECK(all[0].choices.empty());
   CHECK(all[12].default_value.empty());
   CHECK(all[14].default_value.empty());
   CHECK(all[15].type == "list of integer");
