@@ -10,6 +10,7 @@
 
 #include "commands.h"
 #include "threads.h"
+#include "writable.h"
 
 namespace pharos {
 namespace {
@@ -64,15 +65,20 @@ void print(const conformance::Report& report, bool all) {
   }
 }
 
+void write_json(const conformance::Report& report, const std::filesystem::path& file) {
+  write_atomically(file, [&](const std::filesystem::path& temporary) {
+    std::ofstream out(temporary, std::ios::binary);
+    out << to_json(report) << std::flush;
+    if (!out) throw RunError(fmt::format("{}: error: cannot be written", file.string()));
+  });
+}
+
 int check(const ConformanceOptions& options) {
+  check_writable(options.json);
   const Registry registry = load_default_modules();
   const conformance::Report report = conformance::check_plugins(registry, options.selection);
   print(report, options.all);
-  if (!options.json.empty()) {
-    write_atomically(options.json, [&](const std::filesystem::path& path) {
-      std::ofstream(path) << to_json(report);
-    });
-  }
+  if (!options.json.empty()) write_json(report, options.json);
   return report.passed() ? kDone : kFailed;
 }
 

@@ -1,6 +1,5 @@
 #include <filesystem>
 #include <optional>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -16,6 +15,7 @@
 #include "interrupt.h"
 #include "progress_bar.h"
 #include "threads.h"
+#include "writable.h"
 
 namespace pharos {
 namespace {
@@ -27,33 +27,6 @@ struct RenderOptions {
   bool quiet = false;
   std::vector<std::uint32_t> replay;
 };
-
-/// Fails before the render, not after it, where the result could not be written.
-void check_writable(const std::filesystem::path& file) {
-  if (file.empty()) return;
-  const std::filesystem::path folder =
-      file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
-  std::error_code failed;
-  if (!std::filesystem::is_directory(folder, failed)) {
-    throw InputError(
-        fmt::format("{}: error: the folder '{}' does not exist", file.string(), folder.string()));
-  }
-  using std::filesystem::file_type;
-  const file_type type = std::filesystem::status(file, failed).type();
-  if (type == file_type::none) {
-    throw InputError(one_line(fmt::format("{}: error: {}", file.string(), failed.message())));
-  }
-  if (type == file_type::directory) {
-    throw InputError(fmt::format("{}: error: is a folder, not a file", file.string()));
-  }
-  if (type != file_type::not_found && type != file_type::regular) {
-    throw InputError(fmt::format("{}: error: is a pipe or device, not a file", file.string()));
-  }
-  if (access(folder.c_str(), W_OK) != 0) {
-    throw InputError(
-        fmt::format("{}: error: the folder '{}' is not writable", file.string(), folder.string()));
-  }
-}
 
 void check_outputs(const OutputSettings& output) {
   const std::filesystem::path image = output.image;

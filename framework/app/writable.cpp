@@ -1,0 +1,37 @@
+#include "writable.h"
+
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+#include <pharos/core/error.h>
+
+namespace pharos {
+
+void check_writable(const std::filesystem::path& file) {
+  if (file.empty()) return;
+  const std::filesystem::path folder =
+      file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+  std::error_code failed;
+  if (!std::filesystem::is_directory(folder, failed)) {
+    throw InputError(
+        fmt::format("{}: error: the folder '{}' does not exist", file.string(), folder.string()));
+  }
+  using std::filesystem::file_type;
+  const file_type type = std::filesystem::status(file, failed).type();
+  if (type == file_type::none) {
+    throw InputError(one_line(fmt::format("{}: error: {}", file.string(), failed.message())));
+  }
+  if (type == file_type::directory) {
+    throw InputError(fmt::format("{}: error: is a folder, not a file", file.string()));
+  }
+  if (type != file_type::not_found && type != file_type::regular) {
+    throw InputError(fmt::format("{}: error: is a pipe or device, not a file", file.string()));
+  }
+  if (access(folder.c_str(), W_OK) != 0) {
+    throw InputError(
+        fmt::format("{}: error: the folder '{}' is not writable", file.string(), folder.string()));
+  }
+}
+
+}  // namespace pharos
