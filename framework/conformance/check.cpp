@@ -23,9 +23,9 @@ Finding Check::finding() const {
   if (tests_ > 0) {
     f.p_value = std::min(1.0, smallest_p_ * static_cast<double>(tests_));
     f.detail = worst_;
-  } else if (asked_ == 0 && draws_ == 0 && !reason_.empty()) {
-    f.verdict = Verdict::not_applicable;
-    f.detail = reason_;
+  } else if (asked_ == 0 && draws_ == 0) {
+    f.verdict = reason_.empty() ? Verdict::failed : Verdict::not_applicable;
+    f.detail = reason_.empty() ? "nothing was asked" : reason_;
   }
   if (faults_ > 0 || often) {
     f.verdict = Verdict::failed;

@@ -32,7 +32,8 @@ class Check {
   }
   /// The p-value of one configuration.
   void add_p_value(double p, const std::string& where);
-  /// There is nothing to check here; stands unless something was checked as well.
+  /// There is nothing to check here; stands unless something was checked as well. A check that
+  /// asked nothing and has no such reason fails.
   void not_applicable(std::string reason) { reason_ = std::move(reason); }
 
   /// The finding, still without plugin and case. The p-value is the least of all configurations

@@ -101,6 +101,7 @@ class Plan {
         plugin.contract == Learner::contract_name ? add_learner(plugin) : add_suites(plugin);
       }
     });
+    if (jobs.empty()) throw InputError("there is no plugin to test: " + selection_text());
   }
 
   std::vector<Job> jobs;
@@ -142,6 +143,13 @@ class Plan {
     };
     for (const std::string& name : selection_.names) check(name, names, "contract or plugin");
     if (!selection_.module.empty()) check(selection_.module, modules, "module with plugins");
+  }
+
+  std::string selection_text() const {
+    if (selection_.names.empty()) return "none is registered";
+    const std::string names = quoted_list(selection_.names);
+    if (selection_.module.empty()) return names + " has none";
+    return fmt::format("the module '{}' has none of {}", selection_.module, names);
   }
 
   void add_finding(const PluginInfo& plugin, std::string settings, Finding finding) {

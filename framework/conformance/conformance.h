@@ -26,7 +26,7 @@ struct Options {
 
 /// Tests the selected plugins with their defaults, examples, choices and switches. Findings depend
 /// on registry, selection and options alone, whatever the number of threads. Throws InputError for
-/// a name or module that there is none of.
+/// a name or module that there is none of, and when the selection holds no plugin.
 Report check_plugins(const Registry& registry, const Selection& selection = {},
                      const Options& options = {});
 

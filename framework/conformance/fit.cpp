@@ -30,6 +30,10 @@ Share share_with_result(const DirectionFit& setup, double missed, std::uint64_t 
 
 void test_integral(const statistics::DensityFit& fit, const DirectionFit& setup, std::uint64_t seed,
                    Check& integral) {
+  integral.expect(fit.invalid_nodes == 0, [&] {
+    return fmt::format("{}: the density is negative or not finite in {} directions of quadrature",
+                       setup.where, fit.invalid_nodes);
+  });
   const Share share = share_with_result(setup, fit.missed, seed);
   const double deviation = std::abs(fit.integral - share.value);
   const double excess =

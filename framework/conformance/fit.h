@@ -19,7 +19,8 @@ struct DirectionFit {
 };
 
 /// Feeds the checks `chi_square` (counts in about 60 cells against the density) and `integral` (the
-/// density's integral is the share of draws with a result, within 0.5 % and their errors).
+/// density is finite and not negative, and its integral is the share of draws with a result, within
+/// 0.5 % and their errors).
 void test_directions(const DirectionFit& fit, std::uint64_t seed, Check& chi_square,
                      Check& integral);
 

@@ -202,11 +202,14 @@ void test_outcomes(const Guided& guide, std::uint64_t seed, Check& chi_square, C
                          guide.vertex().text() + ": frequencies of discrete events");
 }
 
-void check_densities(const GuidingFrame& frame, const Scene& scene, std::uint64_t seed,
-                     Check& chi_square, Check& integral) {
+/// Returns at how many vertices the guide has an answer.
+int check_densities(const GuidingFrame& frame, const Scene& scene, std::uint64_t seed,
+                    Check& chi_square, Check& integral) {
+  int answers = 0;
   for (const auto& vertex : stage_vertices(scene, seed)) {
     const Guided guide(frame, *vertex);
     if (guide.declines()) continue;
+    ++answers;
     if (vertex->scattering().purely_discrete()) {
       test_outcomes(guide, seed, chi_square, integral);
       continue;
@@ -214,16 +217,18 @@ void check_densities(const GuidingFrame& frame, const Scene& scene, std::uint64_
     test_surfaces(guide, seed, chi_square, integral);
     if (vertex->medium() != nullptr) test_volumes(guide, seed, chi_square, integral);
   }
+  return answers;
 }
 
 /// The first vertex as the guide proposes it: directions from the lens that lie on the film.
-void check_camera(const GuidingFrame& frame, const Scene& scene, std::uint64_t seed,
+/// Returns whether the guide has an answer.
+bool check_camera(const GuidingFrame& frame, const Scene& scene, std::uint64_t seed,
                   Check& chi_square, Check& integral) {
   const auto sensor = scene.sensor().prepare(16, 16);
   const LensPoint lens = sensor->sample_lens({0.5f, 0.5f});
   Arena arena;
   const GuidingDistribution* guide = frame.query_camera(*sensor, lens, arena).distribution;
-  if (guide == nullptr) return;
+  if (guide == nullptr) return false;
   const KeyedSampler numbers;
   const auto draw = [&](RandomStream& random) -> std::optional<Vec3> {
     const SampleStream stream(numbers, {.seed = 78, .index = random()});
@@ -239,6 +244,7 @@ void check_camera(const GuidingFrame& frame, const Scene& scene, std::uint64_t s
         .value;
   };
   test_directions({draw, density, "from the lens", 0, 1e-3, 40'000}, seed, chi_square, integral);
+  return true;
 }
 
 bool same(const std::optional<Proposal>& a, const std::optional<Proposal>& b) {
@@ -322,6 +328,7 @@ void check_furnace(const GuidedPair& pair, const Ref<Integrator>& guided, bool f
 void check_guider(const Registry& registry, const Subject& guider, const Subject& learner,
                   Suite& suite) {
   const GuidedPair pair{registry, guider, learner};
+  Check& answers = suite.check("answers");
   Check& chi_square = suite.check("chi_square");
   Check& integral = suite.check("integral");
   Check& determinism = suite.check("determinism");
@@ -331,29 +338,30 @@ void check_guider(const Registry& registry, const Subject& guider, const Subject
   const Ref<Integrator> integrator = integrator_for(pair, why_not);
   if (integrator == nullptr) {
     why_not = "no integrator can follow: " + why_not;
-    for (Check* c : {&chi_square, &integral, &determinism, &save_load, &furnace}) {
+    for (Check* c : {&answers, &chi_square, &integral, &determinism, &save_load, &furnace}) {
       c->not_applicable(why_not);
     }
     return;
   }
-  for (Check* c : {&chi_square, &integral, &determinism}) {
+  for (Check* c : {&chi_square, &integral, &determinism, &save_load}) {
     c->not_applicable("the guide knows nothing at any vertex");
   }
-  const bool steers = pair.the_guider().traits().steers_distance;
+  int answered = 0;
   for (const bool foggy : {false, true}) {
     check_furnace(pair, integrator, foggy, suite.seed(), furnace);
     const auto model =
         render_room(pair, integrator, Room::lamp, foggy, kTrainingSamples, suite.seed()).model;
+    answers.expect(model != nullptr, [] { return "there is no model after training"; });
     if (model == nullptr) continue;
     const Scene scene(room_parts(Room::lamp, foggy));
     const GuidingFrame frame = frame_of(pair.the_guider(), model);
-    check_densities(frame, scene, suite.seed(), chi_square, integral);
-    if (!foggy) check_camera(frame, scene, suite.seed(), chi_square, integral);
+    answered += check_densities(frame, scene, suite.seed(), chi_square, integral);
+    if (!foggy) answered += check_camera(frame, scene, suite.seed(), chi_square, integral) ? 1 : 0;
     expect_alike(frame, frame_of(pair.the_guider(), model), scene, suite.seed(),
                  "asked again, the guide answers otherwise", determinism);
     check_save_load(pair, model, scene, suite.seed(), save_load);
-    if (!steers) break;
   }
+  answers.expect(answered > 0, [] { return "the guide declines at every vertex"; });
 }
 
 void check_learner(const Registry& registry, const Subject& learner, const Subject& guider,
@@ -366,6 +374,7 @@ void check_learner(const Registry& registry, const Subject& learner, const Subje
   const auto trained = [&] {
     const auto model =
         render_room(pair, integrator, Room::lamp, false, kTrainingSamples, suite.seed()).model;
+    check.expect(model != nullptr, [] { return "there is no model after training"; });
     std::ostringstream file;
     if (model != nullptr) model->save(file);
     return file.str();

@@ -10,6 +10,7 @@
 #include <pharos/conformance/suites.h>
 #include <pharos/core/random.h>
 #include <pharos/sampling/integrand_probe.h>
+#include <pharos/sampling/keyed_numbers.h>
 #include <pharos/statistics/hypothesis.h>
 
 namespace pharos::conformance {
@@ -90,13 +91,14 @@ PathKey key_of(std::size_t pixel, std::uint64_t seed, std::uint32_t samples) {
           .sample = static_cast<std::uint32_t>(pixel * 2654435761u >> 7) % samples};
 }
 
-std::vector<Column> columns_of(const PreparedSampler& sampler, std::uint64_t seed,
-                               std::uint32_t samples) {
+/// `key_at(pixel)` names the path that each pixel's numbers are of.
+template <class KeyAt>
+std::vector<Column> columns_of(const PreparedSampler& sampler, const KeyAt& key_at) {
   std::vector<Column> all;
   for (const Dimension d : dimensions()) {
     Column u{text(d) + ", 1D", {}}, x{text(d) + ", 2D x", {}}, y{text(d) + ", 2D y", {}};
     for (std::size_t pixel = 0; pixel < kPixels; ++pixel) {
-      const SampleStream stream(sampler, key_of(pixel, seed, samples));
+      const SampleStream stream(sampler, key_at(pixel));
       u.values.push_back(stream.get_1d(d));
       x.values.push_back(stream.get_2d(d).x);
       y.values.push_back(stream.get_2d(d).y);
@@ -151,9 +153,65 @@ double correlation_p_value(const std::vector<float>& a, const std::vector<float>
   return 0.5 * std::erfc(z / std::sqrt(2.0));
 }
 
-/// Dimensions of one path against each other, pixels against their neighbours, seeds against seeds.
-/// The two numbers that a dimension has in 1D and 2D may be the same: it is asked for one of them.
-void check_independence(const std::vector<Column>& columns, const std::vector<Column>& other_seed,
+/// The same numbers of other paths.
+struct Others {
+  const char* name;
+  std::vector<Column> columns;
+  bool may_correlate = false;  ///< only equal numbers are faults
+};
+
+/// Paths that differ from those of key_of() in one part of the key each.
+std::vector<Others> others_of(const Sampler& sampler, const PreparedSampler& prepared,
+                              std::uint64_t seed) {
+  const std::uint32_t samples = samples_of(sampler);
+  const auto with = [&](auto&& change) {
+    return columns_of(prepared, [&](std::size_t pixel) {
+      PathKey key = key_of(pixel, seed, samples);
+      change(key);
+      return key;
+    });
+  };
+  const auto step = [samples](std::uint32_t sample, std::uint64_t by) {
+    return static_cast<std::uint32_t>((sample + by) % samples);
+  };
+  std::vector<Others> all;
+  const auto other = prepare(sampler, kEdge, seed + 1);
+  all.push_back({"another seed", columns_of(*other, [&](std::size_t pixel) {
+                   return key_of(pixel, seed + 1, samples);
+                 })});
+  all.push_back({"another iteration", with([](PathKey& key) { key.iteration = 1; })});
+  // Samplers may go through their strata in order; over all pairs of a pixel they must not crowd.
+  all.push_back(
+      {"the next sample", with([&](PathKey& key) { key.sample = step(key.sample, 1); }), true});
+  all.push_back({"another sample", with([&](PathKey& key) {
+                   const std::uint64_t any = hash_key({.seed = 1, .index = key.index});
+                   key.sample = step(key.sample, 1 + any % (samples - 1));
+                 })});
+  return all;
+}
+
+double share_of_equal(const std::vector<float>& a, const std::vector<float>& b) {
+  std::size_t equal = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) equal += a[i] == b[i] ? 1 : 0;
+  return static_cast<double>(equal) / static_cast<double>(a.size());
+}
+
+void compare(const Column& column, const std::vector<float>& other, const std::string& name,
+             bool may_correlate, Check& check) {
+  constexpr double kMostEqual = 0.01;  // numbers of few bits meet by chance
+  const double equal = share_of_equal(column.values, other);
+  check.expect(equal <= kMostEqual, [&] {
+    return fmt::format("{}: {:.1f} % of the numbers are those of {}", column.name, 100 * equal,
+                       name);
+  });
+  if (may_correlate) return;
+  check.add_p_value(correlation_p_value(column.values, other), column.name + " with " + name);
+}
+
+/// Dimensions of one path against each other, pixels against their neighbours, paths against others
+/// of the same pixel. The two numbers that a dimension has in 1D and 2D may be the same: it is
+/// asked for one of them.
+void check_independence(const std::vector<Column>& columns, const std::vector<Others>& others,
                         Suite& suite) {
   Check& check = suite.check("independence");
   for (std::size_t a = 0; a < columns.size(); ++a) {
@@ -166,9 +224,10 @@ void check_independence(const std::vector<Column>& columns, const std::vector<Co
     const std::vector<float>& values = columns[a].values;
     std::vector<float> next(values.begin() + 1, values.end());
     next.push_back(values.front());
-    check.add_p_value(correlation_p_value(values, next), columns[a].name + " with the next pixel");
-    check.add_p_value(correlation_p_value(values, other_seed[a].values),
-                      columns[a].name + " with another seed");
+    compare(columns[a], next, "the next pixel", false, check);
+    for (const Others& o : others) {
+      compare(columns[a], o.columns[a].values, o.name, o.may_correlate, check);
+    }
   }
 }
 
@@ -250,11 +309,11 @@ void check_determinism(const Sampler& sampler, const PreparedSampler& prepared, 
 void check_sampler(const Sampler& sampler, Suite& suite) {
   const std::uint32_t samples = samples_of(sampler);
   const auto prepared = prepare(sampler, kEdge, suite.seed());
-  const auto other = prepare(sampler, kEdge, suite.seed() + 1);
-  const std::vector<Column> columns = columns_of(*prepared, suite.seed(), samples);
+  const std::vector<Column> columns = columns_of(
+      *prepared, [&](std::size_t pixel) { return key_of(pixel, suite.seed(), samples); });
   check_range(columns, suite);
   check_uniformity(columns, suite);
-  check_independence(columns, columns_of(*other, suite.seed() + 1, samples), suite);
+  check_independence(columns, others_of(sampler, *prepared, suite.seed()), suite);
   check_mean(sampler, suite);
   check_determinism(sampler, *prepared, suite);
 }

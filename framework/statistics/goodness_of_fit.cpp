@@ -153,7 +153,14 @@ DensityFit fit_density(const Draw<T>& draw, const Density<T>& density, const Fit
   }
   std::vector<Cell> cells;
   bisect(domain, pilot, tested, half / static_cast<std::size_t>(options.cells), 0, cells);
-  const auto integrals = integrate_density(density_at, cells, options.quadrature_tolerance);
+  // One infinity or NaN would hide all else: it is counted apart.
+  const auto valid_density = [&](double x, double y) {
+    const double value = density_at(x, y);
+    if (value >= 0 && std::isfinite(value)) return value;
+    ++fit.invalid_nodes;
+    return 0.0;
+  };
+  const auto integrals = integrate_density(valid_density, cells, options.quadrature_tolerance);
   const double n = static_cast<double>(half), missed = n - static_cast<double>(tested.size());
   fit.missed = missed / n;
   fit.chi_square = test_counts(cells, integrals, missed, n, fit);

@@ -48,11 +48,14 @@ struct DensityFit {
   double integral_error = 0;        ///< estimated quadrature error of `integral` [1]
   double missed = 0;                ///< share of tested draws without a result [1]
   std::size_t outside_support = 0;  ///< tested draws whose density is not positive and finite
+  /// Quadrature nodes where the density is negative or not finite; they count as zero.
+  std::size_t invalid_nodes = 0;
 
-  /// Whether the density passes what needs no statistics: it integrates to at most one (within
-  /// `tolerance` and the quadrature error) and no draw lies outside its support.
+  /// Whether the density passes what needs no statistics: it is finite and not negative, integrates
+  /// to at most one (within `tolerance` and the quadrature error), and no draw lies outside its
+  /// support.
   bool is_density(double tolerance = 1e-3) const {
-    return outside_support == 0 && integral <= 1 + tolerance + integral_error;
+    return outside_support == 0 && invalid_nodes == 0 && integral <= 1 + tolerance + integral_error;
   }
 };
 

@@ -29,6 +29,8 @@ enum class BsdfFault {
   energy,
   event,
   nan,
+  nan_density,
+  infinite_density,
   memory
 };
 
@@ -41,6 +43,8 @@ class FaultyBsdf final : public Bsdf {
   EventMask events() const override { return mask_of(Event::smooth_reflect); }
   ScatterValue evaluate(const SurfacePoint&, Vec3 wo, Vec3 wi, ScatterOptions o) const override {
     const bool masked = !contains(o.events, Event::smooth_reflect) && fault_ != BsdfFault::event;
+    if (fault_ == BsdfFault::nan_density && wo.z > 0 && wi.z < -0.1f) return {Rgb(0), NAN};
+    if (fault_ == BsdfFault::infinite_density && wo.z > 0 && wi.z < -0.1f) return {{}, kInfinity};
     if (wo.z <= 0 || wi.z <= 0 || masked) return {};
     if (fault_ == BsdfFault::nan && wi.z < 1e-5f) return {Rgb(std::sqrt(-wo.z)), 1};
     const float pdf = warp::cosine_hemisphere_pdf(wi.z);
@@ -88,6 +92,9 @@ TEST_CASE("conformance: faults of a BSDF") {
   CHECK(red_with<FaultyBsdf>(BsdfFault::energy) == "energy");
   CHECK(red_with<FaultyBsdf>(BsdfFault::event) == "events integral");
   CHECK(red_with<FaultyBsdf>(BsdfFault::nan) == "finite");
+  for (const BsdfFault fault : {BsdfFault::nan_density, BsdfFault::infinite_density}) {
+    CHECK(red_with<FaultyBsdf>(fault).find("integral") != std::string::npos);
+  }
   CHECK(red_with<FaultyBsdf>(BsdfFault::memory) == "determinism");
 }
 

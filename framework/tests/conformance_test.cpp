@@ -6,6 +6,7 @@
 
 #include <doctest/doctest.h>
 
+#include <pharos/conformance/check.h>
 #include <pharos/conformance/conformance.h>
 #include <pharos/core/error.h>
 #include <pharos/scene/texture.h>
@@ -94,6 +95,23 @@ TEST_CASE("conformance: unknown names are input errors with the nearest one") {
   CHECK_THROWS_WITH_AS(check_plugins(registry, {.names = {"fualty"}}),
                        doctest::Contains("did you mean 'faulty'?"), InputError);
   CHECK_THROWS_AS(check_plugins(registry, {.module = "none"}), InputError);
+}
+
+TEST_CASE("conformance: a selection that holds no plugin is an input error") {
+  Registry registry;
+  registry.add<FileTexture>("file", "A texture");
+  CHECK_THROWS_WITH_AS(check_plugins(registry, {.names = {"bsdf"}}),
+                       doctest::Contains("there is no"), InputError);
+  CHECK_THROWS_AS(check_plugins({}), InputError);
+}
+
+TEST_CASE("conformance: a check that asked nothing fails unless there is a reason") {
+  conformance::Check silent("silent");
+  CHECK(silent.finding().verdict == Verdict::failed);
+  silent.not_applicable("there is nothing to see");
+  CHECK(silent.finding().verdict == Verdict::not_applicable);
+  silent.expect(true, [] { return ""; });
+  CHECK(silent.finding().verdict == Verdict::passed);
 }
 
 }  // namespace

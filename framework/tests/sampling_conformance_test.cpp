@@ -21,7 +21,15 @@ using test::red_with;
 
 // --- sampler -------------------------------------------------------------------------------------
 
-enum class SamplerFault { none, squared, same_for_all_bounces, one };
+enum class SamplerFault {
+  none,
+  squared,
+  same_for_all_bounces,
+  same_for_all_samples,
+  same_for_all_iterations,
+  pairs,
+  one
+};
 
 class FaultySampler final : public Sampler {
  public:
@@ -36,7 +44,13 @@ class FaultySampler final : public Sampler {
   class Prepared final : public PreparedSampler {
    public:
     explicit Prepared(SamplerFault fault) : fault_(fault) {}
-    std::uint64_t begin(const PathKey& key) const override { return hash_key(key); }
+    std::uint64_t begin(const PathKey& key) const override {
+      PathKey seen = key;
+      if (fault_ == SamplerFault::same_for_all_samples) seen.sample = 0;
+      if (fault_ == SamplerFault::same_for_all_iterations) seen.iteration = 0;
+      if (fault_ == SamplerFault::pairs) seen.sample /= 2;
+      return hash_key(seen);
+    }
     float value_1d(const SampleStream& stream, Dimension d) const override {
       return value_2d(stream, d).x;
     }
@@ -58,12 +72,15 @@ TEST_CASE("conformance: faults of a sampler") {
   CHECK(red_with<FaultySampler>(SamplerFault::none) == "");
   CHECK(red_with<FaultySampler>(SamplerFault::squared) == "independence mean uniformity");
   CHECK(red_with<FaultySampler>(SamplerFault::same_for_all_bounces) == "independence");
+  CHECK(red_with<FaultySampler>(SamplerFault::same_for_all_samples) == "independence");
+  CHECK(red_with<FaultySampler>(SamplerFault::same_for_all_iterations) == "independence");
+  CHECK(red_with<FaultySampler>(SamplerFault::pairs) == "independence");
   CHECK(red_with<FaultySampler>(SamplerFault::one) == "range");
 }
 
 // --- guider --------------------------------------------------------------------------------------
 
-enum class GuideFault { none, pdf, forgets, moods };
+enum class GuideFault { none, pdf, fog_pdf, forgets, moods, declines, no_model };
 
 /// Knows nothing but how often it was saved.
 class BlankModel final : public GuidingModel {
@@ -98,6 +115,7 @@ class BlankLearner final : public Learner {
    public:
     void absorb(const PathLog&) override {}
     std::shared_ptr<const GuidingModel> update(std::uint32_t, bool) override {
+      if (FaultSettings<GuideFault>::planted == GuideFault::no_model) return nullptr;
       return std::make_shared<BlankModel>(false);
     }
     void save(std::ostream&) const override {}
@@ -137,10 +155,13 @@ class FaultyGuider final : public Guider {
   class Bound final : public BoundGuider {
    public:
     Bound(GuideFault fault, bool loaded) : fault_(fault), loaded_(loaded) {}
-    const GuidingDistribution* query(const GuidingQuery&, Arena& arena) const override {
+    const GuidingDistribution* query(const GuidingQuery& query, Arena& arena) const override {
+      if (fault_ == GuideFault::declines) return nullptr;
+      const bool in_fog = query.current.kind == VertexKind::volume;
+      const bool wrong = fault_ == GuideFault::pdf || (fault_ == GuideFault::fog_pdf && in_fog);
       const bool turned = (fault_ == GuideFault::forgets && loaded_) ||
                           (fault_ == GuideFault::moods && ++asked_ % 3 == 0);
-      return arena.make<Sphere>(fault_ == GuideFault::pdf ? 1.03f : 1.0f, turned ? 0.3f : 0.0f);
+      return arena.make<Sphere>(wrong ? 1.03f : 1.0f, turned ? 0.3f : 0.0f);
     }
 
    private:
@@ -163,6 +184,9 @@ std::string red_guide(GuideFault fault) {
 TEST_CASE("conformance: faults of a guide") {
   CHECK(red_guide(GuideFault::none) == "");
   CHECK(red_guide(GuideFault::pdf).find("integral") != std::string::npos);
+  CHECK(red_guide(GuideFault::fog_pdf).find("integral") != std::string::npos);
+  CHECK(red_guide(GuideFault::declines) == "answers");
+  CHECK(red_guide(GuideFault::no_model) == "answers");
   CHECK(red_guide(GuideFault::forgets) == "save_load");
   CHECK(red_guide(GuideFault::moods).find("determinism") != std::string::npos);
 }

@@ -68,9 +68,54 @@ TEST_CASE("conformance: faults of an emitter") {
   CHECK(red_with<FaultySky>(SkyFault::power) == "power");
 }
 
+enum class SpotFault { none, direction, pdf, dark };
+
+/// Light from one point into a cone of one degree.
+class FaultySpot final : public Emitter {
+ public:
+  using Settings = FaultSettings<SpotFault>;
+  explicit FaultySpot(const Settings&) : fault_(Settings::planted) {}
+  bool needs_shape() const override { return false; }
+  std::unique_ptr<const pharos::Light> place(const EmitterSite&) const override {
+    return std::make_unique<const Spot>(fault_);
+  }
+
+ private:
+  class Spot final : public pharos::Light {
+   public:
+    explicit Spot(SpotFault fault) : fault_(fault) {}
+    LightSample sample(Point3 from, Vec2 u) const override {
+      LightSample s;
+      const float distance = length(from);
+      if (fault_ == SpotFault::dark || !(from.z > kCosine * distance)) return s;
+      s.direction = -from / distance;
+      if (fault_ == SpotFault::direction) s.direction = normalize(s.direction + Vec3{u.x, 0, 0});
+      s.distance = distance;
+      s.radiance = Rgb(1 / square(distance));
+      s.pdf = fault_ == SpotFault::pdf ? 0.5f : 1.0f;
+      s.discrete = true;
+      s.kind = VertexKind::light;
+      return s;
+    }
+    float power() const override { return 2 * kPi * (1 - kCosine); }
+
+   private:
+    static constexpr float kCosine = 0.9998477f;
+    SpotFault fault_;
+  };
+  SpotFault fault_;
+};
+
+TEST_CASE("conformance: faults of a narrow spot") {
+  CHECK(red_with<FaultySpot>(SpotFault::none) == "");
+  CHECK(red_with<FaultySpot>(SpotFault::direction) == "discrete");
+  CHECK(red_with<FaultySpot>(SpotFault::pdf) == "discrete");
+  CHECK(red_with<FaultySpot>(SpotFault::dark) == "power");
+}
+
 // --- sensor --------------------------------------------------------------------------------------
 
-enum class SensorFault { none, inverse, pdf, lens };
+enum class SensorFault { none, inverse, pdf, lens, rim, silent, claims_parallel };
 
 /// A thin lens of radius 0.1 in focus at infinity, so that directions alone tell the film.
 class FaultyLens final : public Sensor {
@@ -80,6 +125,7 @@ class FaultyLens final : public Sensor {
   std::unique_ptr<const PreparedSensor> prepare(int, int) const override {
     return std::make_unique<const Prepared>(fault_);
   }
+  bool sees_one_direction() const override { return fault_ == SensorFault::claims_parallel; }
   Point3 position() const override { return {}; }
 
  private:
@@ -88,14 +134,16 @@ class FaultyLens final : public Sensor {
     explicit Prepared(SensorFault fault) : fault_(fault) {}
     LensPoint sample_lens(Vec2 u) const override {
       Vec2 p = 0.1f * warp::disk_from_square(u);
-      if (fault_ == SensorFault::lens) p = std::hypot(10 * p.x, 10 * p.y) * p;
+      const float r = std::hypot(10 * p.x, 10 * p.y);
+      if (fault_ == SensorFault::lens) p = r * p;
+      if (fault_ == SensorFault::rim && r > 0) p = (1 / r) * p;
       return {{p.x, p.y, 0}, {0, 0, 1}};
     }
     Ray ray(const LensPoint& lens, Vec2 film) const override {
       return {lens.position, normalize({0.5f - film.x, 0.5f - film.y, 1})};
     }
     std::optional<SensorResponse> response(const LensPoint&, Vec3 d) const override {
-      if (!(d.z > 0)) return std::nullopt;
+      if (!(d.z > 0) || fault_ == SensorFault::silent) return std::nullopt;
       Vec2 film{0.5f - d.x / d.z, 0.5f - d.y / d.z};
       if (!(film.x >= 0 && film.x < 1 && film.y >= 0 && film.y < 1)) return std::nullopt;
       if (fault_ == SensorFault::inverse) film.x = 1 - film.x;
@@ -113,6 +161,9 @@ TEST_CASE("conformance: faults of a sensor") {
   CHECK(red_with<FaultyLens>(SensorFault::none) == "");
   CHECK(red_with<FaultyLens>(SensorFault::inverse) == "inverse");
   CHECK(red_with<FaultyLens>(SensorFault::lens) == "lens");
+  CHECK(red_with<FaultyLens>(SensorFault::rim) == "lens");
+  CHECK(red_with<FaultyLens>(SensorFault::silent).find("inverse") != std::string::npos);
+  CHECK(red_with<FaultyLens>(SensorFault::claims_parallel) == "inverse");
   CHECK(red_with<FaultyLens>(SensorFault::pdf) == "chi_square integral");
 }
 
