@@ -172,13 +172,14 @@ class FaultyGuider final : public Guider {
   GuideFault fault_;
 };
 
-std::string red_guide(GuideFault fault) {
+/// What is red of the guider, or of the learner and so of their pair.
+std::string red_guide(GuideFault fault, const char* tested = "faulty") {
   FaultSettings<GuideFault>::planted = fault;
   Registry registry;
   load_modules(registry, PHAROS_PLUGINS, true);
   registry.add<BlankLearner>("blank", "Learns nothing");
   registry.add<FaultyGuider>("faulty", "Uniform");
-  return test::red(conformance::check_plugins(registry, {.names = {"faulty"}}));
+  return test::red(conformance::check_plugins(registry, {.names = {tested}}));
 }
 
 TEST_CASE("conformance: faults of a guide") {
@@ -187,6 +188,7 @@ TEST_CASE("conformance: faults of a guide") {
   CHECK(red_guide(GuideFault::fog_pdf).find("integral") != std::string::npos);
   CHECK(red_guide(GuideFault::declines) == "answers");
   CHECK(red_guide(GuideFault::no_model) == "answers");
+  CHECK(red_guide(GuideFault::no_model, "blank") == "answers determinism");
   CHECK(red_guide(GuideFault::forgets) == "save_load");
   CHECK(red_guide(GuideFault::moods).find("determinism") != std::string::npos);
 }
