@@ -6,120 +6,15 @@
 #include <tbb/task_arena.h>
 
 #include <pharos/conformance/fit.h>
-#include <pharos/conformance/guide_stage.h>
+#include <pharos/conformance/guided.h>
 #include <pharos/conformance/suites.h>
 #include <pharos/core/warp.h>
-#include <pharos/sampling/keyed_numbers.h>
 #include <pharos/statistics/hypothesis.h>
 
 namespace pharos::conformance {
 namespace {
 
 constexpr std::uint32_t kTrainingSamples = 48;
-
-/// Independent numbers, each path named by its index.
-class KeyedSampler final : public PreparedSampler {
- public:
-  std::uint64_t begin(const PathKey& key) const override { return hash_key(key); }
-  float value_1d(const SampleStream& stream, Dimension dimension) const override {
-    return keyed_numbers(stream.state(), dimension).x;
-  }
-  Vec2 value_2d(const SampleStream& stream, Dimension dimension) const override {
-    return keyed_numbers(stream.state(), dimension);
-  }
-};
-
-class HalfUnguided final : public MixingFractions {
- public:
-  float unguided_fraction(std::uint32_t) const override { return 0.5f; }
-};
-
-/// A guider bound to a model, as a render would ask it: densities are complete.
-GuidingFrame frame_of(const Guider& guider, const std::shared_ptr<const GuidingModel>& model) {
-  const GuiderTraits traits = guider.traits();
-  return GuidingFrame({{.guider = guider.bind(model),
-                        .steers_distance = traits.steers_distance,
-                        .steers_events = traits.steers_events}},
-                      std::make_shared<const HalfUnguided>());
-}
-
-/// What a guide knows at one vertex.
-class Guided {
- public:
-  Guided(const GuidingFrame& frame, const StageVertex& vertex)
-      : vertex_(vertex), distribution_(frame.query(vertex.query(), arena_).distribution) {}
-
-  bool declines() const { return distribution_ == nullptr; }
-  const StageVertex& vertex() const { return vertex_; }
-  double density(const ResolvedVertex& vertex) const {
-    return distribution_->density(vertex).value;
-  }
-
-  std::optional<Proposal> propose(std::uint64_t path) const {
-    const SampleStream stream(numbers_, {.seed = 77, .index = path});
-    return distribution_->propose(VertexStream(stream, vertex_.query().bounce));
-  }
-
-  /// The vertex that a draw leads to; empty for a sample of value zero.
-  std::optional<ResolvedVertex> draw(RandomStream& random) const {
-    const std::optional<Proposal> proposal = propose(random());
-    if (!proposal) return std::nullopt;
-    const auto [direction, event] = step(*proposal);
-    if (event == Event::none) return std::nullopt;
-    const auto reached = reach(vertex_.surface_along(direction, event), *proposal, random);
-    return reached && contains(proposal->targets, reached->kind) ? reached : std::nullopt;
-  }
-
-  /// Whether steps into a direction carry anything; a guide's density elsewhere is its own affair.
-  bool scatters_into(Vec3 direction) const {
-    return !is_black(vertex_.scattering().evaluate(direction).value);
-  }
-  /// The end of the segment along a direction, at its surface or at `distance` before.
-  ResolvedVertex end_along(Vec3 direction) const {
-    return vertex_.surface_along(direction, vertex_.scattering().smooth_event(direction));
-  }
-  ResolvedVertex stopped(ResolvedVertex v, float distance) const {
-    const Ray ray{vertex_.query().current.position, v.direction, v.distance};
-    v.distance = distance;
-    v.position = ray.at(distance);
-    v.kind = VertexKind::volume;
-    v.medium_density = vertex_.medium()->scatter_pdf(ray, distance);
-    return v;
-  }
-
- private:
-  /// What the scattering makes of a proposal.
-  std::pair<Vec3, Event> step(const Proposal& proposal) const {
-    if (is_empty(proposal.events & EventMask::smooth)) {
-      for (const DiscreteOutcome& o : vertex_.scattering().discrete()) {
-        if (contains(proposal.events, o.event)) return {o.direction, o.event};
-      }
-      return {{}, Event::none};
-    }
-    const Event event = vertex_.scattering().smooth_event(proposal.direction);
-    const bool taken = contains(proposal.events, event) && scatters_into(proposal.direction);
-    return {proposal.direction, taken ? event : Event::none};
-  }
-
-  std::optional<ResolvedVertex> reach(const ResolvedVertex& end, const Proposal& proposal,
-                                      RandomStream& random) const {
-    const bool at_distance = proposal.reach == Proposal::Reach::distance;
-    if (vertex_.medium() == nullptr) return at_distance ? std::nullopt : std::optional(end);
-    DistanceSample stop{proposal.distance, at_distance};
-    if (proposal.reach == Proposal::Reach::medium) {
-      const Ray ray{vertex_.query().current.position, end.direction, end.distance};
-      stop = vertex_.medium()->sample(ray, 0, random.next_1d());
-    } else if (at_distance && !(stop.t < end.distance)) {
-      return std::nullopt;
-    }
-    return stop.scattered ? stopped(end, stop.t) : end;
-  }
-
-  const StageVertex& vertex_;
-  Arena arena_;
-  KeyedSampler numbers_;
-  const GuidingDistribution* distribution_;
-};
 
 /// Directions that end on a surface, against their density [1/sr].
 void test_surfaces(const Guided& guide, std::uint64_t seed, Check& chi_square, Check& integral) {
