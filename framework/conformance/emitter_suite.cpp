@@ -34,15 +34,17 @@ bool is_lit(const Site& site, Point3 from) {
   return false;
 }
 
-/// Finds lit points around the light, and makes them references unless the given ones are lit. A
-/// spot of one degree lights a share of 8e-5 of the directions.
+/// Finds lit points around the light, and makes them references unless the given ones are lit: near
+/// by, then so far away that lights beside the scene which shine away from it are seen too. A spot
+/// of one degree lights a share of 8e-5 of the directions.
 void light_up(Site& site) {
   constexpr int kTries = 1'000'000, kLit = 3;
   int lit = 0;
   for (const Point3 from : site.references) lit += is_lit(site, from) ? 1 : 0;
   RandomStream random(1);
   for (int i = 0; i < kTries && (lit < kLit || !site.is_lit()); ++i) {
-    const Point3 from = site.center + 3 * warp::sphere_from_square(random.next_2d());
+    const float distance = i < kTries / 2 ? 3 : 3000;
+    const Point3 from = site.center + distance * warp::sphere_from_square(random.next_2d());
     const LightSample s = site.light->sample(from, random.next_2d());
     if (!(s.pdf > 0) || is_black(s.radiance)) continue;
     site.lit = s;

@@ -68,7 +68,7 @@ TEST_CASE("conformance: faults of an emitter") {
   CHECK(red_with<FaultySky>(SkyFault::power) == "power");
 }
 
-enum class SpotFault { none, direction, pdf, dark };
+enum class SpotFault { none, none_far_away, direction, pdf, dark };
 
 /// Light from one point into a cone of one degree.
 class FaultySpot final : public Emitter {
@@ -86,9 +86,11 @@ class FaultySpot final : public Emitter {
     explicit Spot(SpotFault fault) : fault_(fault) {}
     LightSample sample(Point3 from, Vec2 u) const override {
       LightSample s;
-      const float distance = length(from);
-      if (fault_ == SpotFault::dark || !(from.z > kCosine * distance)) return s;
-      s.direction = -from / distance;
+      s.point.position = {0, 0, fault_ == SpotFault::none_far_away ? 50.0f : 0.0f};
+      const Vec3 away = from - s.point.position;
+      const float distance = length(away);
+      if (fault_ == SpotFault::dark || !(away.z > kCosine * distance)) return s;
+      s.direction = -away / distance;
       if (fault_ == SpotFault::direction) s.direction = normalize(s.direction + Vec3{u.x, 0, 0});
       s.distance = distance;
       s.radiance = Rgb(1 / square(distance));
@@ -108,6 +110,7 @@ class FaultySpot final : public Emitter {
 
 TEST_CASE("conformance: faults of a narrow spot") {
   CHECK(red_with<FaultySpot>(SpotFault::none) == "");
+  CHECK(red_with<FaultySpot>(SpotFault::none_far_away) == "");
   CHECK(red_with<FaultySpot>(SpotFault::direction) == "discrete");
   CHECK(red_with<FaultySpot>(SpotFault::pdf) == "discrete");
   CHECK(red_with<FaultySpot>(SpotFault::dark) == "power");
