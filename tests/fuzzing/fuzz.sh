@@ -28,7 +28,7 @@ case $name in
       { echo 'budget: { spp: 1 }' && echo 'scene:' && sed 's/^/  /' "$scene"; } \
         >"$corpus/$(basename "$(dirname "$scene")").yaml"
     done
-    "$build/pharos" plugins --markdown | grep -o '`[a-z0-9_]*`' | sort -u | tr '`' '"' >"$words"
+    "$build/pharos" plugins --markdown | grep -o '`[a-z0-9_]\+`' | sort -u | tr '`' '"' >"$words"
     limit=16384 ;;
   mesh)
     # One triangle in each format; the first byte is the format's number.
