@@ -225,8 +225,11 @@ SceneParts Value<SceneParts>::read(const ConfigNode& node, BuildContext& context
                                    ConfigNode& resolved) {
   if (!node.is_scalar()) return read_mapping(node, context, resolved);
   const auto path = Value<std::filesystem::path>::read(node, context, resolved);
-  if (!std::filesystem::exists(path)) node.fail("there is no scene file '" + path.string() + "'");
-  if (std::filesystem::is_directory(path)) {
+  std::error_code failed;  // names may be too long to be asked for
+  if (!std::filesystem::exists(path, failed)) {
+    node.fail("there is no scene file '" + path.string() + "'");
+  }
+  if (std::filesystem::is_directory(path, failed)) {
     node.fail("expected a scene file, found the folder '" + path.string() + "'");
   }
   return read_mapping(read_config(path), context, resolved);

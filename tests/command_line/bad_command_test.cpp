@@ -30,6 +30,10 @@ TEST_CASE("subcommands and options") {
   check_refused(typed("render good.yaml --threads"), {"--threads"});
   check_refused(typed("plugins pth"), {"did you mean 'path'?"});
   check_refused(typed("plugins a b"), {"b"});
+  check_refused(typed("--"), {"expected a command"});
+  check_refused(typed("render good.yaml -o " + std::string(300, 'x') + ".exr"), {"too long"});
+  check_refused(typed("conformance diffuse --module sensors"), {"sensors"});
+  check_refused(typed("conformance diffuse --json /nowhere/x.json"), {"does not exist"});
 }
 
 TEST_CASE("replays of paths that are not there") {

@@ -56,6 +56,7 @@ TEST_CASE("scene files") {
   };
   check_refused(scene("nowhere.yaml"), {"bad.yaml:1:8: error: ", "nowhere.yaml"});
   check_refused(scene("/"), {"bad.yaml:1:8: error: ", "folder"});
+  check_refused(scene(std::string(300, 'x')), {"bad.yaml:1:8: error: ", "there is no scene file"});
   check_refused(scene("/dev/zero"), {"/dev/zero: error: ", "pipe or device"});
   check_refused(files(scene("s.yaml"), {{"s.yaml", ""}}), {"s.yaml: error: ", "empty"});
   check_refused(files(scene("s.yaml"), {{"s.yaml", "shapes: [sphere\n"}}), {"s.yaml:", "YAML"});
