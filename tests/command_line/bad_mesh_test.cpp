@@ -22,7 +22,7 @@ TEST_CASE("OBJ") {
 
 TEST_CASE("other formats") {
   check_mesh_refused("empty.stl", "");
-  check_mesh_refused("cut.stl", "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0\n", "4:11");
+  check_mesh_refused("cut.stl", "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0\n", "5:1");
   check_mesh_refused("count.stl",
                      std::string(80, ' ') + "\xff\xff\xff\x7f" + std::string(50, '\0'));
   check_mesh_refused("empty.gltf", "", "1:1");
