@@ -1,0 +1,22 @@
+#!/usr/bin/env bash
+# Runs suites of the preset `tsan` under the thread sanitizer, with a TBB that is built with it too:
+# without, every hand-over from thread to thread would look like a race.
+#
+#     cmake --preset tsan && cmake --build --preset tsan
+#     tests/sanitizers/tsan.sh [ctest options]
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+build=$root/build/tsan
+tbb=$build/tbb
+if [ ! -e "$tbb/lib/libtbb.so.12" ]; then
+  mkdir -p "$tbb"
+  # Needs the distribution's sources (a deb-src line); any oneTBB of the same version will do.
+  (cd "$tbb" && apt-get source -q onetbb)
+  cmake -S "$tbb"/onetbb-* -B "$tbb/build" -G Ninja -D TBB_TEST=OFF -D TBBMALLOC_BUILD=OFF \
+    -D TBB_STRICT=OFF -D CMAKE_BUILD_TYPE=RelWithDebInfo -D CMAKE_CXX_FLAGS=-fsanitize=thread \
+    -D CMAKE_SHARED_LINKER_FLAGS=-fsanitize=thread -D CMAKE_LIBRARY_OUTPUT_DIRECTORY="$tbb/lib"
+  cmake --build "$tbb/build" --target tbb
+fi
+export LD_LIBRARY_PATH=$tbb/lib${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
+export TSAN_OPTIONS=suppressions=$root/tests/sanitizers/tsan.supp
+exec ctest --test-dir "$build" --output-on-failure "$@"
