@@ -108,7 +108,8 @@ void write_flow(const ConfigNode& node, std::string& out) {
   }
 }
 
-/// Laid over `base`, as read_config documents.
+}  // namespace
+
 ConfigNode merged(ConfigNode base, ConfigNode over) {
   if (!base.is_mapping() || !over.is_mapping()) return over;
   const ConfigNode* base_type = base.find("type");
@@ -124,6 +125,8 @@ ConfigNode merged(ConfigNode base, ConfigNode over) {
   }
   return result;
 }
+
+namespace {
 
 /// Reads a config with all that it extends.
 class ConfigReader {

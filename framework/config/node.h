@@ -91,6 +91,9 @@ ConfigNode parse_yaml_at(std::string_view text, const Location& where);
 /// for a document that is not a mapping.
 ConfigNode read_config(const std::filesystem::path& path);
 
+/// `over` laid over `base` as a file over what it extends.
+ConfigNode merged(ConfigNode base, ConfigNode over);
+
 /// Applies one `a.b.c=value` override; the value is YAML and replaces what was there. An index
 /// steps into a sequence; mappings that are missing are made. Throws InputError located at
 /// "--set a.b.c=value".

@@ -186,7 +186,8 @@ std::string Value<std::string>::read(const ConfigNode& node, BuildContext&, Conf
   return node.text();
 }
 
-std::filesystem::path Value<std::filesystem::path>::read(const ConfigNode& node, BuildContext&,
+std::filesystem::path Value<std::filesystem::path>::read(const ConfigNode& node,
+                                                         BuildContext& context,
                                                          ConfigNode& resolved) {
   if (!node.is_scalar() || node.text().empty()) fail_type(node, "a path");
   std::filesystem::path folder;
@@ -194,6 +195,7 @@ std::filesystem::path Value<std::filesystem::path>::read(const ConfigNode& node,
   if (stands_in_file) folder = std::filesystem::path(node.where().file).parent_path();
   const auto path = std::filesystem::absolute(folder / node.text()).lexically_normal();
   resolved = ConfigNode::scalar(path.string());
+  context.files.push_back(path);
   return path;
 }
 

@@ -316,6 +316,8 @@ struct BuildContext {
     std::shared_ptr<const Component> component;
   };
   std::vector<Named> named = {};
+  /// Every path that was read, absolute, in order: the input besides the config itself.
+  std::vector<std::filesystem::path> files = {};
 };
 
 }  // namespace pharos

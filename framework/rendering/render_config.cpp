@@ -108,6 +108,7 @@ LoadedConfig build_render_config(const ConfigNode& node, const Registry& registr
   BuildContext context{registry};
   LoadedConfig loaded;
   loaded.config = Value<RenderConfig>::read(node, context, loaded.resolved);
+  loaded.files = std::move(context.files);
   check_together(loaded.config, node);
   return loaded;
 }

@@ -53,7 +53,8 @@ struct RenderConfig {
 /// A config with the text of all values in force.
 struct LoadedConfig {
   RenderConfig config;
-  ConfigNode resolved;  ///< parses to the same config
+  ConfigNode resolved;                       ///< parses to the same config
+  std::vector<std::filesystem::path> files;  ///< meshes, images and the like that it names
 };
 
 /// Reads a render config, follows `extends`, applies `overrides` ("a.b=c") in order, builds every

@@ -23,14 +23,24 @@ std::uint32_t unit_samples(const Iteration& iteration) {
   return iteration.training ? kRecordedUnitSamples : kUnitSamples;
 }
 
+/// Wall-clock time, but for pauses.
 class Stopwatch {
  public:
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  double seconds() const { return std::chrono::duration<double>(elapsed()).count(); }
+
+  /// Runs `work` while the watch stands.
+  template <class Work>
+  void pause(Work&& work) {
+    const Clock::duration before = elapsed();
+    work();
+    start_ = Clock::now() - before;
   }
 
  private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  using Clock = std::chrono::steady_clock;
+  Clock::duration elapsed() const { return Clock::now() - start_; }
+
+  Clock::time_point start_ = Clock::now();
 };
 
 std::uint32_t round_up(std::uint32_t value, std::uint32_t granule) {
@@ -61,19 +71,21 @@ std::uint32_t longest(const std::vector<Iteration>& iterations) {
   return samples;
 }
 
-/// How many samples a pixel the passes of an iteration take.
+/// How many samples a pixel the passes of an iteration take. They start small and double what is
+/// done, so that there is soon something to show and the sums are powers of two, up to a limit.
 class PassSizes {
  public:
   PassSizes(const Iteration& iteration, std::uint32_t granule)
-      : iteration_(iteration), granule_(granule), limit_(largest(iteration, granule)) {}
+      : iteration_(iteration), limit_(largest(iteration, granule)), size_(granule) {}
 
   /// The next pass after `done` samples with `seconds_left`; 0: the iteration is over. Timed
-  /// iterations start small and double while a pass takes less than a 64th of the time.
+  /// iterations double only while a pass takes less than 1/128 of the time, and end where that is
+  /// nearer to the deadline than another pass.
   std::uint32_t next(std::uint32_t done, double seconds_left, double last_pass) {
-    if (iteration_.samples > 0) return std::min(limit_, iteration_.samples - done);
-    if (done > 0 && seconds_left <= 0) return 0;
-    if (done > 0 && last_pass * 64 < iteration_.seconds) timed_ = std::min(2 * timed_, limit_);
-    return timed_;
+    const bool timed = iteration_.samples == 0;
+    if (timed && done > 0 && seconds_left < last_pass / 2) return 0;
+    if (!timed || last_pass * 128 < iteration_.seconds) size_ = std::clamp(done, size_, limit_);
+    return timed ? size_ : std::min(size_, iteration_.samples - done);
   }
 
  private:
@@ -85,8 +97,7 @@ class PassSizes {
   }
 
   const Iteration& iteration_;
-  std::uint32_t granule_, limit_;
-  std::uint32_t timed_ = granule_;
+  std::uint32_t limit_, size_;
 };
 
 }  // namespace
@@ -164,19 +175,21 @@ class RenderJob::Implementation {
 
   void run_iteration(std::uint32_t index) {
     const Iteration& iteration = iterations_[index];
-    const Stopwatch watch;
+    const double start = watch_.seconds();
     Film film = make_film();
     PassSizes sizes(iteration, config_.sampler->preferred_samples());
     std::uint32_t done = 0;
     double last_pass = 0;
     const double deadline = work_up_to(index + 1);
     while (const std::uint32_t size = sizes.next(done, deadline - watch_.seconds(), last_pass)) {
-      const Stopwatch pass_watch;
+      const double pass_start = watch_.seconds();
       if (!run_pass(index, done, size, film)) break;
       done += size;
-      last_pass = pass_watch.seconds();
+      last_pass = watch_.seconds() - pass_start;
+      if (control_.on_pass) watch_.pause([&] { show(index, film); });
     }
-    (iteration.training ? result_.times.training : result_.times.rendering) += watch.seconds();
+    (iteration.training ? result_.times.training : result_.times.rendering) +=
+        watch_.seconds() - start;
     result_.samples_per_pixel += film.samples_per_pixel();
     // A film that was stopped within its first pass has holes: it serves only if there is no other.
     if (film.complete_passes() > 0 || !has_image_) last_image_ = film.layers();
@@ -185,11 +198,21 @@ class RenderJob::Implementation {
     if (iteration.training && !stopped()) update_guiding(index);
   }
 
+  void show(std::uint32_t index, const Film& film) const {
+    const auto image = [&] {
+      if (!iterations_[index].keeps_image || combiner_.empty()) return film.layers();
+      ImageCombiner combiner = combiner_;
+      combiner.add(film);
+      return combiner.combine();
+    };
+    control_.on_pass({progress(index, film.samples_per_pixel()), image});
+  }
+
   void update_guiding(std::uint32_t index) {
-    const Stopwatch watch;
+    const double start = watch_.seconds();
     guiding_->update(index, !iterations_[index + 1].training);
     frame_ = guiding_->frame();
-    result_.times.update += watch.seconds();
+    result_.times.update += watch_.seconds() - start;
   }
 
   /// Renders `size` samples of every pixel; false when it was cut short.
@@ -222,7 +245,9 @@ class RenderJob::Implementation {
       result_.counters += work.counters;
       if (!result_.first_invalid) result_.first_invalid = work.first_invalid;
       pixel_samples += static_cast<double>(unit(i).pixels.area()) * unit(i).sample_count;
-      report(index, first_sample + pixel_samples / film_area());
+      if (control_.on_progress) {
+        control_.on_progress(progress(index, first_sample + pixel_samples / film_area()));
+      }
     };
     parallel_ordered(chunks * tiles_.size(), produce, consume,
                      [&](std::size_t) { return !stopped(); });
@@ -243,18 +268,17 @@ class RenderJob::Implementation {
     return work;
   }
 
-  /// Tells how far it is after `samples` a pixel of iteration `index`.
-  void report(std::uint32_t index, double samples) const {
-    if (!control_.on_progress) return;
+  /// How far it is after `samples` a pixel of iteration `index`.
+  Progress progress(std::uint32_t index, double samples) const {
     const double done =
         iterations_[index].samples > 0 ? work_up_to(index) + samples : watch_.seconds();
-    control_.on_progress({.iteration = index,
-                          .iteration_count = static_cast<std::uint32_t>(iterations_.size()),
-                          .training = iterations_[index].training,
-                          .fraction = std::min(done / work_up_to(iterations_.size()), 1.0),
-                          .seconds = watch_.seconds(),
-                          .samples_per_pixel = result_.samples_per_pixel + samples,
-                          .rays = result_.counters.rays});
+    return {.iteration = index,
+            .iteration_count = static_cast<std::uint32_t>(iterations_.size()),
+            .training = iterations_[index].training,
+            .fraction = std::min(done / work_up_to(iterations_.size()), 1.0),
+            .seconds = watch_.seconds(),
+            .samples_per_pixel = result_.samples_per_pixel + samples,
+            .rays = result_.counters.rays};
   }
 
   RenderConfig config_;

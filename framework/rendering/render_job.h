@@ -24,10 +24,22 @@ struct Progress {
   std::uint64_t rays = 0;
 };
 
+/// A render between two passes.
+struct RenderSnapshot {
+  Progress progress;
+  /// Makes the image that the render would end with here, with all layers; in training, that of
+  /// the iteration in progress. Valid within the call that it was given to.
+  std::function<Image()> image;
+};
+
 /// How a render is watched and stopped.
 struct RenderControl {
   /// Called between work units, by one thread at a time; may be empty.
   std::function<void(const Progress&)> on_progress;
+  /// Called after every whole pass, while nothing is rendered and the clock stands: what it takes
+  /// is not charged to the budget. Passes end at powers of two of samples a pixel as long as they
+  /// are short. May be empty; changes no bit of the image.
+  std::function<void(const RenderSnapshot&)> on_pass;
   /// Set by anyone to end the render early; what was rendered is kept.
   const std::atomic<bool>* stop = nullptr;
 };

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <span>
+
+namespace pharos::statistics {
+
+/// An interval of confidence.
+struct Interval {
+  double low = 0, high = 0;
+};
+
+/// An estimate with its interval of confidence.
+struct Bounded {
+  double value = 0;
+  Interval interval;
+};
+
+/// The geometric mean of positive values with its interval of confidence by Student's t on their
+/// logarithms; the interval of fewer than two values is [0, infinity). Throws InputError for values
+/// that are not positive.
+Bounded geometric_mean(std::span<const double> values, double confidence = 0.95);
+
+/// The geometric mean of the ratios a[i] / b[i] of paired positive values, with its interval.
+Bounded mean_ratio(std::span<const double> a, std::span<const double> b, double confidence = 0.95);
+
+/// The slope of a straight line of y over x in least squares, with Student's interval; of fewer
+/// than three points (-infinity, infinity).
+Bounded fitted_slope(std::span<const double> x, std::span<const double> y,
+                     double confidence = 0.95);
+
+}  // namespace pharos::statistics
