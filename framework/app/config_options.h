@@ -12,8 +12,8 @@ struct ConfigOptions {
   std::string path;
   std::vector<std::string> overrides;
 
-  void add_to(CLI::App& command) {
-    command.add_option("config", path, "Render config (YAML)")->required();
+  void add_to(CLI::App& command, const char* description = "Render config (YAML)") {
+    command.add_option("config", path, description)->required();
     command.add_option("--set", overrides, "Override one value, such as --set film.width=256")
         ->take_all()
         ->expected(1)

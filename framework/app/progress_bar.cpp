@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <string>
 #include <unistd.h>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -25,7 +26,12 @@ std::string clock_text(double seconds) {
 ProgressBar::ProgressBar() : on_terminal_(isatty(fileno(stderr)) != 0) {}
 
 ProgressBar::~ProgressBar() {
-  if (drawn_) fmt::print(stderr, "\r\x1b[K");
+  clear();
+}
+
+void ProgressBar::clear() {
+  if (std::exchange(drawn_, false)) fmt::print(stderr, "\r\x1b[K");
+  last_drawn_ = -1;
 }
 
 void ProgressBar::show(const Progress& p) {

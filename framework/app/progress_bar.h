@@ -14,6 +14,8 @@ class ProgressBar {
   ProgressBar& operator=(const ProgressBar&) = delete;
 
   void show(const Progress& progress);
+  /// Takes the line away, for other messages, until the next show(), of this render or another.
+  void clear();
 
  private:
   bool on_terminal_;

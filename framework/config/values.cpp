@@ -199,6 +199,11 @@ std::filesystem::path Value<std::filesystem::path>::read(const ConfigNode& node,
   return path;
 }
 
+ConfigNode Value<ConfigNode>::read(const ConfigNode& node, BuildContext&, ConfigNode& resolved) {
+  if (!node.is_mapping()) fail_type(node, "a mapping");
+  return resolved = node;
+}
+
 std::string Value<Vec2>::default_text(Vec2 v) {
   return to_flow_yaml(float_list({v.x, v.y}));
 }

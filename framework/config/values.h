@@ -196,6 +196,14 @@ struct Value<Vec3> : PlainValue {
   static Vec3 read(const ConfigNode& node, BuildContext&, ConfigNode& resolved);
 };
 
+/// A mapping that is kept as it was written, to be read later.
+template <>
+struct Value<ConfigNode> : PlainValue {
+  static std::string type_name() { return "mapping"; }
+  static std::string default_text(const ConfigNode& v) { return to_flow_yaml(v); }
+  static ConfigNode read(const ConfigNode& node, BuildContext&, ConfigNode& resolved);
+};
+
 /// One number for grey or a list of three.
 template <>
 struct Value<Rgb> : PlainValue {

@@ -40,4 +40,7 @@ void write_atomically(const std::filesystem::path& path, Write&& write) {
   }
 }
 
+/// Writes a text file so; throws RunError.
+void write_text(const std::filesystem::path& path, const std::string& text);
+
 }  // namespace pharos

@@ -15,6 +15,10 @@ struct Bounded {
   Interval interval;
 };
 
+/// The arithmetic mean with its interval of confidence by Student's t; the interval of a single value
+/// is (-infinity, infinity).
+Bounded arithmetic_mean(std::span<const double> values, double confidence = 0.95);
+
 /// The geometric mean of positive values with its interval of confidence by Student's t on their
 /// logarithms; the interval of fewer than two values is [0, infinity). Throws InputError for values
 /// that are not positive.

@@ -1,0 +1,83 @@
+#include <filesystem>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <pharos/config/module_loader.h>
+#include <pharos/core/log.h>
+#include <pharos/experiments/experiment.h>
+#include <pharos/experiments/results_files.h>
+
+#include "commands.h"
+#include "config_options.h"
+#include "interrupt.h"
+#include "progress_bar.h"
+#include "threads.h"
+#include "writable.h"
+
+namespace pharos {
+namespace {
+
+struct ExperimentOptions {
+  ConfigOptions config;
+  std::string output;
+  int threads = 0;
+  bool quiet = false;
+};
+
+/// Makes the folder now, so that long work does not end where nothing can be written.
+void prepare_folder(const std::filesystem::path& folder) {
+  std::error_code failed;
+  std::filesystem::create_directories(folder, failed);
+  if (failed) {
+    throw InputError(
+        fmt::format("{}: error: the folder cannot be made: {}", folder.string(), failed.message()));
+  }
+  check_writable(folder / "results.json");
+  check_writable(folder / "report.html");
+}
+
+int run(const ExperimentOptions& options) {
+  set_log_quiet(options.quiet);
+  const Registry registry = load_default_modules();
+  ExperimentConfig config =
+      load_experiment(options.config.path, options.config.overrides, registry);
+  if (!options.output.empty()) config.output = options.output;
+  const ExperimentPlan plan = plan_experiment(config, registry);
+  prepare_folder(config.output);
+
+  const InterruptGuard interrupt;
+  const ExperimentResults results = [&] {
+    ProgressBar bar;
+    ExperimentControl control;
+    control.render.stop = &interrupt.flag();
+    if (!options.quiet) control.render.on_progress = [&bar](const Progress& p) { bar.show(p); };
+    control.on_message = [&bar](const std::string& message) {
+      bar.clear();
+      log_info(message);
+    };
+    return run_experiment(config, plan, registry, control);
+  }();
+  write_results(results);
+  log_info(fmt::format("{}: {} of {} runs{}", (results.folder() / "report.html").string(),
+                       results.records.size(), results.run_count,
+                       results.stopped ? " (interrupted; the same command goes on)" : ""));
+  return results.stopped ? kInterrupted : kDone;
+}
+
+}  // namespace
+
+void add_experiment_command(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand("experiment", "Compare methods on scenes, and report");
+  const auto options = std::make_shared<ExperimentOptions>();
+  options->config.add_to(*command, "Experiment (YAML)");
+  command->add_option("-o,--output", options->output, "Folder instead of the experiment's");
+  command->add_option("--threads", options->threads, "Number of threads; 0: all cores")
+      ->check(CLI::Range(0, 1024));
+  command->add_flag("-q,--quiet", options->quiet, "Only warnings and errors");
+  command->callback([options, &exit_code] {
+    with_threads(options->threads, [&] { exit_code = run(*options); });
+  });
+}
+
+}  // namespace pharos

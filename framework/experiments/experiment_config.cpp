@@ -1,0 +1,144 @@
+#include <algorithm>
+#include <cctype>
+#include <set>
+
+#include <fmt/format.h>
+
+#include <pharos/experiments/experiment_config.h>
+
+namespace pharos {
+namespace {
+
+constexpr const char* kNameRule = "letters, digits, '.', '_', '+' and '-', not '.' first";
+
+/// Names of scenes and methods are also those of folders.
+bool is_name(const std::string& name) {
+  return !name.empty() && name.size() <= 100 && name[0] != '.' &&
+         std::all_of(name.begin(), name.end(), [](unsigned char c) {
+           return c < 128 && (std::isalnum(c) != 0 || c == '.' || c == '_' || c == '+' || c == '-');
+         });
+}
+
+bool is_even(std::uint32_t n) {
+  return n % 2 == 0;
+}
+
+/// The names of a list's entries, each once.
+template <class Entry>
+std::vector<std::string> names_of(const std::vector<Entry>& entries, const ConfigNode& root,
+                                  const char* key) {
+  std::vector<std::string> names;
+  const ConfigNode* list = root.find(key);
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    if (std::find(names.begin(), names.end(), entries[i].name) != names.end()) {
+      list->items()[i].fail(
+          fmt::format("the name '{}' stands twice in '{}'", entries[i].name, key));
+    }
+    names.push_back(entries[i].name);
+  }
+  if (names.empty()) root.fail(fmt::format("expected at least one entry in '{}'", key));
+  return names;
+}
+
+void check_reference(const ReferenceSettings& reference, const ConfigNode* node) {
+  if (!reference.image.empty() && reference.spp > 0) {
+    node->fail("expected either 'image' or 'spp', found both");
+  }
+  if (reference.spp > 0 && reference.spp % reference.parts != 0) {
+    node->fail(fmt::format("expected 'spp' to be a multiple of 'parts', found {} and {}",
+                           reference.spp, reference.parts));
+  }
+  if (reference.image.empty()) return;
+  const std::string problem = file_problem(reference.image);
+  if (!problem.empty()) node->find("image")->fail(problem);
+}
+
+/// What no single parameter can check.
+void check_together(const ExperimentConfig& config, const ConfigNode& root) {
+  names_of(config.scenes, root, "scenes");
+  const std::vector<std::string> methods = names_of(config.methods, root, "methods");
+  if (config.budget.spp.has_value() == config.budget.seconds.has_value()) {
+    root.find("budget")->fail("expected either 'spp' or 'seconds'");
+  }
+  if (!config.baseline.empty() &&
+      std::find(methods.begin(), methods.end(), config.baseline) == methods.end()) {
+    root.find("baseline")
+        ->fail(fmt::format("expected a method, one of {}, found '{}'{}", quoted_list(methods),
+                           config.baseline, suggestion(config.baseline, methods)));
+  }
+  check_reference(config.reference, root.find("reference"));
+  for (std::size_t i = 0; i < config.scenes.size(); ++i) {
+    const ConfigNode& node = root.find("scenes")->items()[i];
+    check_reference(config.scenes[i].reference, node.find("reference"));
+    if (!config.scenes[i].reference.given() && !config.reference.given()) {
+      node.fail(
+          "there is no reference: state 'reference' here or for all scenes, with 'image' or "
+          "'spp'");
+    }
+  }
+}
+
+}  // namespace
+
+void ReferenceSettings::describe(Schema<ReferenceSettings>& s) {
+  s.field("image", &ReferenceSettings::image, "Image file to measure against");
+  s.field("spp", &ReferenceSettings::spp, "Samples a pixel, if it is to be rendered");
+  s.field("parts", &ReferenceSettings::parts,
+          "Independent renders it is made of: what is finished is kept, and their difference tells "
+          "the reference's own error")
+      .at_least(2)
+      .at_most(1024)
+      .check("even", is_even);
+  s.field("settings", &ReferenceSettings::settings, "Laid over the scene's config");
+}
+
+void ExperimentScene::describe(Schema<ExperimentScene>& s) {
+  s.field("name", &ExperimentScene::name, "Name in tables").required().check(kNameRule, is_name);
+  s.field("config", &ExperimentScene::config, "Render config").required();
+  s.field("settings", &ExperimentScene::settings, "Laid over it");
+  s.field("reference", &ExperimentScene::reference, "Instead of the experiment's");
+}
+
+void ExperimentMethod::describe(Schema<ExperimentMethod>& s) {
+  s.field("name", &ExperimentMethod::name, "Name in tables").required().check(kNameRule, is_name);
+  s.field("settings", &ExperimentMethod::settings, "Laid over every scene's config");
+}
+
+void ExperimentConfig::describe(Schema<ExperimentConfig>& s) {
+  s.field("title", &ExperimentConfig::title, "Heading of the report");
+  s.field("description", &ExperimentConfig::description, "What is asked, in a sentence or two");
+  s.field("scenes", &ExperimentConfig::scenes, "What is rendered").required();
+  s.field("methods", &ExperimentConfig::methods, "What is compared").required();
+  s.field("settings", &ExperimentConfig::settings, "Laid over all scenes' configs");
+  s.field("budget", &ExperimentConfig::budget, "Of every run: spp or seconds").required();
+  s.field("seeds", &ExperimentConfig::seeds, "Runs of each method on each scene")
+      .at_least(1)
+      .at_most(10000);
+  s.field("first_seed", &ExperimentConfig::first_seed, "Seed of the first run").at_least(0);
+  s.field("baseline", &ExperimentConfig::baseline,
+          "Method that ratios are to; by default the first");
+  s.field("reference", &ExperimentConfig::reference, "What errors are measured against");
+  s.field("images", &ExperimentConfig::images, "Whose images are kept: the first seed's or all");
+  s.field("output", &ExperimentConfig::output,
+          "Folder, relative to the current one; by default the file's name");
+  s.field("cache", &ExperimentConfig::cache,
+          "Folder of rendered references; by default pharos/references in the user's cache");
+}
+
+ExperimentConfig load_experiment(const std::filesystem::path& path,
+                                 const std::vector<std::string>& overrides,
+                                 const Registry& registry) {
+  ConfigNode node = read_config(path);
+  for (const std::string& assignment : overrides) apply_override(node, assignment);
+  BuildContext context{registry};
+  ConfigNode resolved;
+  auto config = Value<ExperimentConfig>::read(node, context, resolved);
+  check_together(config, node);
+  const std::string name = path.stem().string();
+  if (config.title.empty()) config.title = name;
+  if (config.baseline.empty()) config.baseline = config.methods.front().name;
+  if (config.output.empty()) config.output = name;
+  return config;
+}
+
+}  // namespace pharos

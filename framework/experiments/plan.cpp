@@ -1,0 +1,83 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include <pharos/experiments/content_key.h>
+#include <pharos/experiments/plan.h>
+
+namespace pharos {
+namespace {
+
+/// A scene's config with the settings for all scenes and its own.
+ConfigNode scene_config(const ExperimentConfig& experiment, const ExperimentScene& scene) {
+  ConfigNode node = read_config(scene.config);
+  node.take("output");
+  return merged(merged(std::move(node), experiment.settings), scene.settings);
+}
+
+ConfigNode budget_node(const Budget& budget) {
+  ConfigNode node = ConfigNode::mapping();
+  if (budget.spp) node.set("spp", ConfigNode::scalar(std::to_string(*budget.spp)));
+  if (budget.seconds) node.set("seconds", ConfigNode::scalar(number_text(*budget.seconds)));
+  return node;
+}
+
+void check_film(const FilmSettings& film, const PlannedReference& reference,
+                const ConfigNode& config) {
+  if (film.width == reference.width && film.height == reference.height) return;
+  const ConfigNode* node = config.find("film");
+  node->fail(
+      fmt::format("a method must not change the size of the film: expected {} x {} as in the "
+                  "reference, found {} x {}",
+                  reference.width, reference.height, film.width, film.height));
+}
+
+PlannedCell plan_cell(const ExperimentConfig& experiment, const ConfigNode& scene,
+                      const PlannedReference& reference, std::size_t scene_index,
+                      std::size_t method_index, const Registry& registry) {
+  PlannedCell cell{.scene = scene_index, .method = method_index};
+  cell.config = merged(scene, experiment.methods[method_index].settings);
+  cell.config.set("budget", budget_node(experiment.budget));
+  LoadedConfig loaded = build_run(cell.config, experiment.first_seed, registry);
+  check_film(loaded.config.film, reference, cell.config);
+  loaded.resolved.take("seed");
+  loaded.resolved.take("output");
+  cell.text = to_yaml(loaded.resolved);
+  cell.key = content_key(loaded);
+  return cell;
+}
+
+PlannedReference plan_reference(const ReferenceSettings& settings, const ConfigNode& scene,
+                                const Registry& registry) {
+  PlannedReference reference{.image = settings.image, .config = merged(scene, settings.settings)};
+  if (settings.spp > 0) reference.parts = settings.parts;
+  // A file is compared with images of the scene's size: any budget tells that.
+  reference.config.set("budget", budget_node({.spp = std::max(settings.spp / settings.parts, 1u)}));
+  const FilmSettings film = build_run(reference.config, 0, registry).config.film;
+  reference.width = film.width, reference.height = film.height;
+  return reference;
+}
+
+}  // namespace
+
+LoadedConfig build_run(const ConfigNode& config, std::uint64_t seed, const Registry& registry) {
+  ConfigNode node = config;
+  node.set("seed", ConfigNode::scalar(std::to_string(seed)));
+  return build_render_config(node, registry);
+}
+
+ExperimentPlan plan_experiment(const ExperimentConfig& experiment, const Registry& registry) {
+  ExperimentPlan plan;
+  for (std::size_t s = 0; s < experiment.scenes.size(); ++s) {
+    const ExperimentScene& scene = experiment.scenes[s];
+    const ConfigNode config = scene_config(experiment, scene);
+    plan.references.push_back(plan_reference(
+        scene.reference.given() ? scene.reference : experiment.reference, config, registry));
+    for (std::size_t m = 0; m < experiment.methods.size(); ++m) {
+      plan.cells.push_back(plan_cell(experiment, config, plan.references[s], s, m, registry));
+    }
+  }
+  return plan;
+}
+
+}  // namespace pharos

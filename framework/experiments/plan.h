@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <pharos/experiments/experiment_config.h>
+
+namespace pharos {
+
+/// One method on one scene, without its seed.
+struct PlannedCell {
+  std::size_t scene = 0, method = 0;  ///< indices into the experiment's lists
+  ConfigNode config;                  ///< of the render, budget included
+  std::string text;                   ///< the same with every value in force, but for the seed
+  std::string key;                    ///< of its content, see content_key()
+};
+
+/// The reference of a scene: a file, or a render.
+struct PlannedReference {
+  std::filesystem::path image;
+  ConfigNode config;          ///< of one part, when it is to be rendered
+  std::uint32_t parts = 0;    ///< 0: it is a file
+  int width = 0, height = 0;  ///< of the scene's images
+};
+
+/// All that an experiment renders.
+struct ExperimentPlan {
+  std::vector<PlannedReference> references;  ///< one a scene
+  std::vector<PlannedCell> cells;            ///< scene by scene, in each method by method
+};
+
+/// Lays methods over scenes and builds every combination once, so that whatever is wrong comes out
+/// before anything is rendered: throws InputError.
+ExperimentPlan plan_experiment(const ExperimentConfig& config, const Registry& registry);
+
+/// A config with a seed, to be rendered.
+LoadedConfig build_run(const ConfigNode& config, std::uint64_t seed, const Registry& registry);
+
+}  // namespace pharos

@@ -1,0 +1,189 @@
+#include <array>
+#include <cstdlib>
+
+#include <fmt/format.h>
+
+#include <pharos/core/error.h>
+#include <pharos/core/version.h>
+#include <pharos/experiments/content_key.h>
+#include <pharos/experiments/metrics.h>
+#include <pharos/experiments/reference.h>
+
+namespace pharos {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Seeds of references: far from those that runs have.
+constexpr std::uint64_t kReferenceSeed = std::uint64_t{1} << 40;
+
+/// Channels R, G and B of an image, in this order.
+Image rgb_of(const Image& image, const fs::path& file) {
+  std::array<int, 3> sources{};
+  static constexpr std::array<const char*, 3> names{"R", "G", "B"};
+  for (std::size_t c = 0; c < 3; ++c) {
+    sources[c] = image.channel_index(names[c]);
+    if (sources[c] < 0) {
+      throw InputError(fmt::format("{}: error: expected channels R, G, B, found {}", file.string(),
+                                   quoted_list(image.channels())));
+    }
+  }
+  Image rgb(image.width(), image.height(), {"R", "G", "B"});
+  for (int y = 0; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x) {
+      for (std::size_t c = 0; c < 3; ++c) rgb.pixel(x, y)[c] = image.pixel(x, y)[sources[c]];
+    }
+  }
+  return rgb;
+}
+
+Image read_rgb(const fs::path& file, const PlannedReference& planned) {
+  Image image = rgb_of(read_image(file), file);
+  if (image.width() != planned.width || image.height() != planned.height) {
+    throw InputError(
+        fmt::format("{}: error: expected {} x {} pixels like the renders, found {} x {}",
+                    file.string(), planned.width, planned.height, image.width(), image.height()));
+  }
+  return image;
+}
+
+/// The mean of some images of one size.
+class MeanImage {
+ public:
+  void add(const Image& image) {
+    if (count_ == 0) {
+      sum_.assign(image.values().size(), 0.0);
+      mean_ = image;
+    }
+    for (std::size_t i = 0; i < sum_.size(); ++i) sum_[i] += image.values()[i];
+    ++count_;
+  }
+  Image mean() const {
+    Image image = mean_;
+    for (std::size_t i = 0; i < sum_.size(); ++i) {
+      image.values()[i] = static_cast<float>(sum_[i] / count_);
+    }
+    return image;
+  }
+
+ private:
+  std::vector<double> sum_;
+  Image mean_;
+  int count_ = 0;
+};
+
+double number_at(const Metadata& metadata, const std::string& key) {
+  const auto entry = metadata.find(key);
+  return entry == metadata.end() ? 0 : std::strtod(entry->second.c_str(), nullptr);
+}
+
+/// References of one cache folder, by key; parts of those that are not finished stand beside.
+class Cache {
+ public:
+  Cache(fs::path folder, std::string key, const PlannedReference& planned)
+      : folder_(std::move(folder)), key_(std::move(key)), planned_(planned) {}
+
+  std::optional<Reference> find() const {
+    const fs::path file = path();
+    if (!fs::exists(file)) return std::nullopt;
+    const Metadata metadata = read_metadata(file);
+    Reference reference{.image = read_rgb(file, planned_), .key = key_, .file = file};
+    reference.samples_per_pixel = number_at(metadata, "pharos:samples_per_pixel");
+    reference.seconds = number_at(metadata, "pharos:seconds");
+    reference.mse = number_at(metadata, "pharos:own_mse");
+    reference.relative_mse = number_at(metadata, "pharos:own_relative_mse");
+    if (metadata.contains("pharos:version")) reference.version = metadata.at("pharos:version");
+    return reference;
+  }
+
+  bool has_part(std::uint32_t part) const { return fs::exists(part_path(part)); }
+
+  void keep_part(std::uint32_t part, const RenderResult& result) const {
+    fs::create_directories(folder_);
+    write_exr(select_layers(result.image, {}), part_path(part),
+              {{"pharos:version", version()},
+               {"pharos:samples_per_pixel", fmt::format("{}", result.samples_per_pixel)},
+               {"pharos:seconds", fmt::format("{}", seconds_of(result.times))}});
+  }
+
+  /// Makes the whole of its parts.
+  void finish(const std::string& config) const {
+    MeanImage whole;
+    std::array<MeanImage, 2> halves;
+    double samples = 0, seconds = 0;
+    for (std::uint32_t part = 0; part < planned_.parts; ++part) {
+      const Image image = read_rgb(part_path(part), planned_);
+      const Metadata metadata = read_metadata(part_path(part));
+      whole.add(image);
+      halves[part % 2].add(image);
+      samples += number_at(metadata, "pharos:samples_per_pixel");
+      seconds += number_at(metadata, "pharos:seconds");
+    }
+    // Halves differ by twice the variance of one, which is twice that of the whole.
+    static constexpr std::array<Metric, 2> metrics{Metric::mse, Metric::relative_mse};
+    const ImageErrors difference = measure(halves[0].mean(), halves[1].mean(), metrics);
+    write_exr(
+        whole.mean(), path(),
+        {{"pharos:version", version()},
+         {"pharos:config", config},
+         {"pharos:parts", std::to_string(planned_.parts)},
+         {"pharos:samples_per_pixel", fmt::format("{}", samples)},
+         {"pharos:seconds", fmt::format("{}", seconds)},
+         {"pharos:own_mse", fmt::format("{}", difference[Metric::mse] / 4)},
+         {"pharos:own_relative_mse", fmt::format("{}", difference[Metric::relative_mse] / 4)}});
+    for (std::uint32_t part = 0; part < planned_.parts; ++part) fs::remove(part_path(part));
+  }
+
+ private:
+  static double seconds_of(const RenderTimes& times) {
+    return times.training + times.update + times.rendering;
+  }
+  fs::path path() const { return folder_ / (key_ + ".exr"); }
+  fs::path part_path(std::uint32_t part) const {
+    return folder_ / fmt::format("{}.part-{}.exr", key_, part);
+  }
+
+  fs::path folder_;
+  std::string key_;
+  const PlannedReference& planned_;
+};
+
+}  // namespace
+
+fs::path default_reference_cache() {
+  const char* cache = std::getenv("XDG_CACHE_HOME");
+  const char* home = std::getenv("HOME");
+  fs::path folder = cache != nullptr && *cache != '\0' ? fs::path(cache)
+                    : home != nullptr && *home != '\0' ? fs::path(home) / ".cache"
+                                                       : fs::temp_directory_path();
+  return folder / "pharos" / "references";
+}
+
+std::optional<Reference> find_or_render(const PlannedReference& planned,
+                                        const fs::path& cache_folder, const Registry& registry,
+                                        const RenderControl& control, const PartReport& report) {
+  if (planned.parts == 0) {
+    Reference given{.image = read_rgb(planned.image, planned), .file = planned.image};
+    const std::vector<float>& values = given.image.values();
+    given.key =
+        content_key({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float)});
+    return given;
+  }
+  const LoadedConfig whole = build_run(planned.config, kReferenceSeed, registry);
+  const Cache cache(cache_folder,
+                    content_key(content_key(whole) + fmt::format(" in {}", planned.parts)),
+                    planned);
+  if (std::optional<Reference> known = cache.find()) return known;
+  for (std::uint32_t part = 0; part < planned.parts; ++part) {
+    if (cache.has_part(part)) continue;
+    report(part, planned.parts);
+    const LoadedConfig loaded = build_run(planned.config, kReferenceSeed + part, registry);
+    const RenderResult result = RenderJob(loaded.config).run(control);
+    if (result.stopped) return std::nullopt;
+    cache.keep_part(part, result);
+  }
+  cache.finish(to_yaml(whole.resolved));
+  return cache.find();
+}
+
+}  // namespace pharos
