@@ -23,6 +23,7 @@ struct MetricInfo {
   std::string_view definition;  ///< one line
   std::string_view source;      ///< who defined it so
   bool lower_is_better;
+  bool has_ratios;  ///< the ratio of two values says something; not so for decibels
 };
 
 /// All metrics, in the order of the enum.
@@ -40,15 +41,23 @@ struct ImageErrors {
   double operator[](Metric metric) const { return values[static_cast<std::size_t>(metric)]; }
 };
 
+/// Added to the squared reference by `relative_mse`, and to magnitudes by `mape` and `smape`, so
+/// that dark pixels do not count without bound [unit of the image, squared or not]. A custom of the
+/// field, as in the image viewer tev; it supposes images exposed for display.
+inline constexpr double kRelativeFloor = 1e-2;
+
+/// `capped_mse` caps the errors of one pixel in this many, the largest ones.
+inline constexpr std::size_t kPixelsPerCapped = 1000;
+
 /// The given metrics of `image` against `reference`. Throws InputError when sizes differ, when one
-/// has no channels R, G, B, and when no pixel is finite.
+/// has no channels R, G, B, and when no pixel is finite. The same bits for any number of threads.
 ImageErrors measure(const Image& image, const Image& reference, std::span<const Metric> metrics);
 /// All metrics.
 ImageErrors measure(const Image& image, const Image& reference);
 
-/// The error of every pixel, one channel "Y", whose mean the metric is made of: `mse`, `capped_mse`
-/// and `psnr` give squared errors, others their own terms. NaN where a pixel is not finite. Throws
-/// as measure() does.
+/// The error of every pixel, one channel "Y", whose mean the metric is made of: `mse` and
+/// `capped_mse` give squared errors, `psnr` those of the clipped image, others their own terms. NaN
+/// where a pixel is not finite. Throws as measure() does.
 Image error_map(Metric metric, const Image& image, const Image& reference);
 
 }  // namespace pharos

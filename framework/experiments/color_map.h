@@ -1,0 +1,27 @@
+#pragma once
+
+#include <pharos/core/image.h>
+
+namespace pharos {
+
+/// What false_color() shows and how.
+struct ColorScale {
+  double low = 0, high = 1;  ///< values that show as the first and the last colour
+  bool logarithmic = false;  ///< low and high must be positive then
+};
+
+/// A position on the map, 0 to 1, as a linear colour: magma, by N. Smith and S. van der Walt
+/// (matplotlib 1.5, 2015; CC0), perceptually uniform from black over purple and orange to pale
+/// yellow. Sixteen colours and straight lines between them, never further than 0.01 from the
+/// published 256 (sRGB-encoded). Positions outside show as the nearest end.
+Rgb magma(double position);
+
+/// How NaN is shown: pure green, which magma does not have.
+inline constexpr Rgb kNanColor{0, 1, 0};
+
+/// The first channel of `map` in false colours: channels R, G, B, linear, to be written without any
+/// tone curve. Throws InputError unless low < high, both finite, and positive for a logarithmic
+/// scale.
+Image false_color(const Image& map, const ColorScale& scale);
+
+}  // namespace pharos
