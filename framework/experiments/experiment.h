@@ -43,7 +43,7 @@ struct ExperimentResults {
                                  std::uint64_t seed, const std::string& extension) const;
 };
 
-/// Renders what is missing. Throws InputError for references that do not fit, before any run.
+/// Renders what is missing.
 ExperimentResults run_experiment(const ExperimentConfig& config, const ExperimentPlan& plan,
                                  const Registry& registry, const ExperimentControl& control);
 

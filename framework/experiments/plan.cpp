@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 
@@ -7,6 +8,8 @@
 
 namespace pharos {
 namespace {
+
+namespace fs = std::filesystem;
 
 /// A scene's config with the settings for all scenes and its own.
 ConfigNode scene_config(const ExperimentConfig& experiment, const ExperimentScene& scene) {
@@ -49,16 +52,49 @@ PlannedCell plan_cell(const ExperimentConfig& experiment, const ConfigNode& scen
 
 PlannedReference plan_reference(const ReferenceSettings& settings, const ConfigNode& scene,
                                 const Registry& registry) {
-  PlannedReference reference{.image = settings.image, .config = merged(scene, settings.settings)};
+  PlannedReference reference{.file = settings.image, .config = merged(scene, settings.settings)};
   if (settings.spp > 0) reference.parts = settings.parts;
   // A file is compared with images of the scene's size: any budget tells that.
   reference.config.set("budget", budget_node({.spp = std::max(settings.spp / settings.parts, 1u)}));
   const FilmSettings film = build_run(reference.config, 0, registry).config.film;
   reference.width = film.width, reference.height = film.height;
+  if (!settings.image.empty()) {
+    reference.image = read_reference(settings.image, film.width, film.height);
+  }
   return reference;
 }
 
+/// Channels R, G and B of an image, in this order.
+Image rgb_of(const Image& image, const fs::path& file) {
+  std::array<int, 3> sources{};
+  static constexpr std::array<const char*, 3> names{"R", "G", "B"};
+  for (std::size_t c = 0; c < 3; ++c) {
+    sources[c] = image.channel_index(names[c]);
+    if (sources[c] < 0) {
+      throw InputError(fmt::format("{}: error: expected channels R, G, B, found {}", file.string(),
+                                   quoted_list(image.channels())));
+    }
+  }
+  Image rgb(image.width(), image.height(), {"R", "G", "B"});
+  for (int y = 0; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x) {
+      for (std::size_t c = 0; c < 3; ++c) rgb.pixel(x, y)[c] = image.pixel(x, y)[sources[c]];
+    }
+  }
+  return rgb;
+}
+
 }  // namespace
+
+Image read_reference(const fs::path& file, int width, int height) {
+  Image image = rgb_of(read_image(file), file);
+  if (image.width() != width || image.height() != height) {
+    throw InputError(
+        fmt::format("{}: error: expected {} x {} pixels like the renders, found {} x {}",
+                    file.string(), width, height, image.width(), image.height()));
+  }
+  return image;
+}
 
 LoadedConfig build_run(const ConfigNode& config, std::uint64_t seed, const Registry& registry) {
   ConfigNode node = config;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <pharos/core/image.h>
 #include <pharos/experiments/experiment_config.h>
 
 namespace pharos {
@@ -18,10 +19,11 @@ struct PlannedCell {
 
 /// The reference of a scene: a file, or a render.
 struct PlannedReference {
-  std::filesystem::path image;
-  ConfigNode config;          ///< of one part, when it is to be rendered
-  std::uint32_t parts = 0;    ///< 0: it is a file
-  int width = 0, height = 0;  ///< of the scene's images
+  std::filesystem::path file;  ///< empty when it is to be rendered
+  Image image;                 ///< R, G, B of the file
+  ConfigNode config;           ///< of one part of a render
+  std::uint32_t parts = 0;     ///< of a render; 0: it is a file
+  int width = 0, height = 0;   ///< of the scene's images
 };
 
 /// All that an experiment renders.
@@ -33,6 +35,10 @@ struct ExperimentPlan {
 /// Lays methods over scenes and builds every combination once, so that whatever is wrong comes out
 /// before anything is rendered: throws InputError.
 ExperimentPlan plan_experiment(const ExperimentConfig& config, const Registry& registry);
+
+/// Channels R, G and B of an image file that is to be of this size. Throws InputError for a file
+/// that cannot be read, is of another size or has other channels.
+Image read_reference(const std::filesystem::path& file, int width, int height);
 
 /// A config with a seed, to be rendered.
 LoadedConfig build_run(const ConfigNode& config, std::uint64_t seed, const Registry& registry);

@@ -17,36 +17,6 @@ namespace fs = std::filesystem;
 /// Seeds of references: far from those that runs have.
 constexpr std::uint64_t kReferenceSeed = std::uint64_t{1} << 40;
 
-/// Channels R, G and B of an image, in this order.
-Image rgb_of(const Image& image, const fs::path& file) {
-  std::array<int, 3> sources{};
-  static constexpr std::array<const char*, 3> names{"R", "G", "B"};
-  for (std::size_t c = 0; c < 3; ++c) {
-    sources[c] = image.channel_index(names[c]);
-    if (sources[c] < 0) {
-      throw InputError(fmt::format("{}: error: expected channels R, G, B, found {}", file.string(),
-                                   quoted_list(image.channels())));
-    }
-  }
-  Image rgb(image.width(), image.height(), {"R", "G", "B"});
-  for (int y = 0; y < image.height(); ++y) {
-    for (int x = 0; x < image.width(); ++x) {
-      for (std::size_t c = 0; c < 3; ++c) rgb.pixel(x, y)[c] = image.pixel(x, y)[sources[c]];
-    }
-  }
-  return rgb;
-}
-
-Image read_rgb(const fs::path& file, const PlannedReference& planned) {
-  Image image = rgb_of(read_image(file), file);
-  if (image.width() != planned.width || image.height() != planned.height) {
-    throw InputError(
-        fmt::format("{}: error: expected {} x {} pixels like the renders, found {} x {}",
-                    file.string(), planned.width, planned.height, image.width(), image.height()));
-  }
-  return image;
-}
-
 /// The mean of some images of one size.
 class MeanImage {
  public:
@@ -87,7 +57,8 @@ class Cache {
     const fs::path file = path();
     if (!fs::exists(file)) return std::nullopt;
     const Metadata metadata = read_metadata(file);
-    Reference reference{.image = read_rgb(file, planned_), .key = key_, .file = file};
+    Reference reference{
+        .image = read_reference(file, planned_.width, planned_.height), .key = key_, .file = file};
     reference.samples_per_pixel = number_at(metadata, "pharos:samples_per_pixel");
     reference.seconds = number_at(metadata, "pharos:seconds");
     reference.mse = number_at(metadata, "pharos:own_mse");
@@ -112,7 +83,7 @@ class Cache {
     std::array<MeanImage, 2> halves;
     double samples = 0, seconds = 0;
     for (std::uint32_t part = 0; part < planned_.parts; ++part) {
-      const Image image = read_rgb(part_path(part), planned_);
+      const Image image = read_reference(part_path(part), planned_.width, planned_.height);
       const Metadata metadata = read_metadata(part_path(part));
       whole.add(image);
       halves[part % 2].add(image);
@@ -163,7 +134,7 @@ std::optional<Reference> find_or_render(const PlannedReference& planned,
                                         const fs::path& cache_folder, const Registry& registry,
                                         const RenderControl& control, const PartReport& report) {
   if (planned.parts == 0) {
-    Reference given{.image = read_rgb(planned.image, planned), .file = planned.image};
+    Reference given{.image = planned.image, .file = planned.file};
     const std::vector<float>& values = given.image.values();
     given.key =
         content_key({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float)});

@@ -30,9 +30,9 @@ std::filesystem::path default_reference_cache();
 /// Called before each part of a reference is rendered.
 using PartReport = std::function<void(std::uint32_t part, std::uint32_t parts)>;
 
-/// Reads the reference, from its file or from `cache`, or renders what of it is not there yet;
-/// parts that are finished stay in the cache when it is stopped. Empty when it was stopped. Throws
-/// InputError for a file that cannot be read, is of another size or has no channels R, G, B.
+/// The reference of a plan: from its file or from `cache`, or rendered as far as it is not there
+/// yet; parts that are finished stay in the cache when it is stopped. Empty when it was stopped.
+/// Throws InputError for a file of the cache that is damaged.
 std::optional<Reference> find_or_render(const PlannedReference& planned,
                                         const std::filesystem::path& cache,
                                         const Registry& registry, const RenderControl& control,

@@ -27,7 +27,7 @@ RunMeasure metric_measure(const MetricInfo& info) {
            std::string(info.definition),
            info.lower_is_better ? Better::lower : Better::higher,
            {}},
-          metric != Metric::psnr,
+          info.has_ratios,
           [metric](const RunRecord& run) { return run.errors[metric]; }};
 }
 

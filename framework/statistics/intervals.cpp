@@ -33,6 +33,11 @@ void check_paired(std::span<const double> a, std::span<const double> b) {
                                a.size(), b.size()));
 }
 
+void check_finite(std::span<const double> values) {
+  if (std::ranges::all_of(values, [](double v) { return std::isfinite(v); })) return;
+  throw InputError("expected finite values, found one that is not");
+}
+
 std::vector<double> logarithms(std::span<const double> values) {
   std::vector<double> logs;
   for (const double v : values) {
@@ -44,16 +49,22 @@ std::vector<double> logarithms(std::span<const double> values) {
   return logs;
 }
 
-/// The mean of observations of `logs`, and its interval, taken back from logarithms.
+/// The mean of `logs` and its interval, taken back from logarithms.
 Bounded exponential_of_mean(std::span<const double> logs, double confidence) {
-  if (logs.empty()) throw InputError("expected at least one value for a geometric mean");
-  const Moments m = moments(logs);
-  const double factor = student_factor(m.count - 1, confidence);
-  const double reach = factor * std::sqrt(m.variance / m.count);
-  return {std::exp(m.mean), {std::exp(m.mean - reach), std::exp(m.mean + reach)}};
+  const Bounded mean = arithmetic_mean(logs, confidence);
+  return {std::exp(mean.value), {std::exp(mean.interval.low), std::exp(mean.interval.high)}};
 }
 
 }  // namespace
+
+Bounded arithmetic_mean(std::span<const double> values, double confidence) {
+  if (values.empty()) throw InputError("expected at least one value for a mean");
+  check_finite(values);
+  const Moments m = moments(values);
+  const double factor = student_factor(m.count - 1, confidence);
+  const double reach = factor * std::sqrt(m.variance / m.count);
+  return {m.mean, {m.mean - reach, m.mean + reach}};
+}
 
 Bounded geometric_mean(std::span<const double> values, double confidence) {
   return exponential_of_mean(logarithms(values), confidence);
@@ -69,10 +80,8 @@ Bounded mean_ratio(std::span<const double> a, std::span<const double> b, double 
 
 Bounded fitted_slope(std::span<const double> x, std::span<const double> y, double confidence) {
   check_paired(x, y);
-  const auto is_finite = [](double v) { return std::isfinite(v); };
-  if (!std::ranges::all_of(x, is_finite) || !std::ranges::all_of(y, is_finite)) {
-    throw InputError("expected finite values for a slope");
-  }
+  check_finite(x);
+  check_finite(y);
   const auto n = static_cast<double>(x.size());
   const double mean_x = std::accumulate(x.begin(), x.end(), 0.0) / n;
   const double mean_y = std::accumulate(y.begin(), y.end(), 0.0) / n;

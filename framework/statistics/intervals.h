@@ -18,8 +18,8 @@ struct Bounded {
   Interval interval;
 };
 
-/// The arithmetic mean with its interval of confidence by Student's t; the interval of a single value
-/// is (-infinity, infinity).
+/// The arithmetic mean with its interval of confidence by Student's t; the interval of a single
+/// value is (-infinity, infinity). Throws InputError for no value at all.
 Bounded arithmetic_mean(std::span<const double> values, double confidence = 0.95);
 
 /// The geometric mean of positive values with its interval of confidence by Student's t on their

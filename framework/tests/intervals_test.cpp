@@ -39,6 +39,16 @@ double tolerance(double share) {
 
 }  // namespace
 
+TEST_CASE("arithmetic mean: a worked example, one value, none") {
+  // Standard deviation 1; 4.302653 is the 97.5 % point of Student's t with two degrees of freedom.
+  const Bounded mean = arithmetic_mean(Values{-1, 0, 1});
+  CHECK(mean.value == doctest::Approx(0));
+  CHECK(mean.interval.high == doctest::Approx(4.302653 / std::sqrt(3.0)));
+  CHECK(arithmetic_mean(Values{4}).interval.low == -std::numeric_limits<double>::infinity());
+  CHECK_THROWS_AS(arithmetic_mean(Values{}), InputError);
+  CHECK_THROWS_AS(arithmetic_mean(Values{1, std::nan("")}), InputError);
+}
+
 TEST_CASE("geometric mean: a worked example") {
   // Logarithms 0, 1 and 2: mean 1, standard deviation 1; 4.302653 is the 97.5 % point of Student's
   // t with two degrees of freedom.

@@ -1,0 +1,191 @@
+// `pharos experiment` as people use it: files, stopping and going on.
+
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <pharos/core/random.h>
+
+#include "process.h"
+
+namespace pharos::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string read_text(const fs::path& path) {
+  std::ifstream in(path);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// Two scenes, two methods and `seeds` seeds; a run takes some 20 ms.
+void write_experiment(const ScratchFolder& folder, const std::string& budget, int seeds,
+                      int edge = 24) {
+  folder.write("render.yaml", fmt::format(R"(scene: '{}/cornell-box/scene.yaml'
+film: {{ width: {}, height: {}, filter: box }}
+budget: {{ spp: 1 }}
+)",
+                                          PHAROS_SCENES, edge, edge));
+  folder.write("test.yaml", fmt::format(R"(title: A small experiment
+scenes:
+  - {{ name: deep, config: render.yaml }}
+  - {{ name: flat, config: render.yaml, settings: {{ integrator: {{ max_depth: 2 }} }} }}
+methods:
+  - {{ name: independent, settings: {{ sampler: independent }} }}
+  - {{ name: sobol, settings: {{ sampler: sobol }} }}
+budget: {{ {} }}
+seeds: {}
+reference: {{ spp: 64, parts: 4 }}
+cache: cache
+)",
+                                        budget, seeds));
+}
+
+/// runs.csv without what depends on the clock and the machine: up to and with the samples, errors,
+/// counts and sizes of models.
+std::string table_of(const fs::path& folder) {
+  constexpr int kTimeless = 16;
+  std::istringstream in(read_text(folder / "test" / "runs.csv"));
+  std::string table;
+  for (std::string line; std::getline(in, line);) {
+    std::istringstream columns(line);
+    std::string column;
+    for (int i = 0; i < kTimeless && std::getline(columns, column, ','); ++i) table += column + ",";
+    table += "\n";
+  }
+  return table;
+}
+
+/// The lines that tell of finished runs.
+std::size_t rendered_runs(const Outcome& outcome) {
+  std::size_t count = 0;
+  std::istringstream in(outcome.err);
+  for (std::string line; std::getline(in, line);) count += line.find(" s left") != line.npos;
+  return count;
+}
+
+/// The table of an experiment that is left alone.
+std::string undisturbed_table(int seeds) {
+  const ScratchFolder folder;
+  write_experiment(folder, "spp: 16", seeds);
+  const Outcome outcome = run_pharos("experiment test.yaml", folder.path());
+  REQUIRE_MESSAGE(outcome.exit_code == 0, outcome.err);
+  return table_of(folder.path());
+}
+
+/// Starts an experiment, kills it after `seconds`, and so on with `more` seconds each time until it
+/// ends by itself; the number of kills.
+int run_with_kills(const ScratchFolder& folder, double seconds, double more) {
+  for (int kills = 0;; ++kills) {
+    const Outcome outcome =
+        interrupt_pharos("experiment test.yaml", folder.path(), seconds + kills * more, "KILL");
+    if (outcome.exit_code == 0) return kills;
+  }
+}
+
+TEST_CASE("an experiment leaves tables, images, records and a report") {
+  const ScratchFolder folder;
+  write_experiment(folder, "spp: 16", 2);
+  const Outcome outcome = run_pharos("experiment test.yaml", folder.path());
+  REQUIRE_MESSAGE(outcome.exit_code == 0, outcome.err);
+  CHECK(rendered_runs(outcome) == 8);
+  for (const char* file :
+       {"test/results.json", "test/runs.csv", "test/convergence.csv", "test/report.html",
+        "test/runs/flat/sobol/seed-1.exr", "test/runs/flat/sobol/seed-2.json"}) {
+    CHECK_MESSAGE(folder.has(file), file);
+  }
+  CHECK_FALSE(folder.has("test/runs/flat/sobol/seed-2.exr"));  // images: first
+  CHECK(read_text(folder.path() / "test/convergence.csv").find("deep,sobol,2,8,") !=
+        std::string::npos);
+
+  SUBCASE("again, it renders nothing and says the same") {
+    const std::string table = table_of(folder.path());
+    const Outcome again = run_pharos("experiment test.yaml", folder.path());
+    CHECK(again.exit_code == 0);
+    CHECK(rendered_runs(again) == 0);
+    CHECK(table_of(folder.path()) == table);
+  }
+  SUBCASE("what changes is rendered again, the rest and the references are not") {
+    const Outcome changed = run_pharos(
+        "experiment test.yaml --set methods.1.settings.integrator.mis=balance", folder.path());
+    CHECK(changed.exit_code == 0);
+    CHECK(rendered_runs(changed) == 4);
+    CHECK(changed.err.find("reference, part") == std::string::npos);
+    const Outcome more = run_pharos(
+        "experiment test.yaml --set methods.1.settings.integrator.mis=balance --set seeds=3",
+        folder.path());
+    CHECK(rendered_runs(more) == 4);
+  }
+  SUBCASE("another number of threads gives the same table") {
+    const std::string table = table_of(folder.path());
+    fs::remove_all(folder.path() / "test");
+    const Outcome threads = run_pharos("experiment test.yaml --threads 3", folder.path());
+    CHECK(rendered_runs(threads) == 8);
+    CHECK(table_of(folder.path()) == table);
+  }
+}
+
+TEST_CASE("Ctrl-C keeps finished runs and reports them; the same command goes on") {
+  const ScratchFolder folder;
+  write_experiment(folder, "spp: 16", 200);
+  const Outcome outcome = interrupt_pharos("experiment test.yaml", folder.path(), 2.5, "INT");
+  CHECK(outcome.exit_code == 130);
+  REQUIRE(folder.has("test/results.json"));
+  CHECK(read_text(folder.path() / "test/results.json").find("\"complete\": false") !=
+        std::string::npos);
+  CHECK(folder.has("test/report.html"));
+  const Outcome rest = run_pharos("experiment test.yaml --set seeds=2", folder.path());
+  CHECK(rest.exit_code == 0);
+  CHECK(table_of(folder.path()) == undisturbed_table(2));
+}
+
+TEST_CASE("an experiment that is killed and started again gives the same table") {
+  const std::string table = undisturbed_table(4);
+  const ScratchFolder folder;
+  write_experiment(folder, "spp: 16", 4);
+  CHECK(run_with_kills(folder, 0.1, 0.1) > 0);
+  CHECK(table_of(folder.path()) == table);
+}
+
+TEST_CASE("long: killed at random moments, an experiment gives the same table, 20 of 20") {
+  const std::string table = undisturbed_table(8);
+  RandomStream random(1);
+  for (int trial = 0; trial < 20; ++trial) {
+    const ScratchFolder folder;
+    write_experiment(folder, "spp: 16", 8);
+    const double first = 0.05 + static_cast<double>(random() >> 11) * 0x1p-53;
+    CHECK(run_with_kills(folder, first, 0.05) > 0);
+    CHECK_MESSAGE(table_of(folder.path()) == table, "trial ", trial);
+  }
+}
+
+TEST_CASE("long: runs of equal time end within 3 % of it") {
+  const ScratchFolder folder;
+  write_experiment(folder, "seconds: 10", 1, 128);
+  Outcome outcome = interrupt_pharos("experiment test.yaml", folder.path(), 300, "KILL");
+  REQUIRE_MESSAGE(outcome.exit_code == 0, outcome.err);
+  std::istringstream in(read_text(folder.path() / "test" / "convergence.csv"));
+  std::string line;
+  std::getline(in, line);
+  int ends = 0;
+  for (std::string next; !line.empty(); line = next) {
+    const bool more = static_cast<bool>(std::getline(in, next));
+    const auto run_of = [](const std::string& text) { return text.substr(0, text.find(",1,")); };
+    if (line.rfind("scene,", 0) != 0 && (!more || run_of(next) != run_of(line))) {
+      std::istringstream columns(line);
+      std::string seconds;
+      for (int i = 0; i < 5; ++i) std::getline(columns, seconds, ',');
+      MESSAGE(run_of(line), ": ", seconds, " s");
+      CHECK(std::stod(seconds) == doctest::Approx(10).epsilon(0.03));
+      ++ends;
+    }
+    if (!more) break;
+  }
+  CHECK(ends == 4);
+}
+
+}  // namespace
+}  // namespace pharos::testing
