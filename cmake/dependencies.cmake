@@ -30,6 +30,14 @@ find_package(CLI11 REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(Boost REQUIRED)
 find_library(xxhash xxhash REQUIRED)
+find_package(ZLIB REQUIRED)
+# Written into every report page (framework/experiments/report).
+find_file(PHAROS_CHART_JS chart.min.js PATHS /usr/share/javascript/chart.js
+          DOC "Chart.js 3 as one minified file")
+if(NOT PHAROS_CHART_JS)
+  message(FATAL_ERROR "Chart.js was not found: install Debian's libjs-chart.js, or say where "
+                      "chart.min.js of version 3 is by -DPHAROS_CHART_JS=FILE")
+endif()
 if(PHAROS_TESTS)
   find_package(doctest REQUIRED)
 endif()
