@@ -6,8 +6,9 @@ class App;
 
 namespace pharos {
 
-/// What the program returns to the shell.
-enum ExitCode { kDone = 0, kBadInput = 2, kFailed = 3, kInterrupted = 130 };
+/// What the program returns to the shell. kTooDifferent: an image is further from the reference
+/// than was allowed.
+enum ExitCode { kDone = 0, kTooDifferent = 1, kBadInput = 2, kFailed = 3, kInterrupted = 130 };
 
 /// Each adds one subcommand to the program; its callback stores the exit code in `exit_code`.
 void add_render_command(CLI::App& app, int& exit_code);
@@ -15,5 +16,6 @@ void add_plugins_command(CLI::App& app, int& exit_code);
 void add_validate_command(CLI::App& app, int& exit_code);
 void add_conformance_command(CLI::App& app, int& exit_code);
 void add_experiment_command(CLI::App& app, int& exit_code);
+void add_compare_command(CLI::App& app, int& exit_code);
 
 }  // namespace pharos

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <fstream>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -65,20 +64,12 @@ void print(const conformance::Report& report, bool all) {
   }
 }
 
-void write_json(const conformance::Report& report, const std::filesystem::path& file) {
-  write_atomically(file, [&](const std::filesystem::path& temporary) {
-    std::ofstream out(temporary, std::ios::binary);
-    out << to_json(report) << std::flush;
-    if (!out) throw RunError(fmt::format("{}: error: cannot be written", file.string()));
-  });
-}
-
 int check(const ConformanceOptions& options) {
   check_writable(options.json);
   const Registry registry = load_default_modules();
   const conformance::Report report = conformance::check_plugins(registry, options.selection);
   print(report, options.all);
-  if (!options.json.empty()) write_json(report, options.json);
+  if (!options.json.empty()) write_text_atomically(options.json, to_json(report));
   return report.passed() ? kDone : kFailed;
 }
 

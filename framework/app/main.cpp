@@ -36,6 +36,7 @@ int run(int argc, char** argv) {
   add_validate_command(app, exit_code);
   add_plugins_command(app, exit_code);
   add_conformance_command(app, exit_code);
+  add_compare_command(app, exit_code);
   add_experiment_command(app, exit_code);
   try {
     check_command(app, argc, argv);

@@ -4,11 +4,11 @@
 
 namespace pharos {
 
-void write_text(const std::filesystem::path& path, const std::string& text) {
+void write_text_atomically(const std::filesystem::path& path, std::string_view text) {
   write_atomically(path, [&](const std::filesystem::path& temporary) {
     std::ofstream out(temporary, std::ios::binary);
     out << text << std::flush;
-    if (!out) throw RunError(path.string() + ": error: cannot be written");
+    if (!out) throw RunError("cannot write '" + path.string() + "'");
   });
 }
 

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <unistd.h>
 #include <utility>
@@ -40,7 +41,7 @@ void write_atomically(const std::filesystem::path& path, Write&& write) {
   }
 }
 
-/// Writes a text file so; throws RunError.
-void write_text(const std::filesystem::path& path, const std::string& text);
+/// Makes `path` a file of this text, whole or not at all. Throws RunError.
+void write_text_atomically(const std::filesystem::path& path, std::string_view text);
 
 }  // namespace pharos

@@ -14,7 +14,7 @@ constexpr std::array<MetricInfo, kMetricCount> kInfos{{
      "custom of the field", true, true},
     {Metric::capped_mse, "capped_mse", "capped MSE", "",
      "MSE with each pixel's error capped at the image's own 99.9 % quantile",
-     "Rath et al. 2023, Focal Path Guiding", true, true},
+     "Rath, Yazici and Slusallek 2023", true, true},
     {Metric::relative_mse, "relative_mse", "relMSE", "",
      "mean over pixels and RGB of (I - R)^2 / (R^2 + 0.01)",
      "after Rousselle, Knaus and Zwicker 2011, Greedy Error Minimization", true, true},

@@ -43,6 +43,16 @@ void check_sizes(const Image& image, const Image& reference, std::string_view im
 
 }  // namespace
 
+Image rgb_only(const Image& image, std::string_view name) {
+  const ColorReader color(image, name);
+  Image result(image.width(), image.height(), {"R", "G", "B"});
+  parallel_for(static_cast<std::size_t>(image.height()), [&](std::size_t row) {
+    const int y = static_cast<int>(row);
+    for (int x = 0; x < image.width(); ++x) result.set_rgb(x, y, color(x, y));
+  });
+  return result;
+}
+
 PixelPair pair_pixels(const Image& image, const Image& reference, std::string_view image_name,
                       std::string_view reference_name) {
   const ColorReader ours(image, image_name), theirs(reference, reference_name);

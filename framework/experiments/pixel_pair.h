@@ -21,6 +21,10 @@ struct PixelPair {
   std::size_t size() const { return valid.size(); }
 };
 
+/// The channels R, G and B of `image`, in this order and no others. Throws InputError, naming it,
+/// when it has none.
+Image rgb_only(const Image& image, std::string_view name = "the image");
+
 /// Channels R, G and B of both. Throws InputError, naming both, when sizes differ, when one has no
 /// such channels, and when no pixel is finite in both.
 PixelPair pair_pixels(const Image& image, const Image& reference,

@@ -140,9 +140,9 @@ void write_results(const ExperimentResults& results) {
   const std::filesystem::path folder = results.folder();
   std::filesystem::create_directories(folder);
   const Report report = experiment_report(results);
-  write_text(folder / "results.json", results_json(results, report).dump(1) + "\n");
-  write_text(folder / "runs.csv", runs_csv(results));
-  write_text(folder / "convergence.csv", convergence_csv(results));
+  write_text_atomically(folder / "results.json", results_json(results, report).dump(1) + "\n");
+  write_text_atomically(folder / "runs.csv", runs_csv(results));
+  write_text_atomically(folder / "convergence.csv", convergence_csv(results));
   write_report(report, folder / "report.html");
 }
 

@@ -101,7 +101,7 @@ json to_json(const RunRecord& record) {
 void save_record(const RunRecord& record, const std::filesystem::path& path) {
   json node = to_json(record);
   node["format"] = kFormat;
-  write_text(path, node.dump(1) + "\n");
+  write_text_atomically(path, node.dump(1) + "\n");
 }
 
 std::optional<RunRecord> load_record(const std::filesystem::path& path) {

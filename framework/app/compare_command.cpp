@@ -1,0 +1,133 @@
+#include <cstdio>
+#include <memory>
+#include <optional>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <pharos/core/atomic_file.h>
+#include <pharos/core/error.h>
+#include <pharos/core/log.h>
+#include <pharos/experiments/comparison.h>
+#include <pharos/experiments/error_images.h>
+
+#include "commands.h"
+#include "threads.h"
+#include "writable.h"
+
+namespace pharos {
+namespace {
+
+/// The file name that means standard output.
+constexpr const char* kStandardOutput = "-";
+
+struct CompareOptions {
+  std::vector<std::filesystem::path> images;
+  std::filesystem::path reference;
+  std::string json;
+  std::string error_images;
+  std::string metric = "relative_mse";
+  std::optional<double> max_relmse;
+  int threads = 0;
+};
+
+Metric metric_named(const std::string& name) {
+  std::vector<std::string> keys;
+  for (const MetricInfo& info : metric_infos()) {
+    if (info.key == name) return info.metric;
+    keys.emplace_back(info.key);
+  }
+  throw InputError(fmt::format("--metric: error: expected one of {}, found '{}'{}",
+                               quoted_list(keys), name, suggestion(name, keys)));
+}
+
+/// Fails before the work where its results could not be written.
+void check_options(const CompareOptions& options) {
+  if (options.max_relmse && !(*options.max_relmse >= 0)) {
+    throw InputError(fmt::format("--max-relmse: error: expected a number of 0 or more, found {}",
+                                 *options.max_relmse));
+  }
+  const Metric metric = metric_named(options.metric);
+  if (options.json != kStandardOutput) check_writable(options.json);
+  if (options.error_images.empty()) return;
+  for (std::size_t i = 0; i < options.images.size(); ++i) {
+    check_writable(error_image_file(options.error_images, i + 1, options.images[i], metric));
+  }
+}
+
+void warn_of_invalid_pixels(const Comparison& comparison) {
+  for (const MeasuredImage& image : comparison.images) {
+    if (image.errors.invalid_pixels == 0) continue;
+    log_warning(fmt::format(
+        "{}: {} of {} pixels are NaN or infinite, here or in the reference, and are "
+        "left out of every metric",
+        image.source.file.string(), image.errors.invalid_pixels,
+        static_cast<std::size_t>(image.source.image.width()) * image.source.image.height()));
+  }
+}
+
+void write_outputs(const Comparison& comparison, const CompareOptions& options) {
+  if (options.json == kStandardOutput) {
+    fmt::print("{}", comparison_json(comparison));
+  } else {
+    fmt::print("{}", comparison_table(comparison));
+    if (!options.json.empty()) write_text_atomically(options.json, comparison_json(comparison));
+  }
+  if (options.error_images.empty()) return;
+  const Metric metric = metric_named(options.metric);
+  const ColorScale scale = write_error_images(comparison, metric, options.error_images);
+  log_info(fmt::format("{}*-{}.png: {} from {:.3g} to {:.3g}{}", options.error_images,
+                       options.metric, metric_info(metric).title, scale.low, scale.high,
+                       scale.logarithmic ? ", logarithmic" : ""));
+}
+
+/// Whether an image is too far from the reference. One with pixels that were left out is: nothing
+/// is known of these.
+bool too_different(const Comparison& comparison, double max_relmse) {
+  bool found = false;
+  for (const MeasuredImage& image : comparison.images) {
+    const double relmse = image.errors[Metric::relative_mse];
+    if (relmse <= max_relmse && image.errors.invalid_pixels == 0) continue;
+    found = true;
+    log_warning(fmt::format(
+        "{}: failed: relMSE {:.6g}, allowed {:.6g}{}", image.source.file.string(), relmse,
+        max_relmse, image.errors.invalid_pixels > 0 ? ", but no pixel may be left out" : ""));
+  }
+  return found;
+}
+
+int compare(const CompareOptions& options) {
+  check_options(options);
+  const Comparison comparison = compare_files(options.images, options.reference);
+  warn_of_invalid_pixels(comparison);
+  write_outputs(comparison, options);
+  if (!options.max_relmse || !too_different(comparison, *options.max_relmse)) return kDone;
+  return kTooDifferent;
+}
+
+}  // namespace
+
+void add_compare_command(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand("compare", "Measure images against a reference");
+  const auto options = std::make_shared<CompareOptions>();
+  command->add_option("images", options->images, "Images; ratios are to the first")->required();
+  command->add_option("--reference", options->reference, "The image that is taken for the truth")
+      ->required();
+  command->add_option("--json", options->json,
+                      "Write all numbers to this file; '-': to standard output, without the table");
+  command->add_option("--error-images", options->error_images,
+                      "Write PNGs of each pixel's error whose names begin with this, such as "
+                      "errors/ for a folder");
+  command->add_option("--metric", options->metric, "Metric of the error images")
+      ->capture_default_str();
+  command->add_option(
+      "--max-relmse", options->max_relmse,
+      "Exit with 1 when an image's relMSE is larger, or has pixels without a value");
+  command->add_option("--threads", options->threads, "Number of threads; 0: all cores")
+      ->check(CLI::Range(0, 1024));
+  command->callback([options, &exit_code] {
+    with_threads(options->threads, [&] { exit_code = compare(*options); });
+  });
+}
+
+}  // namespace pharos
