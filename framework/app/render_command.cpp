@@ -1,3 +1,4 @@
+#include <atomic>
 #include <filesystem>
 #include <optional>
 
@@ -6,9 +7,12 @@
 
 #include <pharos/config/module_loader.h>
 #include <pharos/core/error.h>
+#include <pharos/core/host_port.h>
 #include <pharos/core/log.h>
 #include <pharos/rendering/render_config.h>
 #include <pharos/rendering/render_job.h>
+#include <pharos/rendering/tev_packets.h>
+#include <pharos/rendering/tev_preview.h>
 
 #include "commands.h"
 #include "config_options.h"
@@ -26,6 +30,7 @@ struct RenderOptions {
   int threads = 0;
   bool quiet = false;
   std::vector<std::uint32_t> replay;
+  std::optional<std::string> preview;
 };
 
 void check_outputs(const OutputSettings& output) {
@@ -68,8 +73,33 @@ void report(const RenderResult& result, const RenderConfig& config) {
   }
 }
 
+/// Runs the job and writes its outputs, with a preview in `viewer` where there is one.
+RenderResult render_and_write(RenderJob& job, const LoadedConfig& loaded,
+                              const std::optional<HostPort>& viewer, const RenderOptions& options,
+                              const std::atomic<bool>& stop) {
+  ProgressBar bar;
+  std::optional<TevPreview> preview;
+  RenderControl control{.on_progress = {}, .on_pass = {}, .stop = &stop};
+  if (!options.quiet) control.on_progress = [&bar](const Progress& p) { bar.show(p); };
+  if (viewer) {
+    preview.emplace(*viewer, loaded.config.output.image, [&bar](const std::string& message) {
+      bar.clear();
+      log_warning(message);
+    });
+    control.on_pass = [&preview](const RenderSnapshot& snapshot) { preview->show(snapshot); };
+  }
+  RenderResult result = job.run(control);
+  bar.clear();
+  if (preview) preview->show_last(result.image);
+  write_outputs(result, loaded);
+  if (preview) preview->finish();
+  return result;
+}
+
 int render(const RenderOptions& options) {
   set_log_quiet(options.quiet);
+  std::optional<HostPort> viewer;
+  if (options.preview) viewer = parse_host_port(*options.preview, kTevPort, {"--preview"});
   const Registry registry = load_default_modules();
   LoadedConfig loaded = load_render_config(options.config.path, options.config.overrides, registry);
   if (!options.output.empty()) loaded.config.output.image = options.output;
@@ -81,13 +111,7 @@ int render(const RenderOptions& options) {
     replay_path(job, loaded.config, options.replay);
     return kDone;
   }
-  RenderResult result = [&] {
-    ProgressBar bar;
-    RenderControl control{.on_progress = {}, .stop = &interrupt.flag()};
-    if (!options.quiet) control.on_progress = [&bar](const Progress& p) { bar.show(p); };
-    return job.run(control);
-  }();
-  write_outputs(result, loaded);
+  const RenderResult result = render_and_write(job, loaded, viewer, options, interrupt.flag());
   report(result, loaded.config);
   return result.stopped ? kInterrupted : kDone;
 }
@@ -102,11 +126,15 @@ void add_render_command(CLI::App& app, int& exit_code) {
   command->add_option("--threads", options->threads, "Number of threads; 0: all cores")
       ->check(CLI::Range(0, 1024));
   command->add_flag("-q,--quiet", options->quiet, "Only warnings and errors");
+  CLI::Option* replay = command
+                            ->add_option("--replay", options->replay,
+                                         "Run one path again and print it: x,y,sample[,iteration]")
+                            ->delimiter(',')
+                            ->expected(3, 4);
   command
-      ->add_option("--replay", options->replay,
-                   "Run one path again and print it: x,y,sample[,iteration]")
-      ->delimiter(',')
-      ->expected(3, 4);
+      ->add_option("--preview", options->preview,
+                   "Show the image while it renders in the viewer tev at HOST[:PORT]")
+      ->excludes(replay);
   command->callback([options, &exit_code] {
     with_threads(options->threads, [&] { exit_code = render(*options); });
   });

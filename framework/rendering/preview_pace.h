@@ -1,0 +1,29 @@
+#pragma once
+
+namespace pharos {
+
+/// When a watched render makes the next image to show: at most five times a second, and so that
+/// making images has taken at most 3 % of the time rendered so far. The first image is made at
+/// once, since nobody knows yet what one costs.
+class PreviewPace {
+ public:
+  /// Whether an image is due after `seconds` of rendering.
+  bool due(double seconds) const {
+    if (!any_) return true;
+    return seconds - last_ >= kLeastInterval && spent_ + cost_ <= kMostShare * seconds;
+  }
+  /// An image was made then and took `cost` seconds.
+  void made(double seconds, double cost) {
+    any_ = true;
+    last_ = seconds;
+    cost_ = cost;
+    spent_ += cost;
+  }
+
+ private:
+  static constexpr double kLeastInterval = 0.2, kMostShare = 0.03;
+  bool any_ = false;
+  double last_ = 0, cost_ = 0, spent_ = 0;  ///< seconds
+};
+
+}  // namespace pharos
