@@ -1,9 +1,9 @@
 #include <algorithm>
-#include <array>
 
 #include <fmt/format.h>
 
 #include <pharos/experiments/content_key.h>
+#include <pharos/experiments/pixel_pair.h>
 #include <pharos/experiments/plan.h>
 
 namespace pharos {
@@ -64,30 +64,10 @@ PlannedReference plan_reference(const ReferenceSettings& settings, const ConfigN
   return reference;
 }
 
-/// Channels R, G and B of an image, in this order.
-Image rgb_of(const Image& image, const fs::path& file) {
-  std::array<int, 3> sources{};
-  static constexpr std::array<const char*, 3> names{"R", "G", "B"};
-  for (std::size_t c = 0; c < 3; ++c) {
-    sources[c] = image.channel_index(names[c]);
-    if (sources[c] < 0) {
-      throw InputError(fmt::format("{}: error: expected channels R, G, B, found {}", file.string(),
-                                   quoted_list(image.channels())));
-    }
-  }
-  Image rgb(image.width(), image.height(), {"R", "G", "B"});
-  for (int y = 0; y < image.height(); ++y) {
-    for (int x = 0; x < image.width(); ++x) {
-      for (std::size_t c = 0; c < 3; ++c) rgb.pixel(x, y)[c] = image.pixel(x, y)[sources[c]];
-    }
-  }
-  return rgb;
-}
-
 }  // namespace
 
 Image read_reference(const fs::path& file, int width, int height) {
-  Image image = rgb_of(read_image(file), file);
+  Image image = rgb_only(read_image(file), file.string());
   if (image.width() != width || image.height() != height) {
     throw InputError(
         fmt::format("{}: error: expected {} x {} pixels like the renders, found {} x {}",

@@ -128,6 +128,28 @@ TEST_CASE("an experiment leaves tables, images, records and a report") {
   }
 }
 
+TEST_CASE("a method that learns: checkpoints after training, sizes, pictures of its density") {
+  const ScratchFolder folder;
+  write_experiment(folder, "spp: 32", 1);
+  const Outcome outcome = run_pharos(
+      "experiment test.yaml --set 'methods.1.settings={ integrator: { guiding: { learner: "
+      "stub_direction, guider: stub_direction, training: { iterations: 4 } } } }'",
+      folder.path(), std::string("PHAROS_MODULE_PATH=") + PHAROS_TEST_PLUGINS);
+  REQUIRE_MESSAGE(outcome.exit_code == 0, outcome.err);
+  for (const char* picture : {"slice-x", "slice-y", "slice-z", "directions"}) {
+    CHECK(folder.has(fmt::format("test/runs/deep/sobol/seed-1.{}.exr", picture)));
+    CHECK_FALSE(folder.has(fmt::format("test/runs/deep/independent/seed-1.{}.exr", picture)));
+  }
+  // 16 samples of training, then 1, 2, 4, 8 and 16 more.
+  std::istringstream in(read_text(folder.path() / "test" / "convergence.csv"));
+  std::string samples;
+  for (std::string line; std::getline(in, line);) {
+    if (line.rfind("deep,sobol,1,", 0) == 0) samples += line.substr(13, line.find(',', 13) - 12);
+  }
+  CHECK(samples == "17,18,20,24,32,");
+  CHECK(read_text(folder.path() / "test/report.html").find("model_bytes") != std::string::npos);
+}
+
 TEST_CASE("Ctrl-C keeps finished runs and reports them; the same command goes on") {
   const ScratchFolder folder;
   write_experiment(folder, "spp: 16", 200);
