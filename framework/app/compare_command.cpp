@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -41,6 +42,19 @@ Metric metric_named(const std::string& name) {
                                quoted_list(keys), name, suggestion(name, keys)));
 }
 
+/// Refuses a file that cannot be written, and one that would be overwritten although it is read.
+void check_output(const std::filesystem::path& file, const CompareOptions& options) {
+  check_writable(file);
+  const auto is_read = [&](const std::filesystem::path& input) {
+    std::error_code ignored;
+    return std::filesystem::equivalent(file, input, ignored);
+  };
+  if (is_read(options.reference) || std::ranges::any_of(options.images, is_read)) {
+    throw InputError(fmt::format("{}: error: is one of the images to compare, and would be lost",
+                                 file.string()));
+  }
+}
+
 /// Fails before the work where its results could not be written.
 void check_options(const CompareOptions& options) {
   if (options.max_relmse && !(*options.max_relmse >= 0)) {
@@ -48,10 +62,10 @@ void check_options(const CompareOptions& options) {
                                  *options.max_relmse));
   }
   const Metric metric = metric_named(options.metric);
-  if (options.json != kStandardOutput) check_writable(options.json);
+  if (options.json != kStandardOutput) check_output(options.json, options);
   if (options.error_images.empty()) return;
   for (std::size_t i = 0; i < options.images.size(); ++i) {
-    check_writable(error_image_file(options.error_images, i + 1, options.images[i], metric));
+    check_output(error_image_file(options.error_images, i + 1, options.images[i], metric), options);
   }
 }
 

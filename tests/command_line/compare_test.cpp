@@ -169,6 +169,10 @@ TEST_CASE("compare: outputs that cannot be written are refused before the work")
   check_refused(mistake("compare far.exr --reference ref.exr --json ."), {"is a folder"});
   check_refused(mistake("compare far.exr --reference ref.exr --error-images no/"),
                 {"'no' does not exist"});
+  check_refused(mistake("compare near.exr --reference ref.exr --json ./ref.exr"),
+                {"./ref.exr: error: ", "would be lost"});
+  check_refused(mistake("compare near.exr far.exr --reference ref.exr --json far.exr"),
+                {"far.exr: error: ", "would be lost"});
   // Before a missing image is noticed.
   check_refused(mistake("compare no.exr --reference ref.exr --json no/out.json"), {"no/out.json"});
 }
