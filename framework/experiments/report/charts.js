@@ -13,12 +13,17 @@ const drawnPoints = (curve) =>
     .filter((point) => point.x > 0 && point.y > 0 && Number.isFinite(point.x * point.y))
     .sort((a, b) => a.x - b.x);
 
-/** From a little below to a little above all points and the ends of their intervals. */
-function verticalRange(curves) {
-  const ends = curves.flatMap((curve) =>
-    drawnPoints(curve).flatMap((point) =>
-      [point.y, point.interval?.low, point.interval?.high].filter((y) => y > 0 && Number.isFinite(y))));
-  return { min: Math.min(...ends) / 1.4, max: Math.max(...ends) * 1.4 };
+/** From a little below to a little above the values, all of them positive. */
+function padded(values, factor) {
+  return { min: Math.min(...values) / factor, max: Math.max(...values) * factor };
+}
+
+/** {x, y}: what the axes show, which is all points and the ends of their intervals. */
+function rangesOf(curves) {
+  const points = curves.flatMap(drawnPoints);
+  const ends = points.flatMap((point) =>
+    [point.y, point.interval?.low, point.interval?.high].filter((y) => y > 0 && Number.isFinite(y)));
+  return { x: padded(points.map((point) => point.x), 1.2), y: padded(ends, 1.4) };
 }
 
 /** The curve and the two edges of its band, which no legend names. */
@@ -39,33 +44,34 @@ function datasetsOf(curve, range) {
   ];
 }
 
-function logAxis(title, ink, line, limits = {}) {
+function logAxis(title, ink, line, limits) {
+  // Decades, and what lies well between them where there are few decades.
+  const digits = Math.log10(limits.max / limits.min) > 1.7 ? [1] : [1, 2, 5];
+  const label = (value) => {
+    const exponent = Math.floor(Math.log10(value) + 1e-9);
+    const leading = value / 10 ** exponent;
+    const digit = Math.round(leading);
+    // Without a label there is no line of the grid either.
+    if (!digits.includes(digit) || Math.abs(leading - digit) > 1e-6) return null;
+    return digit === 1 && commonExponent(value) !== 0 ? powerOfTen(exponent) : formatNumber(value, 1);
+  };
   return {
     type: "logarithmic", ...limits,
     title: { display: true, text: title, color: ink },
-    border: { color: ink },
-    grid: { color: line },
-    ticks: {
-      color: ink, maxRotation: 0, autoSkip: true,
-      // Decades and what lies well between them; more would crowd.
-      callback: (value) => {
-        const digit = Math.round(value / 10 ** Math.floor(Math.log10(value) + 1e-9));
-        return [1, 2, 5].includes(digit) ? formatNumber(value, 1) : "";
-      },
-    },
+    grid: { color: line, borderColor: ink },
+    ticks: { color: ink, maxRotation: 0, autoSkip: false, callback: label },
   };
 }
 
-function chartOptions(table, axis, range, color) {
+function chartOptions(table, axis, ranges, color) {
   const [ink, line] = [color("--quiet"), color("--line")];
   const unit = table.unit ? ` [${table.unit}]` : "";
   return {
     animation: false, maintainAspectRatio: false, color: ink,
-    font: { family: "inherit" },
     interaction: { mode: "nearest", intersect: false },
     scales: {
-      x: logAxis(kAxisTitles[axis], ink, line),
-      y: logAxis(table.title + unit, ink, line, range),
+      x: logAxis(kAxisTitles[axis], ink, line, ranges.x),
+      y: logAxis(table.title + unit, ink, line, ranges.y),
     },
     plugins: {
       legend: { display: false },
@@ -88,13 +94,14 @@ function slopeText(curve) {
   const slope = toNumber(curve.slope);
   if (Number.isNaN(slope)) return "";
   const interval = toInterval(curve.slope_interval);
-  return `slope ${formatNumber(slope, 3)}` + (interval ? ` ${formatInterval(interval, slope)}` : "");
+  const [text, low, high] = [slope, interval?.low, interval?.high].map((value) => fixed(value, 2));
+  return `slope ${text}` + (interval ? ` [${low}, ${high}]` : "");
 }
 
 /** Buttons that show and hide curves, with their slopes. */
 function legend(curves, chart) {
   return make("ul", { className: "legend" }, ...curves.map((curve, i) => {
-    const button = make("button", { type: "button" }, swatch(curve.method), curve.method,
+    const button = make("button", { type: "button" }, mark(curve.method), curve.method,
       make("span", { className: "slope" }, slopeText(curve)));
     button.setAttribute("aria-pressed", "true");
     button.addEventListener("click", () => {
@@ -117,9 +124,9 @@ function sceneChart(scene, curves, table, axis) {
     make("div", { className: "chart" }, canvas), legend(curves, () => chart));
   const draw = () => {
     const style = getComputedStyle(document.documentElement);
-    const range = verticalRange(curves);
-    const options = chartOptions(table, axis, range, (name) => style.getPropertyValue(name).trim());
-    const datasets = curves.flatMap((curve) => datasetsOf(curve, range));
+    const ranges = rangesOf(curves);
+    const options = chartOptions(table, axis, ranges, (name) => style.getPropertyValue(name).trim());
+    const datasets = curves.flatMap((curve) => datasetsOf(curve, ranges.y));
     if (chart === null) {
       chart = new Chart(canvas, { type: "line", data: { datasets }, options });
     } else {

@@ -86,7 +86,7 @@ function colorBar(low, high) {
   const step = Math.max(1, Math.ceil(decades / 4));
   for (let e = Math.ceil(Math.log10(low)); e <= Math.log10(high); e += step) {
     const place = logPlace(10 ** e, low, high);
-    if (place > 0.16 && place < 0.84) tick(place, e >= -2 && e <= 3 ? String(10 ** e).slice(0, 5) : powerOfTen(e));
+    if (place > 0.16 && place < 0.84) tick(place, commonExponent(10 ** e) === 0 ? formatNumber(10 ** e, 1) : powerOfTen(e));
   }
   return make("div", { className: "color-bar" }, canvas, ticks);
 }

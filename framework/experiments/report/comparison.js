@@ -102,6 +102,8 @@ async function paint() {
   const range = metric === kRadiance ? null : await prepareRange();
   if (range) showRange(range);
   find("map-controls").hidden = !range;
+  // The reference shows its radiance beside maps, since it has none.
+  find("radiance-controls").hidden = range !== null && ["left", "right"].every((side) => comparison.loaded[side].map);
   const sides = ["left", "right"].map((side) => {
     const { label, radiance, map } = comparison.loaded[side];
     const asMap = range && map;

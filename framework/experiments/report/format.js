@@ -13,19 +13,16 @@ function commonExponent(value) {
   return exponent < -3 || exponent > 4 ? exponent : 0;
 }
 
-/** `value` / 10^`exponent` with `digits` digits. */
-function mantissa(value, exponent, digits) {
+/** How many decimals `value` needs to show that many digits; whole digits are never left out. */
+function decimalsFor(value, digits) {
+  if (!Number.isFinite(value) || value === 0) return digits - 1;
+  return Math.min(20, Math.max(0, digits - 1 - Math.floor(Math.log10(Math.abs(value)))));
+}
+
+function fixed(value, decimals) {
   if (Number.isNaN(value)) return "–";
   if (!Number.isFinite(value)) return (value < 0 ? kMinus : "") + "∞";
-  const scaled = value / 10 ** exponent;
-  // Whole digits are never left out.
-  const whole = Math.abs(scaled) < 1 ? 0 : Math.floor(Math.log10(Math.abs(scaled))) + 1;
-  const text =
-    scaled === 0 ? "0"
-    : whole > 0 ? scaled.toFixed(Math.max(0, digits - whole))
-    : Number(scaled.toPrecision(digits)).toFixed(
-        Math.min(20, digits - 1 - Math.floor(Math.log10(Math.abs(scaled)))));
-  return text.replace("-", kMinus);
+  return value === 0 ? "0" : value.toFixed(decimals).replace("-", kMinus);
 }
 
 const times = (exponent) => (exponent === 0 ? "" : `×${powerOfTen(exponent)}`);
@@ -33,41 +30,48 @@ const times = (exponent) => (exponent === 0 ? "" : `×${powerOfTen(exponent)}`);
 /** Such as 12.34, 0.001235 or 1.234×10⁻⁷; NaN is a dash. */
 function formatNumber(value, digits = 4) {
   const exponent = commonExponent(value);
-  return mantissa(value, exponent, digits) + times(exponent);
+  const scaled = value / 10 ** exponent;
+  return fixed(scaled, decimalsFor(scaled, digits)) + times(exponent);
 }
 
-/** Such as [1.1, 1.3]×10⁻⁷, with the power of ten of `value`. */
-function formatInterval(interval, value, digits = 3) {
+/** Such as [1.10, 1.35]×10⁻⁷: with the decimals and the power of ten that `value` has. */
+function formatInterval(interval, value, digits = 4) {
   const exponent = commonExponent(value);
-  const [low, high] = [interval.low, interval.high].map((end) => mantissa(end, exponent, digits));
-  return `[${low}, ${high}]${times(exponent)}`;
+  const decimals = decimalsFor(value / 10 ** exponent, digits);
+  const ends = [interval.low, interval.high];
+  const [low, high] = ends.map((end) => fixed(end / 10 ** exponent, decimals));
+  const scales = ends.some((end) => Number.isFinite(end) && end !== 0);
+  return `[${low}, ${high}]${scales ? times(exponent) : ""}`;
 }
 
 // The colours of Okabe and Ito (Color Universal Design, 2008), which people with any kind of colour
-// blindness tell apart; the yellow, pale on paper, and black give way to greys. Charts tell methods
-// apart by the shapes of their points too.
+// blindness tell apart; the yellow, pale on paper, and black give way to greys. Shapes tell methods
+// apart without any colour.
 const kPalette = {
   light: ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#5d6670", "#1d2126"],
   dark: ["#4aa8e0", "#f0803c", "#2fc79b", "#e39ac3", "#f0b840", "#9ad4f5", "#9aa3ad", "#e4e6e8"],
 };
-const kPointStyles = ["circle", "triangle", "rect", "rectRot", "star", "crossRot", "cross", "dash"];
+/** The shapes of points, for Chart.js and as letters. */
+const kPoints = [["circle", "●"], ["triangle", "▲"], ["rect", "■"], ["rectRot", "◆"], ["star", "✳"],
+  ["crossRot", "✕"], ["cross", "✚"], ["dash", "▬"]];
 
 const theme = () => document.documentElement.dataset.theme;
 
 function methodLook(method) {
   const index = report.methods.indexOf(method);
-  const colors = kPalette[theme()];
-  return {
-    color: colors[index % colors.length],
-    point: kPointStyles[(index + Math.floor(index / colors.length)) % kPointStyles.length],
-  };
+  const slot = index % kPalette.light.length;
+  // Where colours come again, shapes are others.
+  const [point, letter] = kPoints[(index + Math.floor(index / kPalette.light.length)) % kPoints.length];
+  return { color: kPalette[theme()][slot], slot, point, letter };
 }
 
-/** A dot in the method's colour, which follows the theme by the variables that paintMethods() sets. */
-function swatch(method) {
-  const dot = make("span", { className: "swatch" });
-  dot.style.background = `var(--method-${report.methods.indexOf(method) % kPalette.light.length})`;
-  return dot;
+/** The method's mark, in a colour that follows the theme by the variables of paintMethods(). */
+function mark(method) {
+  const { slot, letter } = methodLook(method);
+  const element = make("span", { className: "mark" }, letter);
+  element.style.color = `var(--method-${slot})`;
+  element.setAttribute("aria-hidden", "true");
+  return element;
 }
 
 function paintMethods() {

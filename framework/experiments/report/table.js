@@ -23,7 +23,7 @@ function tableCell(cell, best, isBaseline) {
   const ratio = toNumber(cell.ratio);
   if (!Number.isNaN(ratio) && !isBaseline) {
     const bounds = toInterval(cell.ratio_interval);
-    const text = `× ${formatNumber(ratio, 3)}` + (bounds ? ` ${formatInterval(bounds, ratio)}` : "");
+    const text = `× ${formatNumber(ratio, 3)}` + (bounds ? ` ${formatInterval(bounds, ratio, 3)}` : "");
     element.append(make("span", { className: "ratio" }, text));
   }
   return element;
@@ -48,7 +48,7 @@ function legendOf(table) {
 
 function measureTable(table) {
   const heads = report.methods.map((method) => {
-    const head = make("th", { scope: "col" }, swatch(method), method);
+    const head = make("th", { scope: "col" }, mark(method), method);
     if (method === report.baseline) head.append(make("small", {}, " (baseline)"));
     return head;
   });

@@ -1,0 +1,408 @@
+"""report_page_test.py BROWSER WRITE_SAMPLE_REPORT: the report page as people use it.
+
+Drives the page of sample_report.h, which states the values that are expected here.
+"""
+
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import time
+
+from devtools import Browser
+
+FAILURES = []
+SCENE_WIDTH, SCENE_HEIGHT = 64, 32  # of "ramp"
+MAGENTA = [255, 0, 255]
+VIRIDIS = ["440154", "482878", "3e4989", "31688e", "26828e", "1f9e89", "35b779", "6ece58", "b5de2b",
+           "fde725"]
+CONTROLS = ["theme", "measure", "scene", "left-image", "right-image", "shown", "stage", "split",
+            "exposure", "exposure-reset", "curve-metric", "curve-axis"]
+
+
+def check(holds, what):
+    if not holds:
+        FAILURES.append(what)
+        print(f"FAILED: {what}")
+
+
+def check_equal(found, expected, what):
+    check(found == expected, f"{what}: {found!r}, expected {expected!r}")
+
+
+def tone(value, exposure=0):
+    """The byte of sRGB that a linear value is shown as."""
+    linear = min(1, max(0, value * 2 ** exposure))
+    encoded = 12.92 * linear if linear <= 0.0031308 else 1.055 * linear ** (1 / 2.4) - 0.055
+    return int(255 * encoded + 0.5)
+
+
+def ramp(image, x, y, exposure=0):
+    """The colour of a pixel of "ramp": the three methods are images 0 to 2, the reference 3."""
+    factor = [1.25, 1.5, 1.75, 1][image]
+    values = [factor * (x + 1) / 64, factor * (y + 1) / 32, factor / 4]
+    if (x, y) == (0, 0):
+        values[2] = 65504
+    if (image, x, y) == (2, 5, 5):
+        return MAGENTA
+    return [tone(value, exposure) for value in values]
+
+
+class Page:
+    """The page with words for what people do on it."""
+
+    def __init__(self, browser):
+        self.browser = browser
+        self.run = browser.run
+
+    def text(self, selector):
+        return self.run(f"document.querySelector({selector!r}).textContent")
+
+    def texts(self, selector):
+        return self.run(f"[...document.querySelectorAll({selector!r})].map(e => e.textContent)")
+
+    def choose(self, control, text):
+        """Picks a choice of a <select> by its text, as a person would."""
+        self.run(f"""(() => {{
+            const select = document.getElementById({control!r});
+            select.value = [...select.options].find(o => o.text === {text!r}).value;
+            select.dispatchEvent(new Event("input")); select.dispatchEvent(new Event("change"));
+        }})()""")
+
+    def slide(self, control, value):
+        self.run(f"""(() => {{
+            const slider = document.getElementById({control!r});
+            slider.value = {value}; slider.dispatchEvent(new Event("input"));
+        }})()""")
+
+    def stage(self):
+        return self.run("""(() => { const s = document.getElementById("stage");
+            s.scrollIntoView({block: "center"}); const b = s.getBoundingClientRect();
+            return [b.left, b.top, b.width, b.height]; })()""")
+
+    def point(self, u, v):
+        """The point of the window at fractions of the stage."""
+        left, top, width, height = self.stage()
+        return left + u * width, top + v * height
+
+    def color(self, u, v):
+        """What the canvas shows at fractions of the stage."""
+        return self.run(f"""(() => {{ const c = document.getElementById("comparison");
+            return [...c.getContext("2d").getImageData(
+                Math.floor({u} * c.width), Math.floor({v} * c.height), 1, 1).data].slice(0, 3); }})()""")
+
+    def shows(self, color, u, v, what):
+        """Waits for a colour, since images are unpacked on the side."""
+        end = time.monotonic() + 5
+        while self.color(u, v) != color and time.monotonic() < end:
+            time.sleep(0.02)
+        check_equal(self.color(u, v), color, what)
+
+    def shows_ramp(self, image, x, y, what, exposure=0):
+        """At the fitted zoom."""
+        self.shows(ramp(image, x, y, exposure), (x + 0.5) / SCENE_WIDTH, (y + 0.5) / SCENE_HEIGHT, what)
+
+    def focus(self, control):
+        self.run(f"document.getElementById({control!r}).focus()")
+
+    def pixel(self):
+        """The (x, y) whose values are shown."""
+        found = re.findall(r"\d+", self.text("#pixel-place"))
+        return tuple(int(part) for part in found)
+
+
+def test_texts(page):
+    title = "Guided & unguided: </script><script>alert(1)</script> \"été\" 測試"
+    check_equal(page.text("h1"), title + "\x01", "heading")
+    check(page.text("#description").endswith("<img src=x onerror=alert(2)>"), "description is text")
+    check_equal(page.run("document.images.length"), 0, "images made of text")
+    check("</script> & <b>" in page.text("#text-list pre"), "config is text")
+
+
+def test_table(page):
+    cell = "#tables .measure-block:not([hidden]) tbody tr:nth-child({}) td:nth-of-type({})"
+    best = "[...document.querySelectorAll('#tables .measure-block:not([hidden]) tbody tr')]" \
+           ".map(row => [...row.querySelectorAll('td')].map(cell => cell.matches('.best')))"
+    check_equal(page.run(best), [[False, True, False], [False, False, True]], "best errors")
+    text = page.text(cell.format(1, 2))
+    for part in ("★ 0.004310", "[0.004138, 0.004482]", "× 0.345 [0.326, 0.364]"):
+        check(part in text, f"'{part}' in the cell '{text}'")
+    check_equal(page.text(cell.format(2, 2)), "–", "missing value")
+    check("[0, ∞]" in page.text(cell.format(2, 1)), "unknown interval")
+    check("×" not in page.text(cell.format(1, 1)), "the baseline has no ratio")
+    page.choose("measure", "Samples a second")
+    check_equal(page.run(best), [[True, False, False], [True, True, False]], "best rates, one a tie")
+
+
+def test_images(page):
+    page.choose("scene", "ramp")
+    page.shows_ramp(0, 10, 20, "left image")
+    page.shows_ramp(1, 50, 3, "right image")
+    page.choose("right-image", "reference")
+    page.shows_ramp(3, 50, 3, "reference on the right")
+    check_equal(page.text("#right-label"), "reference", "label of the right image")
+    page.browser.mouse("mouseMoved", *page.point(0.2 / SCENE_WIDTH, 0.2 / SCENE_HEIGHT))
+    check_equal(page.texts("#pixel td")[:3], ["0.01953", "0.03906", "65504"], "values of (0, 0)")
+
+
+def test_exposure(page):
+    for exposure in (1.5, -3, 0):
+        page.slide("exposure", exposure)
+        page.shows_ramp(0, 10, 20, f"left at exposure {exposure}", exposure)
+        page.shows_ramp(3, 50, 3, f"right at exposure {exposure}", exposure)
+    page.slide("exposure", 2)
+    page.run("document.getElementById('exposure-reset').click()")
+    page.shows_ramp(0, 10, 20, "exposure reset")
+
+
+def test_split(page):
+    page.shows_ramp(0, 20, 7, "left of the line")
+    page.browser.drag(page.point(0.5, 0.3), page.point(0.25, 0.3))
+    check_equal(page.run("document.getElementById('split').getAttribute('aria-valuenow')"), "25",
+                "dragged line")
+    page.shows_ramp(3, 20, 7, "right of the dragged line")
+    page.shows_ramp(0, 10, 7, "left of the dragged line")
+
+
+def test_zoom(page):
+    """The pixel under the pointer stays while zooming; dragging moves both sides alike."""
+    spot = page.point(38.5 / SCENE_WIDTH, 16.5 / SCENE_HEIGHT)
+    page.browser.mouse("mouseMoved", *spot)
+    before, label = page.pixel(), page.text("#zoom-label")
+    check_equal(before, (38, 16), "pixel under the pointer")
+    page.browser.mouse("mouseWheel", *spot, deltaY=-900)
+    check(page.browser.wait(f"document.getElementById('zoom-label').textContent !== '{label}'"),
+          "the wheel zooms")
+    check_equal(page.pixel(), before, "pixel under the pointer after zooming")
+    page.shows(ramp(3, *before), 38.5 / SCENE_WIDTH, 16.5 / SCENE_HEIGHT, "zoomed pixel")
+    end = page.point(0.45, 0.7)
+    page.browser.drag(spot, end)
+    check_equal(page.pixel(), before, "pixel under the pointer after dragging")
+    page.shows(ramp(3, *before), 0.45, 0.7, "moved pixel, right side")
+    page.browser.mouse("mouseMoved", *page.point(0.2, 0.7))
+    page.shows(ramp(0, *page.pixel()), 0.2, 0.7, "moved pixel, left side")
+    blocks = page.run("""(() => { const c = document.getElementById("comparison");
+        const row = c.getContext("2d").getImageData(0, c.height >> 1, c.width, 1).data;
+        const starts = []; for (let x = Math.ceil(c.width * 0.3); x < c.width; ++x)
+            if (row[4 * x] !== row[4 * x - 4]) starts.push(x);
+        return starts.slice(1).map((x, i) => x - starts[i]); })()""")
+    check(len(blocks) > 5 and max(blocks) - min(blocks) <= 1 and min(blocks) > 20,
+          f"pixels are equal squares: {blocks}")
+    page.focus("stage")
+    page.browser.key("0", "Digit0", "0")
+    page.shows_ramp(0, 10, 20, "fitted again")
+
+
+def test_keys(page):
+    page.focus("stage")
+    page.browser.key("End")
+    page.shows_ramp(0, 60, 7, "line at the right end")
+    page.browser.key("ArrowLeft")
+    check_equal(page.run("document.getElementById('split').getAttribute('aria-valuenow')"), "98",
+                "line moved by a key")
+    page.focus("split")
+    page.browser.key("Home")
+    page.shows_ramp(3, 2, 7, "line at the left end")
+    page.browser.key("3", "Digit3", "3")
+    page.shows_ramp(2, 30, 7, "third image on the right")
+    page.shows(MAGENTA, 5.5 / SCENE_WIDTH, 5.5 / SCENE_HEIGHT, "NaN is magenta")
+    page.browser.key("@", "Digit2", "@", shift=True)
+    check_equal(page.run("document.getElementById('left-image').value"), "1", "left image by a key")
+    page.browser.key("x", "KeyX", "x")
+    page.shows_ramp(1, 30, 7, "images exchanged")
+    fitted = page.text("#zoom-label")
+    page.focus("stage")
+    for _ in range(4):
+        page.browser.key("+", "Equal", "+", shift=True)
+    check(page.text("#zoom-label") != fitted, "zoom by a key")
+    before = page.pixel()
+    for _ in range(2):
+        page.browser.key("ArrowRight", shift=True)
+    check(page.pixel()[0] > before[0] and page.pixel()[1] == before[1], "moved by a key")
+    for _ in range(4):
+        page.browser.key("-", "Minus", "-")
+    check_equal(page.text("#zoom-label"), fitted, "zoomed back by a key")
+
+
+def false_color(place):
+    place = min(1, max(0, place)) * (len(VIRIDIS) - 1)
+    index = min(len(VIRIDIS) - 2, int(place))
+    ends = [[int(VIRIDIS[index + k][c:c + 2], 16) for c in (0, 2, 4)] for k in (0, 1)]
+    return [int(a + (place - index) * (b - a) + 0.5) for a, b in zip(*ends)]
+
+
+def test_error_map(page):
+    page.choose("left-image", "path")
+    page.choose("right-image", "reference")
+    page.focus("stage")
+    page.browser.key("End")
+    page.choose("shown", "error: relMSE")
+    check(page.browser.wait("!document.getElementById('map-controls').hidden"), "range is offered")
+    check(page.browser.wait("document.getElementById('left-label').textContent === 'path · relMSE'"),
+          "label of the map")
+    check_equal(page.text("#right-label"), "reference", "the reference has no map")
+    for low, high in ((-3, -1), (-2.5, -1.5)):
+        page.slide("map-low", low)
+        page.slide("map-high", high)
+        for x in (0, 13, 60):
+            place = page.run(f"(Math.log10({(x + 1) / 1024}) - ({low})) / ({high} - ({low}))")
+            page.shows(false_color(place), (x + 0.5) / SCENE_WIDTH, 0.5,
+                       f"error of pixel {x} from 10^{low} to 10^{high}")
+    check_equal(len(page.texts("#map-bar .ticks span")), 3, "numbers at the colour bar")
+    page.slide("map-high", -2.9)
+    check(page.run("Number(document.getElementById('map-low').value) <= -2.95"), "range stays a range")
+    page.browser.mouse("mouseMoved", *page.point(13.5 / SCENE_WIDTH, 0.5))
+    check_equal(page.texts("#pixel td")[3], "0.01367", "value of the error")
+    page.choose("shown", "radiance")
+    page.shows_ramp(0, 13, 16, "radiance again")
+
+
+def colored(page, chart, color):
+    """How many pixels of a chart have about that colour."""
+    return page.run(f"""(() => {{ const c = document.querySelectorAll("#charts canvas")[{chart}];
+        const d = c.getContext("2d").getImageData(0, 0, c.width, c.height).data; let n = 0;
+        for (let i = 0; i < d.length; i += 4) n += d[i + 3] > 250 &&
+            {color}.every((v, k) => Math.abs(d[i + k] - v) < 8);
+        return n; }})()""")
+
+
+def test_charts(page):
+    blue, orange = [0, 114, 178], [213, 94, 0]
+    check_equal(page.texts(".chart-title"), ["still life", "ramp"], "a chart for each scene")
+    for chart in (0, 1):
+        check(colored(page, chart, blue) > 300, f"blue curve of chart {chart}")
+        check(colored(page, chart, orange) > 300, f"orange curve of chart {chart}")
+    check("slope −0.98 [−1.01, −0.94]" in page.text("#charts .legend"), "slope with its interval")
+    page.run("document.querySelector('#charts .legend button').click()")
+    check(colored(page, 0, blue) == 0, "a curve is hidden by the legend")
+    check(colored(page, 0, orange) > 300, "others are not hidden")
+    page.choose("curve-axis", "seconds")
+    check(colored(page, 0, blue) > 300, "curves over seconds")
+    page.choose("curve-metric", "MSE")
+    check_equal(page.run("document.getElementById('curve-axis').value"), "seconds", "the axis stays")
+    check_equal(len(page.texts("#charts figure")), 2, "charts are replaced")
+
+
+def test_pictures(page):
+    check(page.browser.wait("document.querySelectorAll('#gallery figure').length === 2"), "two pictures")
+    check(page.text("#gallery figcaption").endswith("4 iterations <i>"), "caption")
+    middle = page.run("[...document.querySelector('#gallery canvas').getContext('2d')"
+                      ".getImageData(60, 30, 1, 1).data].slice(0, 3)")
+    check_equal(middle, false_color(1), "the largest value is brightest")
+    check("3.0×10⁵" in page.texts("#gallery .ticks span"), "the largest value is told")
+
+
+def test_saving(page, folder):
+    page.browser.send("Browser.setDownloadBehavior", behavior="allow", downloadPath=folder,
+                      eventsEnabled=True)
+    page.browser.send("Browser.grantPermissions",
+                      permissions=["clipboardReadWrite", "clipboardSanitizedWrite"])
+    page.run("document.querySelectorAll('#text-list details')[1].open = true")
+    page.run("document.querySelectorAll('#text-list details')[1].querySelectorAll('button')[1].click()")
+    path = os.path.join(folder, "results.csv")
+    end = time.monotonic() + 10
+    while not (os.path.exists(path) and os.path.getsize(path)) and time.monotonic() < end:
+        page.run("0")
+        time.sleep(0.05)
+    check(os.path.exists(path), "a text is saved by its name")
+    if os.path.exists(path):
+        with open(path, encoding="utf-8") as file:
+            check(file.read().startswith("scene,method,relative_mse\n"), "saved text")
+    page.run("document.querySelectorAll('#text-list details')[1].querySelector('button').click()")
+    check(page.browser.wait("document.querySelectorAll('#text-list details')[1]"
+                            ".querySelector('button').textContent === 'Copied'"), "a text is copied")
+
+
+def test_theme(page):
+    background = "getComputedStyle(document.body).backgroundColor"
+    check_equal(page.run(background), "rgb(253, 253, 251)", "light page")
+    page.focus("theme")
+    page.browser.key("Enter")
+    check_equal(page.run(background), "rgb(21, 24, 28)", "dark page")
+    check(colored(page, 0, [74, 168, 224]) > 300, "charts follow the theme")
+    page.browser.send("Page.printToPDF", printBackground=True)
+    check_equal(page.run(background), "rgb(21, 24, 28)", "dark again after printing")
+    page.browser.key("Enter")
+    check_equal(page.run(background), "rgb(253, 253, 251)", "light again")
+
+
+def test_keyboard_only(page):
+    """Every control is reached by Tab, has a name, and works by keys alone."""
+    page.run("document.activeElement.blur(), scrollTo(0, 0)")
+    reached = []
+    for _ in range(80):
+        page.browser.key("Tab")
+        reached.append(page.run("document.activeElement.id || document.activeElement.className || "
+                                "document.activeElement.tagName"))
+    for control in CONTROLS + ["SUMMARY", "BUTTON", "A", "scroll"]:
+        check(control in reached, f"Tab reaches '{control}'")
+    nodes = page.browser.send("Accessibility.getFullAXTree")["nodes"]
+    roles = ("button", "combobox", "slider", "link", "DisclosureTriangle")
+    named = [(n["role"]["value"], n["name"]["value"]) for n in nodes
+             if n.get("role", {}).get("value") in roles and "name" in n]
+    check(len(named) > 20, f"controls in the accessibility tree: {len(named)}")
+    for role, name in named:
+        check(name.strip() != "", f"a {role} has a name")
+    page.focus("scene")
+    page.browser.key("ArrowUp")
+    check_equal(page.run("document.getElementById('scene').selectedOptions[0].text"), "still life",
+                "a choice by keys")
+    check(page.browser.wait("document.getElementById('scene-note').textContent.includes('65,536')"),
+          "the scene follows the choice")
+    page.focus("exposure")
+    page.browser.key("ArrowRight")
+    check_equal(page.text("#exposure-value"), "+0.25 EV", "exposure by keys")
+
+
+def test_sizes(page):
+    for width in (360, 400, 768, 1920):
+        page.browser.size(width, 900)
+        # Charts follow a little later.
+        check(page.browser.wait(f"document.documentElement.scrollWidth <= {width}", 3), f"fits {width} pixels")
+
+
+def test_silence(page, url):
+    """Nothing was loaded, nothing went wrong, and the page's policy would stop it anyway."""
+    outside = [request for request in page.browser.requests
+               if request != url and not request.startswith("blob:")]
+    check_equal(outside, [], "requests")
+    check_equal(page.browser.problems, [], "errors and warnings")
+    check_equal(page.run("fetch('http://127.0.0.1:9/').then(() => 'sent', () => 'stopped')"), "stopped",
+                "a request")
+    check(any("Content Security Policy" in problem for problem in page.browser.problems),
+          "the policy stops requests")
+
+
+def main(program, writer):
+    with tempfile.TemporaryDirectory(prefix="pharos-report-") as folder:
+        path = os.path.join(folder, "sample.html")
+        subprocess.run([writer, path], check=True)
+        browser = Browser(program)
+        try:
+            page, url = Page(browser), "file://" + path
+            browser.size(1280, 1000)
+            browser.open(url)
+            test_texts(page)
+            test_table(page)
+            test_images(page)
+            test_exposure(page)
+            test_split(page)
+            test_zoom(page)
+            test_keys(page)
+            test_error_map(page)
+            test_charts(page)
+            test_pictures(page)
+            test_saving(page, folder)
+            test_theme(page)
+            test_keyboard_only(page)
+            test_sizes(page)
+            test_silence(page, url)
+        finally:
+            browser.close()
+    print(f"{len(FAILURES)} checks failed" if FAILURES else "the report page works")
+    return 1 if FAILURES else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))
