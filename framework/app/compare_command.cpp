@@ -26,6 +26,7 @@ struct CompareOptions {
   std::vector<std::filesystem::path> images;
   std::filesystem::path reference;
   std::string json;
+  std::string html;
   std::string error_images;
   std::string metric = "relative_mse";
   std::optional<double> max_relmse;
@@ -63,6 +64,7 @@ void check_options(const CompareOptions& options) {
   }
   const Metric metric = metric_named(options.metric);
   if (options.json != kStandardOutput) check_output(options.json, options);
+  check_output(options.html, options);
   if (options.error_images.empty()) return;
   for (std::size_t i = 0; i < options.images.size(); ++i) {
     check_output(error_image_file(options.error_images, i + 1, options.images[i], metric), options);
@@ -87,6 +89,7 @@ void write_outputs(const Comparison& comparison, const CompareOptions& options) 
     fmt::print("{}", comparison_table(comparison));
     if (!options.json.empty()) write_text_atomically(options.json, comparison_json(comparison));
   }
+  if (!options.html.empty()) write_report(comparison_report(comparison), options.html);
   if (options.error_images.empty()) return;
   const Metric metric = metric_named(options.metric);
   const ColorScale scale = write_error_images(comparison, metric, options.error_images);
@@ -129,6 +132,7 @@ void add_compare_command(CLI::App& app, int& exit_code) {
       ->required();
   command->add_option("--json", options->json,
                       "Write all numbers to this file; '-': to standard output, without the table");
+  command->add_option("--html", options->html, "Write a page with images, error maps and tables");
   command->add_option("--error-images", options->error_images,
                       "Write PNGs of each pixel's error whose names begin with this, such as "
                       "errors/ for a folder");

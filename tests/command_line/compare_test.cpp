@@ -90,6 +90,21 @@ TEST_CASE("compare --error-images: a picture an image, by a metric of choice") {
   CHECK(folder.has("e-1-far-flip.png"));
 }
 
+TEST_CASE("compare --html: one page") {
+  const ScratchFolder folder;
+  write_images(folder);
+  const Outcome outcome =
+      run_pharos("compare far.exr near.exr --reference ref.exr --html page.html", folder.path());
+  CHECK(outcome.exit_code == 0);
+  CHECK(contains(outcome.out, "relMSE"));
+  const std::string page = text_of(folder.path() / "page.html");
+  for (const char* part : {"<html", "</html>", "far", "near", "relMSE", "HDR-FLIP"}) {
+    CAPTURE(part);
+    CHECK(contains(page, part));
+  }
+  CHECK(folder.file_count() == 6);  // nothing temporary is left
+}
+
 TEST_CASE("compare --max-relmse: 1 when an image is too far from the reference") {
   const ScratchFolder folder;
   write_images(folder);
@@ -166,6 +181,9 @@ TEST_CASE("compare: wrong options") {
 TEST_CASE("compare: outputs that cannot be written are refused before the work") {
   check_refused(mistake("compare far.exr --reference ref.exr --json no/out.json"),
                 {"no/out.json", "'no' does not exist"});
+  check_refused(mistake("compare far.exr --reference ref.exr --html no/page.html"),
+                {"no/page.html", "'no' does not exist"});
+  check_refused(mistake("compare far.exr --reference ref.exr --html far.exr"), {"would be lost"});
   check_refused(mistake("compare far.exr --reference ref.exr --json ."), {"is a folder"});
   check_refused(mistake("compare far.exr --reference ref.exr --error-images no/"),
                 {"'no' does not exist"});
