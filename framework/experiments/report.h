@@ -11,7 +11,8 @@
 #include <pharos/statistics/intervals.h>
 
 /// The report page: one HTML file that needs nothing else, neither network nor server. All numbers
-/// are computed before; the page only shows them.
+/// are computed before; the page only shows them. Texts are shown as they are, never as HTML;
+/// bytes that are not UTF-8 become U+FFFD. Infinite ends of intervals show as such.
 namespace pharos {
 
 using statistics::Interval;
@@ -19,7 +20,8 @@ using statistics::Interval;
 struct ReportCell {
   double value = std::numeric_limits<double>::quiet_NaN();  ///< NaN: there is none
   std::optional<Interval> interval;                         ///< of 95 % confidence, as all here
-  std::optional<double> ratio;  ///< this value over the baseline's in the same row
+  std::optional<double> ratio;  ///< this value over the baseline's in the same row; not shown in
+                                ///< the baseline's column
   std::optional<Interval> ratio_interval;
 };
 
@@ -39,11 +41,12 @@ struct ReportTable {
   std::vector<Row> rows;
 };
 
-/// Errors over the work done, of one method on one scene.
+/// Errors over the work done, of one method on one scene. Points that logarithmic axes cannot show
+/// are left out.
 struct ReportCurve {
-  std::string scene, method;
-  std::string metric;  ///< key of a table
-  std::string axis;    ///< "samples" [samples a pixel] or "seconds" [s]
+  std::string scene, method;  ///< the method is one of Report::methods
+  std::string metric;         ///< key of a table
+  std::string axis;           ///< "samples" [samples a pixel] or "seconds" [s]
   struct Point {
     double x = 0, y = 0;
     std::optional<Interval> interval;
@@ -53,10 +56,10 @@ struct ReportCurve {
   std::optional<Interval> slope_interval;
 };
 
-/// An image that can be compared, with maps of its error.
+/// An image that can be compared, with maps of its error; all of one scene are of one size.
 struct ReportImage {
   std::string label;  ///< the method's, "reference" for the reference
-  Image image;        ///< R, G, B of linear radiance
+  Image image;        ///< R, G, B of linear radiance; other channels are left out
   struct ErrorMap {
     std::string metric;  ///< title of a metric, such as "relMSE"
     Image map;           ///< one channel
@@ -79,7 +82,7 @@ struct ReportScene {
 
 /// A text that belongs to the results, such as the config of a render or the table as CSV.
 struct ReportText {
-  std::string title;
+  std::string title;  ///< also the file's name when saved, ".txt" unless it has an extension
   std::string text;
 };
 
@@ -95,7 +98,10 @@ struct Report {
   std::vector<ReportText> texts;
 };
 
-/// Writes the page. The file appears whole or not at all; throws RunError.
+/// Writes the page. The file appears whole or not at all. Throws InputError when the report does
+/// not fit together: rows without a cell for each method, unknown methods, metrics or axes, images
+/// that are empty, of other sizes than the rest of their scene, or without R, G, B; RunError when
+/// the file cannot be written.
 void write_report(const Report& report, const std::filesystem::path& path);
 
 }  // namespace pharos

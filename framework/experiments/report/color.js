@@ -50,14 +50,13 @@ function logPlace(value, low, high) {
 }
 
 function mapPixels(map, low, high) {
-  const table = new Uint8Array(3 * 65536);
+  const table = new Uint32Array(65536);  // whole pixels, in the machine's order of bytes
+  const bytes = new Uint8Array(table.buffer);
   halfValues.forEach((value, half) =>
-    table.set(falseColor(logPlace(value * map.scale, low, high)), 3 * half));
+    bytes.set([...falseColor(logPlace(value * map.scale, low, high)), 255], 4 * half));
   const pixels = new ImageData(map.width, map.height);
-  for (let i = 0; i < map.halfs.length; ++i) {
-    const at = 3 * map.halfs[i];
-    pixels.data.set([table[at], table[at + 1], table[at + 2], 255], 4 * i);
-  }
+  const out = new Uint32Array(pixels.data.buffer);
+  for (let i = 0; i < map.halfs.length; ++i) out[i] = table[map.halfs[i]];
   return pixels;
 }
 

@@ -169,14 +169,16 @@ function startComparison() {
     [left.value, right.value] = [right.value, left.value];
     update();
   };
-  takePointers(comparison.view, onPoint);
-  takeKeys(comparison.view, { pick, exchange, onPoint });
   fillSelect(find("scene"), scenes);
   find("scene").addEventListener("change", () => chooseScene(Number(find("scene").value)));
   for (const id of ["left-image", "right-image", "shown"]) find(id).addEventListener("change", update);
-  find("exposure").addEventListener("input", paint);
-  find("exposure-reset").addEventListener("click", () => ((find("exposure").value = 0), paint()));
-  for (const end of ["low", "high"]) find(`map-${end}`).addEventListener("input", () => moveRange(end));
-  chooseScene(Number(scenes[0][0]));
+  // The rest needs images to work on.
+  chooseScene(Number(scenes[0][0])).then(() => {
+    takePointers(comparison.view, onPoint);
+    takeKeys(comparison.view, { pick, exchange, onPoint });
+    find("exposure").addEventListener("input", paint);
+    find("exposure-reset").addEventListener("click", () => ((find("exposure").value = 0), paint()));
+    for (const end of ["low", "high"]) find(`map-${end}`).addEventListener("input", () => moveRange(end));
+  });
   return true;
 }

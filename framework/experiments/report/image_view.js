@@ -25,7 +25,7 @@ class ImageView {
     this.sides = [left, right];
     const { width, height } = this.size;
     this.stage.style.aspectRatio = `${width} / ${height}`;
-    this.stage.style.maxWidth = `max(20rem, min(100%, 78vh * ${width / height}))`;
+    this.stage.style.maxWidth = `min(100%, max(20rem, 78vh * ${width / height}))`;
     if (!before || before.width !== width || before.height !== height) this.fitted = true;
     this.draw();
   }

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <fstream>
+#include <locale>
 #include <string_view>
 
 #include <pharos/core/atomic_file.h>
@@ -77,6 +78,7 @@ void write_page(std::ostream& out, const Report& report) {
   const std::size_t title = shell.find(kTitle), after_title = title + kTitle.size();
   const std::size_t data = shell.find(kData), after_data = data + kData.size();
   const PageData page = page_data(report);
+  out.imbue(std::locale::classic());
   out.precision(9);  // a float's every bit
   out << shell.substr(0, title) << html_text(report.title)
       << shell.substr(after_title, data - after_title)

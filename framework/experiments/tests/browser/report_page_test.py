@@ -144,6 +144,8 @@ def test_images(page):
     check_equal(page.text("#right-label"), "reference", "label of the right image")
     page.browser.mouse("mouseMoved", *page.point(0.2 / SCENE_WIDTH, 0.2 / SCENE_HEIGHT))
     check_equal(page.texts("#pixel td")[:3], ["0.01953", "0.03906", "65504"], "values of (0, 0)")
+    page.browser.mouse("mouseMoved", *page.point(1.2 / SCENE_WIDTH, 0.2 / SCENE_HEIGHT))
+    check_equal(page.texts("#pixel td")[2], "9.537×10⁻⁷", "a denormal half")
 
 
 def test_exposure(page):
@@ -192,6 +194,24 @@ def test_zoom(page):
     page.focus("stage")
     page.browser.key("0", "Digit0", "0")
     page.shows_ramp(0, 10, 20, "fitted again")
+
+
+def test_pinch(page):
+    """Two fingers that part double the zoom about their middle."""
+    def touch(kind, *points):
+        page.browser.send("Input.dispatchTouchEvent", type=kind,
+                          touchPoints=[{"x": x, "y": y, "id": i} for i, (x, y) in enumerate(points)])
+    fitted = page.run("parseFloat(document.getElementById('zoom-label').textContent)")
+    (left, y), (right, _) = page.point(0.4, 0.5), page.point(0.6, 0.5)
+    spread = (right - left) / 2
+    touch("touchStart", (left, y), (right, y))
+    for part in (0.5, 1):
+        touch("touchMove", (left - part * spread, y), (right + part * spread, y))
+    touch("touchEnd")
+    zoomed = page.run("parseFloat(document.getElementById('zoom-label').textContent)")
+    check(abs(zoomed / fitted - 2) < 0.1, f"pinching doubles the zoom: from {fitted} to {zoomed}")
+    page.focus("stage")
+    page.browser.key("0", "Digit0", "0")
 
 
 def test_keys(page):
@@ -258,11 +278,11 @@ def test_error_map(page):
     page.shows_ramp(0, 13, 16, "radiance again")
 
 
-def colored(page, chart, color):
-    """How many pixels of a chart have about that colour."""
+def colored(page, chart, color, alpha=255):
+    """How many pixels of a chart have about that colour and opacity."""
     return page.run(f"""(() => {{ const c = document.querySelectorAll("#charts canvas")[{chart}];
         const d = c.getContext("2d").getImageData(0, 0, c.width, c.height).data; let n = 0;
-        for (let i = 0; i < d.length; i += 4) n += d[i + 3] > 250 &&
+        for (let i = 0; i < d.length; i += 4) n += Math.abs(d[i + 3] - {alpha}) < 6 &&
             {color}.every((v, k) => Math.abs(d[i + k] - v) < 8);
         return n; }})()""")
 
@@ -273,6 +293,13 @@ def test_charts(page):
     for chart in (0, 1):
         check(colored(page, chart, blue) > 300, f"blue curve of chart {chart}")
         check(colored(page, chart, orange) > 300, f"orange curve of chart {chart}")
+        drawn = page.run(f"""(() => {{
+            const {{ scales, data }} = Chart.getChart(document.querySelectorAll("#charts canvas")[{chart}]);
+            return [scales.x.type, scales.y.type, data.datasets.map(d => d.data.length)]; }})()""")
+        # The second curve of the first chart has a point without value.
+        expected = [9, 9, 9, 8, 8, 8, 9, 9, 9] if chart == 0 else [9] * 9
+        check_equal(drawn, ["logarithmic", "logarithmic", expected], f"curves and bands of chart {chart}")
+    check(colored(page, 0, blue, alpha=51) > 1000, "the band of an unknown interval")
     check("slope −0.98 [−1.01, −0.94]" in page.text("#charts .legend"), "slope with its interval")
     page.run("document.querySelector('#charts .legend button').click()")
     check(colored(page, 0, blue) == 0, "a curve is hidden by the legend")
@@ -389,6 +416,7 @@ def main(program, writer):
             test_exposure(page)
             test_split(page)
             test_zoom(page)
+            test_pinch(page)
             test_keys(page)
             test_error_map(page)
             test_charts(page)

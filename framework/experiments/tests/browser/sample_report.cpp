@@ -134,6 +134,7 @@ Image ramp(float factor) {
     }
   }
   image.pixel(0, 0)[2] = 70000;
+  image.pixel(1, 0)[2] = 0x1p-20f;
   return image;
 }
 
