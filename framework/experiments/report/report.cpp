@@ -95,7 +95,7 @@ void write_report(const Report& report, const std::filesystem::path& path) {
     std::ofstream out(temporary, std::ios::binary);
     write_page(out, report);
     out.close();
-    if (!out) throw RunError("cannot write '" + path.string() + "': the disk may be full");
+    if (!out) throw RunError("cannot write '" + path.string() + "'");
   });
 }
 

@@ -1,10 +1,12 @@
 // The report page as a file: what is in it, and that nothing in it breaks out or reaches outside.
 
 #include <cmath>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <doctest/doctest.h>
@@ -27,6 +29,27 @@ struct Folder {
   fs::path path = fs::temp_directory_path() / ("pharos-report-" + std::to_string(getpid()));
   Folder() { fs::create_directory(path); }
   ~Folder() { fs::remove_all(path); }
+};
+
+/// While it lives, writing fails beyond 100 kB of a file, as it does when the disk is full.
+class SmallFiles {
+ public:
+  SmallFiles() : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    rlimit limit = before_;
+    limit.rlim_cur = 100'000;
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~SmallFiles() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+  SmallFiles(const SmallFiles&) = delete;
+  SmallFiles& operator=(const SmallFiles&) = delete;
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int);
 };
 
 std::string content(const fs::path& path) {
@@ -199,10 +222,18 @@ TEST_CASE("the file appears whole or not at all") {
   CHECK(std::distance(fs::directory_iterator(folder.path), {}) == 1);
   CHECK_THROWS_WITH_AS(write_report({}, folder.path / "none" / "report.html"),
                        doctest::Contains("there is no folder"), RunError);
-  if (fs::exists("/dev/full")) {
-    fs::create_symlink("/dev/full", folder.path / "full.html");
-    CHECK_THROWS_AS(write_report({}, folder.path / "full.html"), RunError);
+}
+
+TEST_CASE("a disk that is full leaves the older file") {
+  const Folder folder;
+  const fs::path path = folder.path / "report.html";
+  std::ofstream(path) << "before";
+  {
+    const SmallFiles limit;
+    CHECK_THROWS_AS(write_report(test::sample_report(), path), RunError);
   }
+  CHECK(content(path) == "before");
+  CHECK(std::distance(fs::directory_iterator(folder.path), {}) == 1);
 }
 
 }  // namespace
