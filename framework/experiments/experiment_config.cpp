@@ -50,7 +50,9 @@ void check_reference(const ReferenceSettings& reference, const ConfigNode* node)
   }
   if (reference.image.empty()) return;
   const std::string problem = file_problem(reference.image);
-  if (!problem.empty()) node->find("image")->fail(problem);
+  if (!problem.empty()) {
+    node->find("image")->fail(fmt::format("'{}': {}", reference.image.string(), problem));
+  }
 }
 
 /// What no single parameter can check.

@@ -11,6 +11,7 @@ constexpr const char* kRender = R"(scene:
   shapes: [{ type: sphere, material: diffuse }]
   sensor: { type: perspective }
 film: { width: 8, height: 8 }
+integrator: { type: path }
 budget: { spp: 1 }
 )";
 
@@ -79,8 +80,8 @@ TEST_CASE("experiments: references") {
 }
 
 TEST_CASE("experiments: the command") {
-  check_refused({.arguments = "experiment"}, {"config"});
-  check_refused({.arguments = "experiment none.yaml"}, {"none.yaml"});
+  check_refused(Mistake{.arguments = "experiment"}, {"config"});
+  check_refused(Mistake{.arguments = "experiment none.yaml"}, {"none.yaml"});
 }
 
 }  // namespace

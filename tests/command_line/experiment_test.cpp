@@ -26,6 +26,7 @@ void write_experiment(const ScratchFolder& folder, const std::string& budget, in
                       int edge = 24) {
   folder.write("render.yaml", fmt::format(R"(scene: '{}/cornell-box/scene.yaml'
 film: {{ width: {}, height: {}, filter: box }}
+integrator: {{ type: path }}
 budget: {{ spp: 1 }}
 )",
                                           PHAROS_SCENES, edge, edge));
@@ -110,12 +111,12 @@ TEST_CASE("an experiment leaves tables, images, records and a report") {
   }
   SUBCASE("what changes is rendered again, the rest and the references are not") {
     const Outcome changed = run_pharos(
-        "experiment test.yaml --set methods.1.settings.integrator.mis=balance", folder.path());
+        "experiment test.yaml --set methods.1.settings.integrator.max_depth=3", folder.path());
     CHECK(changed.exit_code == 0);
     CHECK(rendered_runs(changed) == 4);
     CHECK(changed.err.find("reference, part") == std::string::npos);
     const Outcome more = run_pharos(
-        "experiment test.yaml --set methods.1.settings.integrator.mis=balance --set seeds=3",
+        "experiment test.yaml --set methods.1.settings.integrator.max_depth=3 --set seeds=3",
         folder.path());
     CHECK(rendered_runs(more) == 4);
   }
