@@ -35,11 +35,16 @@ function tableRow(row, table) {
     ...row.cells.map((cell, i) => tableCell(cell, best, report.methods[i] === report.baseline)));
 }
 
+/** A definition as a sentence: with a capital and a full stop. */
+function sentence(text) {
+  return text[0].toUpperCase() + text.slice(1) + (/[.!?]$/.test(text) ? "" : ".");
+}
+
 /** What the small print of the cells means. */
 function legendOf(table) {
   const cells = table.rows.flatMap((row) => row.cells);
   const parts = [];
-  if (table.definition) parts.push(table.definition);
+  if (table.definition) parts.push(sentence(table.definition));
   if (table.better !== "neither") parts.push(`${table.better === "lower" ? "Lower" : "Higher"} is better; ★ marks the best value of a row.`);
   if (cells.some((cell) => cell.interval)) parts.push("Brackets are intervals of 95 %.");
   if (cells.some((cell) => cell.ratio !== null)) parts.push(`× is the ratio to ${report.baseline || "the baseline"}.`);
