@@ -16,6 +16,7 @@
 
 #include "commands.h"
 #include "config_options.h"
+#include "import_notes.h"
 #include "interrupt.h"
 #include "progress_bar.h"
 #include "threads.h"
@@ -104,6 +105,7 @@ int render(const RenderOptions& options) {
   LoadedConfig loaded = load_render_config(options.config.path, options.config.overrides, registry);
   if (!options.output.empty()) loaded.config.output.image = options.output;
   check_outputs(loaded.config.output);
+  tell_notes(loaded.notes, options.config.strict);
 
   const InterruptGuard interrupt;
   RenderJob job(loaded.config);

@@ -6,6 +6,7 @@
 
 #include "commands.h"
 #include "config_options.h"
+#include "import_notes.h"
 
 namespace pharos {
 
@@ -17,6 +18,7 @@ void add_validate_command(CLI::App& app, int&) {
   command->callback([options] {
     const Registry registry = load_default_modules();
     const LoadedConfig loaded = load_render_config(options->path, options->overrides, registry);
+    tell_notes(loaded.notes, options->strict);
     fmt::print("{}", to_yaml(loaded.resolved));
   });
 }

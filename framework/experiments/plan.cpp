@@ -5,6 +5,7 @@
 #include <pharos/experiments/content_key.h>
 #include <pharos/experiments/pixel_pair.h>
 #include <pharos/experiments/plan.h>
+#include <pharos/rendering/scene_import.h>
 
 namespace pharos {
 namespace {
@@ -12,8 +13,9 @@ namespace {
 namespace fs = std::filesystem;
 
 /// A scene's config with the settings for all scenes and its own.
-ConfigNode scene_config(const ExperimentConfig& experiment, const ExperimentScene& scene) {
-  ConfigNode node = read_config(scene.config);
+ConfigNode scene_config(const ExperimentConfig& experiment, const ExperimentScene& scene,
+                        const Registry& registry) {
+  ConfigNode node = read_config_or_scene(scene.config, registry);
   node.take("output");
   return merged(merged(std::move(node), experiment.settings), scene.settings);
 }
@@ -86,7 +88,7 @@ ExperimentPlan plan_experiment(const ExperimentConfig& experiment, const Registr
   ExperimentPlan plan;
   for (std::size_t s = 0; s < experiment.scenes.size(); ++s) {
     const ExperimentScene& scene = experiment.scenes[s];
-    const ConfigNode config = scene_config(experiment, scene);
+    const ConfigNode config = scene_config(experiment, scene, registry);
     plan.references.push_back(plan_reference(
         scene.reference.given() ? scene.reference : experiment.reference, config, registry));
     for (std::size_t m = 0; m < experiment.methods.size(); ++m) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <pharos/rendering/render_config.h>
+#include <pharos/rendering/scene_import.h>
 
 namespace pharos {
 namespace {
@@ -95,7 +96,7 @@ void RenderConfig::describe(Schema<RenderConfig>& s) {
 LoadedConfig load_render_config(const std::filesystem::path& path,
                                 const std::vector<std::string>& overrides,
                                 const Registry& registry) {
-  ConfigNode node = read_config(path);
+  ConfigNode node = read_config_or_scene(path, registry);
   for (const std::string& assignment : overrides) apply_override(node, assignment);
   LoadedConfig loaded = build_render_config(node, registry);
   if (loaded.config.output.image.empty()) {
@@ -104,9 +105,11 @@ LoadedConfig load_render_config(const std::filesystem::path& path,
   return loaded;
 }
 
-LoadedConfig build_render_config(const ConfigNode& node, const Registry& registry) {
+LoadedConfig build_render_config(const ConfigNode& stated, const Registry& registry) {
   BuildContext context{registry};
   LoadedConfig loaded;
+  ConfigNode node = stated;
+  loaded.notes = expand_import(node, registry);
   loaded.config = Value<RenderConfig>::read(node, context, loaded.resolved);
   loaded.files = std::move(context.files);
   check_together(loaded.config, node);

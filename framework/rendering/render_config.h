@@ -9,6 +9,7 @@
 #include <pharos/rendering/film.h>
 #include <pharos/rendering/filter.h>
 #include <pharos/rendering/integrator.h>
+#include <pharos/scene/importer.h>
 #include <pharos/scene/scene_loader.h>
 
 namespace pharos {
@@ -55,10 +56,12 @@ struct LoadedConfig {
   RenderConfig config;
   ConfigNode resolved;                       ///< parses to the same config
   std::vector<std::filesystem::path> files;  ///< meshes, images and the like that it names
+  std::vector<ImportNote> notes;             ///< how a scene of another program was approximated
 };
 
-/// Reads a render config, follows `extends`, applies `overrides` ("a.b=c") in order, builds every
-/// component and checks that they fit together. Throws InputError; writes nothing.
+/// Reads a render config, or a scene that an importer reads, follows `extends`, applies `overrides`
+/// ("a.b=c") in order, builds every component and checks that they fit together. Throws InputError;
+/// writes nothing.
 LoadedConfig load_render_config(const std::filesystem::path& path,
                                 const std::vector<std::string>& overrides,
                                 const Registry& registry);

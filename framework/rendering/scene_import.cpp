@@ -1,0 +1,71 @@
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+#include <fmt/format.h>
+
+#include <pharos/core/error.h>
+#include <pharos/rendering/scene_import.h>
+
+namespace pharos {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Without the dot and in lower case: the name of the importer.
+std::string importer_name(const fs::path& file) {
+  std::string extension = file.extension().string();
+  if (!extension.empty()) extension.erase(0, 1);
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+}  // namespace
+
+bool is_importable(const fs::path& file, const Registry& registry) {
+  return registry.find(SceneImporter::contract_name, importer_name(file)) != nullptr;
+}
+
+Import import_scene(const fs::path& file, const Registry& registry) {
+  if (!is_importable(file, registry)) {
+    throw InputError(
+        fmt::format("{}: error: no importer reads such files: expected a name that ends "
+                    "in one of {}",
+                    file.string(), quoted_list(registry.names(SceneImporter::contract_name))));
+  }
+  BuildContext context{registry};
+  ConfigNode resolved;
+  const ConfigNode name = ConfigNode::scalar(importer_name(file));
+  return registry.build<SceneImporter>(name, context, resolved)->import(file);
+}
+
+ConfigNode read_config_or_scene(const fs::path& file, const Registry& registry) {
+  if (!is_importable(file, registry)) return read_config(file);
+  ConfigNode config = ConfigNode::mapping();
+  config.set("scene", ConfigNode::scalar(file.string()));
+  return config;
+}
+
+std::vector<ImportNote> expand_import(ConfigNode& config, const Registry& registry) {
+  const ConfigNode* scene = config.find("scene");
+  if (scene == nullptr || !scene->is_scalar() || !is_importable(scene->text(), registry)) return {};
+  BuildContext context{registry};
+  ConfigNode resolved;
+  const fs::path file = Value<fs::path>::read(*scene, context, resolved);
+  if (const std::string problem = file_problem(file); !problem.empty()) {
+    scene->fail(fmt::format("'{}': {}", scene->text(), problem));
+  }
+  Import import = import_scene(file, registry);
+  config.set("scene", import.config.take("scene"), config.where_key("scene"));
+  for (const char* key : {"sampler", "integrator", "budget"}) {
+    ConfigNode stated = import.config.take(key);
+    if (config.find(key) == nullptr && !stated.is_null()) config.set(key, std::move(stated));
+  }
+  if (ConfigNode film = import.config.take("film"); film.is_mapping()) {
+    config.set("film", merged(std::move(film), config.take("film")));
+  }
+  return std::move(import.notes);
+}
+
+}  // namespace pharos
