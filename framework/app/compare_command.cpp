@@ -64,6 +64,12 @@ void check_options(const CompareOptions& options) {
   }
   const Metric metric = metric_named(options.metric);
   if (options.json != kStandardOutput) check_output(options.json, options);
+  if (options.html == kStandardOutput) {
+    throw InputError("--html: error: expected the name of a file, found '-'");
+  }
+  if (!options.html.empty() && options.html == options.json) {
+    throw InputError("--html: error: expected another file than --json's");
+  }
   check_output(options.html, options);
   if (options.error_images.empty()) return;
   for (std::size_t i = 0; i < options.images.size(); ++i) {

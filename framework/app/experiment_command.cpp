@@ -1,4 +1,5 @@
 #include <filesystem>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -25,16 +26,26 @@ struct ExperimentOptions {
   bool quiet = false;
 };
 
-/// Makes the folder now, so that long work does not end where nothing can be written.
-void prepare_folder(const std::filesystem::path& folder) {
-  std::error_code failed;
-  std::filesystem::create_directories(folder, failed);
-  if (failed) {
-    throw InputError(
-        fmt::format("{}: error: the folder cannot be made: {}", folder.string(), failed.message()));
+/// Ends before the work where its results could not be written.
+void check_outputs(const ExperimentConfig& config) {
+  if (!std::filesystem::exists(config.output)) return;
+  for (const char* file : {"results.json", "report.html", "runs.csv", "convergence.csv"}) {
+    check_writable(std::filesystem::path(config.output) / file);
   }
-  check_writable(folder / "results.json");
-  check_writable(folder / "report.html");
+}
+
+void report(const ExperimentResults& results) {
+  std::uint64_t invalid = 0;
+  for (const RunRecord& run : results.records) invalid += run.invalid_paths;
+  if (invalid > 0) {
+    log_warning(
+        fmt::format("{} paths had NaN or infinite values and count as black: see the table "
+                    "'invalid paths'",
+                    invalid));
+  }
+  log_info(fmt::format("{}: {} of {} runs{}", (results.folder() / "report.html").string(),
+                       results.records.size(), results.run_count,
+                       results.stopped ? " (interrupted; the same command goes on)" : ""));
 }
 
 int run(const ExperimentOptions& options) {
@@ -43,8 +54,8 @@ int run(const ExperimentOptions& options) {
   ExperimentConfig config =
       load_experiment(options.config.path, options.config.overrides, registry);
   if (!options.output.empty()) config.output = options.output;
-  const ExperimentPlan plan = plan_experiment(config, registry);
-  prepare_folder(config.output);
+  ExperimentPlan plan = plan_experiment(config, registry);
+  check_outputs(config);
 
   const InterruptGuard interrupt;
   const ExperimentResults results = [&] {
@@ -56,12 +67,11 @@ int run(const ExperimentOptions& options) {
       bar.clear();
       log_info(message);
     };
-    return run_experiment(config, plan, registry, control);
+    return run_experiment(config, std::move(plan), registry, control);
   }();
-  write_results(results);
-  log_info(fmt::format("{}: {} of {} runs{}", (results.folder() / "report.html").string(),
-                       results.records.size(), results.run_count,
-                       results.stopped ? " (interrupted; the same command goes on)" : ""));
+  // A reference that was not finished tells nothing; what was known before stays.
+  if (!results.records.empty()) write_results(results);
+  report(results);
   return results.stopped ? kInterrupted : kDone;
 }
 

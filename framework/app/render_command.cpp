@@ -58,7 +58,7 @@ void replay_path(RenderJob& job, const RenderConfig& config,
 }
 
 void report(const RenderResult& result, const RenderConfig& config) {
-  const double seconds = result.times.training + result.times.update + result.times.rendering;
+  const double seconds = result.times.budgeted();
   log_info(fmt::format("{}: {} x {}, {:.6g} samples a pixel, {:.1f} s, {:.2f} Mrays/s{}",
                        config.output.image, config.film.width, config.film.height,
                        result.samples_per_pixel, seconds,

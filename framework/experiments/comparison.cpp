@@ -62,11 +62,21 @@ std::optional<double> ImageFile::seconds() const {
   return sum;
 }
 
+bool Comparison::is_comparable(std::size_t i) const {
+  std::size_t fewest = images[i].errors.invalid_pixels;
+  for (const MeasuredImage& image : images) {
+    fewest = std::min(fewest, image.errors.invalid_pixels);
+  }
+  return images[i].errors.invalid_pixels == fewest;
+}
+
 bool Comparison::is_best(std::size_t i, Metric metric) const {
+  if (!is_comparable(i)) return false;
   const bool lower = metric_info(metric).lower_is_better;
   bool differ = false;
-  for (const MeasuredImage& other : images) {
-    const double mine = images[i].errors[metric], theirs = other.errors[metric];
+  for (std::size_t j = 0; j < images.size(); ++j) {
+    if (!is_comparable(j)) continue;
+    const double mine = images[i].errors[metric], theirs = images[j].errors[metric];
     if (lower ? theirs < mine : theirs > mine) return false;
     differ = differ || theirs != mine;
   }
@@ -76,6 +86,7 @@ bool Comparison::is_best(std::size_t i, Metric metric) const {
 std::optional<double> Comparison::ratio(std::size_t i, Metric metric) const {
   const double ratio = images[i].errors[metric] / images[0].errors[metric];
   if (i == 0 || !metric_info(metric).has_ratios || !std::isfinite(ratio)) return std::nullopt;
+  if (!is_comparable(i) || !is_comparable(0)) return std::nullopt;
   return ratio;
 }
 

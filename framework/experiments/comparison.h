@@ -35,6 +35,9 @@ struct Comparison {
   ImageFile reference;
   std::vector<MeasuredImage> images;  ///< at least one; the first is what ratios refer to
 
+  /// False for images with more invalid pixels than another: their errors are means over fewer
+  /// pixels, so they are neither best nor in a ratio.
+  bool is_comparable(std::size_t i) const;
   /// Whether image `i` has the best value of this metric. None has where all are equal, one image
   /// included.
   bool is_best(std::size_t i, Metric metric) const;

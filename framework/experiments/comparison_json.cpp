@@ -1,20 +1,11 @@
-#include <cmath>
-
-#include <nlohmann/json.hpp>
-
 #include <pharos/core/version.h>
 #include <pharos/experiments/comparison.h>
+#include <pharos/experiments/json_number.h>
 
 namespace pharos {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// JSON has no infinity, which PSNR of equal images is.
-Json number(double value) {
-  if (std::isinf(value)) return value > 0 ? "infinity" : "-infinity";
-  return std::isnan(value) ? Json() : Json(value);
-}
 
 Json file_json(const ImageFile& image) {
   Json json{{"file", image.file.string()}, {"label", image.label}};
@@ -44,7 +35,7 @@ Json image_json(const Comparison& comparison, std::size_t i) {
   json["ratios"] = Json::object();
   for (const MetricInfo& info : metric_infos()) {
     const std::string key(info.key);
-    json["errors"][key] = number(image.errors[info.metric]);
+    json["errors"][key] = json_number<Json>(image.errors[info.metric]);
     if (const auto ratio = comparison.ratio(i, info.metric)) json["ratios"][key] = *ratio;
   }
   return json;

@@ -31,7 +31,8 @@ ReportTable table_of(const Comparison& comparison, const MetricInfo& info) {
     table.rows[0].cells.push_back({.value = comparison.images[i].errors[info.metric],
                                    .interval = {},
                                    .ratio = comparison.ratio(i, info.metric),
-                                   .ratio_interval = {}});
+                                   .ratio_interval = {},
+                                   .contends = comparison.is_comparable(i)});
   }
   return table;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include <pharos/experiments/seed_means.h>
 #include <pharos/experiments/summary.h>
 
 namespace pharos {
@@ -25,17 +26,24 @@ struct Track {
   }
 };
 
+/// What errors are shown over.
 struct Axis {
   const char* name;
   double Checkpoint::*member;
+  double (*training)(const RunRecord&);  ///< the part of it that training took
 };
-constexpr std::array<Axis, 2> kAxes{
-    {{"samples", &Checkpoint::samples_per_pixel}, {"seconds", &Checkpoint::seconds}}};
+constexpr std::array<Axis, 2> kAxes{{{"samples", &Checkpoint::samples_per_pixel,
+                                      [](const RunRecord& run) { return run.training_samples; }},
+                                     {"seconds", &Checkpoint::seconds, [](const RunRecord& run) {
+                                        return run.times.training + run.times.update;
+                                      }}}};
 
-Track track_of(const RunRecord& run, const Axis& axis, Metric metric) {
+/// A run's errors over its work, less `offset` of it.
+Track track_of(const RunRecord& run, const Axis& axis, Metric metric, double offset) {
   Track track;
   for (const Checkpoint& checkpoint : run.checkpoints) {
-    const double x = std::log(checkpoint.*axis.member), y = std::log(checkpoint.errors[metric]);
+    const double x = std::log(checkpoint.*axis.member - offset);
+    const double y = std::log(checkpoint.errors[metric]);
     if (!std::isfinite(x) || !std::isfinite(y)) continue;
     if (!track.x.empty() && x <= track.x.back()) continue;
     track.x.push_back(x);
@@ -44,15 +52,29 @@ Track track_of(const RunRecord& run, const Axis& axis, Metric metric) {
   return track;
 }
 
-/// The mean of all tracks where the first has points and the others reach.
+/// Where the curve of several tracks has points: from where all have begun to where the first ends,
+/// with the first track's points in between that are not next to one of these.
+std::vector<double> common_grid(const std::vector<Track>& tracks) {
+  constexpr double kNext = 0.1;  // of a logarithm
+  double low = tracks.front().x.front(), high = tracks.front().x.back();
+  for (const Track& track : tracks) {
+    low = std::max(low, track.x.front());
+    high = std::min(high, track.x.back());
+  }
+  if (low > high) return {};
+  std::vector<double> grid{low};
+  for (const double x : tracks.front().x) {
+    if (x > low + kNext && x < high - kNext) grid.push_back(x);
+  }
+  if (high > low) grid.push_back(high);
+  return grid;
+}
+
 std::vector<ReportCurve::Point> mean_points(const std::vector<Track>& tracks) {
   std::vector<ReportCurve::Point> points;
-  for (const double log_x : tracks.front().x) {
+  for (const double log_x : common_grid(tracks)) {
     std::vector<double> errors;
-    for (const Track& track : tracks) {
-      if (const auto log_y = track.at(log_x)) errors.push_back(std::exp(*log_y));
-    }
-    if (errors.size() < tracks.size()) continue;
+    for (const Track& track : tracks) errors.push_back(std::exp(*track.at(log_x)));
     const statistics::Bounded mean = statistics::geometric_mean(errors);
     ReportCurve::Point point{std::exp(log_x), mean.value, {}};
     if (errors.size() > 1) point.interval = mean.interval;
@@ -61,38 +83,52 @@ std::vector<ReportCurve::Point> mean_points(const std::vector<Track>& tracks) {
   return points;
 }
 
-void set_slope(const std::vector<Track>& tracks, ReportCurve& curve) {
-  std::vector<double> slopes;
-  for (const Track& track : tracks) {
-    if (track.x.size() >= 3) slopes.push_back(statistics::fitted_slope(track.x, track.y).value);
-  }
+/// The slope of a run's errors over the work of its final image.
+std::optional<double> slope_of(const RunRecord& run, const Axis& axis, Metric metric) {
+  const Track track = track_of(run, axis, metric, axis.training(run));
+  if (track.x.size() < 3) return std::nullopt;
+  return statistics::fitted_slope(track.x, track.y).value;
+}
+
+void set_slope(const std::vector<double>& slopes, ReportCurve& curve) {
   if (slopes.empty()) return;
   const statistics::Bounded mean = statistics::arithmetic_mean(slopes);
   curve.slope = mean.value;
   if (slopes.size() > 1) curve.slope_interval = mean.interval;
 }
 
-/// The moment after which a curve stays at or below `target`; empty when it ends above it.
-std::optional<double> time_below(const std::vector<ReportCurve::Point>& points, double target) {
-  if (points.empty() || points.back().y > target) return std::nullopt;
-  std::size_t i = points.size() - 1;
-  while (i > 0 && points[i - 1].y <= target) --i;
-  if (i == 0) return points.front().x;
-  const ReportCurve::Point &a = points[i - 1], &b = points[i];
-  const double t = std::log(a.y / target) / std::log(a.y / b.y);
-  return a.x * std::pow(b.x / a.x, t);
+/// A curve without points when no run has any.
+ReportCurve curve_of(const std::vector<const RunRecord*>& runs, const Axis& axis, Metric metric) {
+  ReportCurve curve;
+  std::vector<Track> tracks;
+  std::vector<double> slopes;
+  for (const RunRecord* run : runs) {
+    Track track = track_of(*run, axis, metric, 0);
+    if (!track.x.empty()) tracks.push_back(std::move(track));
+    if (const auto slope = slope_of(*run, axis, metric)) slopes.push_back(*slope);
+  }
+  curve.metric = metric_info(metric).key;
+  curve.axis = axis.name;
+  if (!tracks.empty()) curve.points = mean_points(tracks);
+  set_slope(slopes, curve);
+  return curve;
 }
 
-const ReportCurve* find_curve(const std::vector<ReportCurve>& curves, const std::string& scene,
-                              const std::string& method) {
-  const std::string_view metric = metric_info(Metric::relative_mse).key;
-  for (const ReportCurve& curve : curves) {
-    if (curve.scene == scene && curve.method == method && curve.metric == metric &&
-        curve.axis == "seconds") {
-      return &curve;
-    }
-  }
-  return nullptr;
+/// The moment after which a track stays at or below `target` [log]; NaN when it ends above it. A
+/// track that begins below counts from its first point.
+double time_below(const Track& track, double target) {
+  if (track.x.empty() || track.y.back() > target) return std::nan("");
+  std::size_t i = track.x.size() - 1;
+  while (i > 0 && track.y[i - 1] <= target) --i;
+  if (i == 0) return std::exp(track.x.front());
+  const double t = (track.y[i - 1] - target) / (track.y[i - 1] - track.y[i]);
+  return std::exp(track.x[i - 1] + t * (track.x[i] - track.x[i - 1]));
+}
+
+double time_to_equal_error(const RunRecord& run, const RunRecord* baseline) {
+  if (baseline == nullptr) return std::nan("");
+  const double target = std::log(baseline->errors[Metric::relative_mse]);
+  return time_below(track_of(run, kAxes[1], Metric::relative_mse, 0), target);
 }
 
 }  // namespace
@@ -102,22 +138,15 @@ std::vector<ReportCurve> convergence_curves(const ExperimentResults& results) {
   for (const PlannedCell& cell : results.plan.cells) {
     const std::string& scene = results.config.scenes[cell.scene].name;
     const std::string& method = results.config.methods[cell.method].name;
+    std::vector<const RunRecord*> runs;
+    for (const RunRecord& run : results.records) {
+      if (run.scene == scene && run.method == method) runs.push_back(&run);
+    }
     for (const Metric metric : checkpoint_metrics()) {
       for (const Axis& axis : kAxes) {
-        std::vector<Track> tracks;
-        for (const RunRecord& run : results.records) {
-          if (run.scene != scene || run.method != method) continue;
-          tracks.push_back(track_of(run, axis, metric));
-        }
-        if (tracks.empty()) continue;
-        ReportCurve curve{.scene = scene,
-                          .method = method,
-                          .metric = std::string(metric_info(metric).key),
-                          .axis = axis.name,
-                          .points = mean_points(tracks),
-                          .slope = {},
-                          .slope_interval = {}};
-        set_slope(tracks, curve);
+        ReportCurve curve = curve_of(runs, axis, metric);
+        curve.scene = scene;
+        curve.method = method;
         if (!curve.points.empty()) curves.push_back(std::move(curve));
       }
     }
@@ -125,31 +154,17 @@ std::vector<ReportCurve> convergence_curves(const ExperimentResults& results) {
   return curves;
 }
 
-ReportTable equal_error_table(const ExperimentResults& results,
-                              const std::vector<ReportCurve>& curves) {
+ReportTable equal_error_table(const ExperimentResults& results) {
   ReportTable table{"seconds_to_equal_error",
                     "time to equal error",
                     "s",
-                    "Seconds after which the method's mean relMSE stays below what the baseline's "
-                    "has at its end, between checkpoints on logarithmic axes; none where it is not "
-                    "reached",
+                    "Seconds after which the method's relMSE stays below what the baseline has at "
+                    "its end with the same seed, between checkpoints on logarithmic axes and not "
+                    "before the first; none where a seed does not reach it",
                     Better::lower,
                     {}};
   for (const ExperimentScene& scene : results.config.scenes) {
-    ReportTable::Row row{scene.name, {}};
-    const ReportCurve* baseline = find_curve(curves, scene.name, results.config.baseline);
-    for (const ExperimentMethod& method : results.config.methods) {
-      ReportCell cell;
-      const ReportCurve* curve = find_curve(curves, scene.name, method.name);
-      if (baseline != nullptr && curve != nullptr) {
-        const auto time = time_below(curve->points, baseline->points.back().y);
-        const auto whole = time_below(baseline->points, baseline->points.back().y);
-        if (time) cell.value = *time;
-        if (time && whole) cell.ratio = *time / *whole;
-      }
-      row.cells.push_back(cell);
-    }
-    table.rows.push_back(std::move(row));
+    table.rows.push_back(row_over_seeds(results, scene.name, true, time_to_equal_error));
   }
   return table;
 }

@@ -3,10 +3,15 @@
 
 #include <fmt/format.h>
 
+#include <pharos/core/error.h>
+#include <pharos/core/file_lock.h>
 #include <pharos/core/version.h>
+#include <pharos/experiments/build_key.h>
 #include <pharos/experiments/content_key.h>
 #include <pharos/experiments/density_pictures.h>
 #include <pharos/experiments/experiment.h>
+#include <pharos/experiments/machine.h>
+#include <pharos/experiments/output_folder.h>
 #include <pharos/experiments/peak_memory.h>
 
 namespace pharos {
@@ -30,6 +35,8 @@ class CheckpointLog {
     checkpoints_.push_back({samples, snapshot.progress.seconds,
                             measure(snapshot.image(), reference_, checkpoint_metrics())});
   }
+
+  double training_samples() const { return training_samples_; }
 
   /// All of them, with the end of the run.
   std::vector<Checkpoint> finish(const RunRecord& record) {
@@ -77,113 +84,169 @@ class RunCounter {
 
 class Runner {
  public:
-  Runner(const ExperimentConfig& config, const ExperimentPlan& plan, const Registry& registry,
+  Runner(const ExperimentConfig& config, ExperimentPlan plan, const Registry& registry,
          const ExperimentControl& control)
       : registry_(registry), control_(control) {
     results_.config = config;
-    results_.plan = plan;
-    results_.run_count = plan.cells.size() * config.seeds;
+    results_.plan = std::move(plan);
+    results_.run_count = results_.plan.cells.size() * config.seeds;
   }
 
   ExperimentResults run() {
     results_.stopped = !find_references();
-    RunCounter counter(results_.run_count, control_);
-    const std::uint64_t first = results_.config.first_seed;
-    for (std::uint64_t seed = first; seed < first + results_.config.seeds; ++seed) {
-      for (const PlannedCell& cell : results_.plan.cells) {
-        if (results_.stopped) return std::move(results_);
-        make(cell, seed, counter);
-      }
+    std::vector<Run> runs = all_runs();
+    RunCounter counter(runs.size(), control_);
+    for (Run& run : runs) {
+      run.record = load(run);
+      if (run.record) counter.skip();
+    }
+    for (Run& run : runs) {
+      if (results_.stopped) break;
+      if (run.record) continue;
+      run.record = render(run);
+      if (run.record) counter.finish(*run.record);
+      results_.stopped = !run.record;
+    }
+    for (Run& run : runs) {
+      if (run.record) results_.records.push_back(std::move(*run.record));
     }
     return std::move(results_);
   }
 
  private:
+  struct Run {
+    const PlannedCell* cell;
+    std::uint64_t seed;
+    std::optional<RunRecord> record;
+  };
+
+  /// Those whose reference is there, in the order in which they are made.
+  std::vector<Run> all_runs() const {
+    std::vector<Run> runs;
+    const std::uint64_t first = results_.config.first_seed;
+    for (std::uint64_t seed = first; seed < first + results_.config.seeds; ++seed) {
+      for (const PlannedCell& cell : results_.plan.cells) {
+        if (cell.scene < results_.references.size()) runs.push_back({&cell, seed, {}});
+      }
+    }
+    return runs;
+  }
+
+  void tell(const std::string& message) const {
+    if (control_.on_message) control_.on_message(message);
+  }
+
   bool find_references() {
     const fs::path cache =
         results_.config.cache.empty() ? default_reference_cache() : results_.config.cache;
     for (std::size_t s = 0; s < results_.config.scenes.size(); ++s) {
+      const std::string& scene = results_.config.scenes[s].name;
+      const PlannedReference& planned = results_.plan.references[s];
       const auto report = [&](std::uint32_t part, std::uint32_t parts) {
-        if (!control_.on_message) return;
-        control_.on_message(fmt::format("{}: reference, part {} of {}",
-                                        results_.config.scenes[s].name, part + 1, parts));
+        tell(fmt::format("{}: reference, part {} of {}", scene, part + 1, parts));
       };
-      auto reference =
-          find_or_render(results_.plan.references[s], cache, registry_, control_.render, report);
+      auto reference = find_or_render(planned, cache, registry_, control_.render, report);
       if (!reference) return false;
+      if (planned.parts > 0 && reference->build != build_of(planned)) {
+        tell(
+            fmt::format("{}: the reference was rendered by another build of Pharos; remove '{}' to "
+                        "have it made anew",
+                        scene, reference->file.string()));
+      }
       results_.references.push_back(std::move(*reference));
     }
     return true;
   }
 
-  std::string key_of(const PlannedCell& cell, std::uint64_t seed) const {
-    return content_key(
-        fmt::format("{} {} {} {}", cell.key, results_.references[cell.scene].key, seed, version()));
+  std::string build_of(const PlannedReference& planned) const {
+    return build_key(build_run(planned.config, 0, registry_).resolved, registry_);
   }
 
-  /// Makes a run, unless its record is there.
-  void make(const PlannedCell& cell, std::uint64_t seed, RunCounter& counter) {
-    const std::string& scene = results_.config.scenes[cell.scene].name;
-    const std::string& method = results_.config.methods[cell.method].name;
-    const fs::path file = results_.run_file(scene, method, seed, ".json");
-    std::optional<RunRecord> record = load_record(file);
-    if (record && record->key == key_of(cell, seed)) {
-      counter.skip();
-    } else {
-      record = render(cell, seed);
-      if (!record) {
-        results_.stopped = true;
-        return;
-      }
-      save_record(*record, file);
-      counter.finish(*record);
+  const std::string& scene_of(const Run& run) const {
+    return results_.config.scenes[run.cell->scene].name;
+  }
+  const std::string& method_of(const Run& run) const {
+    return results_.config.methods[run.cell->method].name;
+  }
+  fs::path file_of(const Run& run, const std::string& extension) const {
+    return results_.run_file(scene_of(run), method_of(run), run.seed, extension);
+  }
+  bool keeps_image(const Run& run) const {
+    return run.seed == results_.config.first_seed || results_.config.images == KeptImages::all;
+  }
+
+  /// What a run of a time budget comes to depends on the machine, too.
+  std::string key_of(const Run& run) const {
+    std::string key =
+        fmt::format("{} {} {}", run.cell->key, results_.references[run.cell->scene].key, run.seed);
+    if (results_.config.budget.seconds) {
+      key += fmt::format(" {} {}", thread_count(), processor_name());
     }
-    results_.records.push_back(std::move(*record));
+    return content_key(key);
   }
 
-  /// Empty when it was stopped.
-  std::optional<RunRecord> render(const PlannedCell& cell, std::uint64_t seed) {
-    reset_peak_memory();
-    const LoadedConfig loaded = build_run(cell.config, seed, registry_);
-    const Image& reference = results_.references[cell.scene].image;
-    RenderJob job(loaded.config);
-    CheckpointLog checkpoints(reference);
-    RenderControl control = control_.render;
-    control.on_pass = [&](const RenderSnapshot& snapshot) { checkpoints.look(snapshot); };
-    const RenderResult result = job.run(control);
-    if (result.stopped) return std::nullopt;
-    RunRecord record{.key = key_of(cell, seed),
-                     .version = version(),
-                     .scene = results_.config.scenes[cell.scene].name,
-                     .method = results_.config.methods[cell.method].name,
-                     .seed = seed,
-                     .samples_per_pixel = result.samples_per_pixel,
-                     .times = result.times,
-                     .rays = result.counters.rays,
-                     .invalid_paths = result.counters.invalid_paths,
-                     .model_bytes = result.model_bytes,
-                     .peak_bytes = peak_memory(),
-                     .errors = measure(result.image, reference),
-                     .checkpoints = {}};
-    record.checkpoints = checkpoints.finish(record);
-    keep_images(record, result, job.scene());
+  /// The record of an earlier run that would come out the same, with the files that are wanted.
+  std::optional<RunRecord> load(const Run& run) const {
+    std::optional<RunRecord> record = load_record(file_of(run, ".json"));
+    if (!record || record->key != key_of(run)) return std::nullopt;
+    if (keeps_image(run) && !fs::exists(file_of(run, ".exr"))) return std::nullopt;
     return record;
   }
 
-  void keep_images(const RunRecord& record, const RenderResult& result, const Scene& scene) const {
-    const auto file = [&](const std::string& extension) {
-      return results_.run_file(record.scene, record.method, record.seed, extension);
+  /// Makes a run, and its files; empty when it was stopped.
+  std::optional<RunRecord> render(const Run& run) {
+    remove_run(file_of(run, ""));
+    PeakMemory peak;
+    const LoadedConfig loaded = build_run(run.cell->config, run.seed, registry_);
+    const Image& reference = results_.references[run.cell->scene].image;
+    RenderJob job(loaded.config);
+    CheckpointLog checkpoints(reference);
+    RenderControl control = control_.render;
+    control.on_pass = [&](const RenderSnapshot& snapshot) {
+      peak.leave_out([&] { checkpoints.look(snapshot); });
     };
-    fs::create_directories(file("").parent_path());
-    const bool first = record.seed == results_.config.first_seed;
-    if (first || results_.config.images == KeptImages::all) {
-      write_exr(select_layers(result.image, {}), file(".exr"), {{"pharos:version", version()}});
+    const RenderResult result = job.run(control);
+    if (result.stopped) return std::nullopt;
+    RunRecord record = record_of(run, result);
+    record.peak_bytes = peak.bytes();
+    record.training_samples = checkpoints.training_samples();
+    record.errors = measure(result.image, reference);
+    record.checkpoints = checkpoints.finish(record);
+    keep_images(run, result, job.scene());
+    save_record(record, file_of(run, ".json"));
+    return record;
+  }
+
+  RunRecord record_of(const Run& run, const RenderResult& result) const {
+    return {.key = key_of(run),
+            .version = version(),
+            .threads = thread_count(),
+            .processor = processor_name(),
+            .scene = scene_of(run),
+            .method = method_of(run),
+            .seed = run.seed,
+            .samples_per_pixel = result.samples_per_pixel,
+            .training_samples = 0,
+            .times = result.times,
+            .rays = result.counters.rays,
+            .invalid_paths = result.counters.invalid_paths,
+            .model_bytes = result.model_bytes,
+            .peak_bytes = {},
+            .errors = {},
+            .checkpoints = {}};
+  }
+
+  void keep_images(const Run& run, const RenderResult& result, const Scene& scene) const {
+    fs::create_directories(file_of(run, "").parent_path());
+    if (keeps_image(run)) {
+      write_exr(select_layers(result.image, {}), file_of(run, ".exr"),
+                {{"pharos:version", version()}});
     }
-    if (!first || result.model == nullptr) return;
+    if (run.seed != results_.config.first_seed || result.model == nullptr) return;
     const Image& image = result.image;
     for (const DensityPicture& picture :
          density_pictures(*result.model, scene, image.width(), image.height())) {
-      write_exr(picture.image, file("." + picture.name + ".exr"),
+      write_exr(picture.image, file_of(run, "." + picture.name + ".exr"),
                 {{"pharos:caption", picture.caption}});
     }
   }
@@ -200,9 +263,18 @@ fs::path ExperimentResults::run_file(const std::string& scene, const std::string
   return folder() / "runs" / scene / method / fmt::format("seed-{}{}", seed, extension);
 }
 
-ExperimentResults run_experiment(const ExperimentConfig& config, const ExperimentPlan& plan,
+const RunRecord* ExperimentResults::find(const std::string& scene, const std::string& method,
+                                         std::uint64_t seed) const {
+  for (const RunRecord& record : records) {
+    if (record.scene == scene && record.method == method && record.seed == seed) return &record;
+  }
+  return nullptr;
+}
+
+ExperimentResults run_experiment(const ExperimentConfig& config, ExperimentPlan plan,
                                  const Registry& registry, const ExperimentControl& control) {
-  return Runner(config, plan, registry, control).run();
+  const FileLock lock = claim_folder(config.output, config.source);
+  return Runner(config, std::move(plan), registry, control).run();
 }
 
 }  // namespace pharos

@@ -12,9 +12,9 @@
 /// Experiments: every method on every scene with every seed, measured against a reference.
 ///
 ///     const ExperimentConfig config = load_experiment(path, {}, registry);
-///     const ExperimentPlan plan = plan_experiment(config, registry);
-///     const ExperimentResults results = run_experiment(config, plan, registry, control);
-///     write_results(results);
+///     ExperimentPlan plan = plan_experiment(config, registry);
+///     const ExperimentResults results = run_experiment(config, std::move(plan), registry,
+///     control); write_results(results);
 ///
 /// Runs are made one after the other, each on all threads; of a seed all scenes, of a scene all
 /// methods, so that what disturbs the machine disturbs all methods alike. Each finished run leaves
@@ -33,18 +33,22 @@ struct ExperimentResults {
   ExperimentConfig config;
   ExperimentPlan plan;
   std::vector<Reference> references;  ///< one a scene; fewer when it was stopped before
-  std::vector<RunRecord> records;     ///< finished ones, in the order of the runs
+  std::vector<RunRecord> records;     ///< all that are known, in the order of the runs
   std::size_t run_count = 0;          ///< of the whole experiment
   bool stopped = false;
 
   std::filesystem::path folder() const { return config.output; }
-  /// Where the files of a run stand, such as "output/runs/cornell-box/sobol/seed-1" + extension.
+  /// Where a file of a run stands, such as "output/runs/cornell-box/sobol/seed-1" + extension.
   std::filesystem::path run_file(const std::string& scene, const std::string& method,
                                  std::uint64_t seed, const std::string& extension) const;
+  /// The record of a run; null when there is none.
+  const RunRecord* find(const std::string& scene, const std::string& method,
+                        std::uint64_t seed) const;
 };
 
-/// Renders what is missing.
-ExperimentResults run_experiment(const ExperimentConfig& config, const ExperimentPlan& plan,
+/// Renders what is missing. Throws InputError when another experiment has used the output folder,
+/// or uses it now.
+ExperimentResults run_experiment(const ExperimentConfig& config, ExperimentPlan plan,
                                  const Registry& registry, const ExperimentControl& control);
 
 }  // namespace pharos

@@ -40,6 +40,11 @@ std::vector<std::string> names_of(const std::vector<Entry>& entries, const Confi
   return names;
 }
 
+/// Whether a name is that of a method: the reference has its own place among the images.
+bool is_method_name(const std::string& name) {
+  return is_name(name) && name != "reference";
+}
+
 void check_reference(const ReferenceSettings& reference, const ConfigNode* node) {
   if (!reference.image.empty() && reference.spp > 0) {
     node->fail("expected either 'image' or 'spp', found both");
@@ -102,7 +107,9 @@ void ExperimentScene::describe(Schema<ExperimentScene>& s) {
 }
 
 void ExperimentMethod::describe(Schema<ExperimentMethod>& s) {
-  s.field("name", &ExperimentMethod::name, "Name in tables").required().check(kNameRule, is_name);
+  s.field("name", &ExperimentMethod::name, "Name in tables")
+      .required()
+      .check(std::string(kNameRule) + ", not 'reference'", is_method_name);
   s.field("settings", &ExperimentMethod::settings, "Laid over every scene's config");
 }
 
@@ -137,6 +144,7 @@ ExperimentConfig load_experiment(const std::filesystem::path& path,
   auto config = Value<ExperimentConfig>::read(node, context, resolved);
   check_together(config, node);
   const std::string name = path.stem().string();
+  config.source = std::filesystem::absolute(path).lexically_normal();
   if (config.title.empty()) config.title = name;
   if (config.baseline.empty()) config.baseline = config.methods.front().name;
   if (config.output.empty()) config.output = name;

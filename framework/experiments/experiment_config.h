@@ -68,6 +68,8 @@ struct ExperimentConfig {
   std::string output;           ///< folder, relative to the current one
   std::filesystem::path cache;  ///< of references; empty: the user's cache folder
 
+  std::filesystem::path source;  ///< the file it was read from, absolute
+
   static void describe(Schema<ExperimentConfig>& schema);
 };
 

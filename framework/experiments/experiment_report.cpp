@@ -1,11 +1,10 @@
 #include <ctime>
-#include <fstream>
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
-#include <tbb/task_arena.h>
 
 #include <pharos/core/version.h>
+#include <pharos/experiments/machine.h>
 #include <pharos/experiments/results_files.h>
 #include <pharos/experiments/summary.h>
 
@@ -13,15 +12,6 @@ namespace pharos {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The processor's name as Linux tells it; empty elsewhere.
-std::string processor() {
-  std::ifstream info("/proc/cpuinfo");
-  for (std::string line; std::getline(info, line);) {
-    if (line.rfind("model name", 0) == 0) return line.substr(line.find(':') + 2);
-  }
-  return {};
-}
 
 std::string budget_text(const Budget& budget) {
   return budget.spp ? fmt::format("{} samples a pixel", *budget.spp)
@@ -34,8 +24,9 @@ std::vector<std::pair<std::string, std::string>> facts_of(const ExperimentResult
       {"Seeds", std::to_string(results.config.seeds)},
       {"Baseline", results.config.baseline},
       {"Pharos", version()},
-      {"Threads", std::to_string(tbb::this_task_arena::max_concurrency())}};
-  if (const std::string name = processor(); !name.empty()) facts.emplace_back("Processor", name);
+      {"Threads", std::to_string(thread_count())}};
+  if (const std::string name = processor_name(); !name.empty())
+    facts.emplace_back("Processor", name);
   facts.emplace_back("Written",
                      fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(std::time(nullptr))));
   if (results.records.size() < results.run_count) {
@@ -86,9 +77,9 @@ ReportScene scene_of(const ExperimentResults& results, std::size_t index) {
   const Reference& reference = results.references[index];
   ReportScene scene{.name = name, .note = reference_note(reference), .images = {}, .pictures = {}};
   for (const ExperimentMethod& method : results.config.methods) {
+    if (results.find(name, method.name, results.config.first_seed) == nullptr) continue;
     const fs::path run = results.run_file(name, method.name, results.config.first_seed, "");
     const fs::path file = run.string() + ".exr";
-    if (!fs::exists(file)) continue;
     scene.images.push_back(method_image(file, method.name, reference.image));
     for (ReportPicture& picture : pictures_of(run, method.name)) {
       scene.pictures.push_back(std::move(picture));
@@ -113,7 +104,7 @@ Report experiment_report(const ExperimentResults& results) {
   for (const ExperimentMethod& method : results.config.methods) {
     report.methods.push_back(method.name);
   }
-  report.tables.push_back(equal_error_table(results, report.curves));
+  report.tables.push_back(equal_error_table(results));
   for (std::size_t s = 0; s < results.references.size(); ++s) {
     report.scenes.push_back(scene_of(results, s));
   }

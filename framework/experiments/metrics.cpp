@@ -147,8 +147,10 @@ Image error_map(Metric metric, const Image& image, const Image& reference) {
   const Errors errors = pixel_errors(metric, pair);
   Image map(pair.width, pair.height, {"Y"});
   for (std::size_t i = 0; i < errors.size(); ++i) {
-    map.values()[i] =
-        pair.valid[i] ? static_cast<float>(errors[i]) : std::numeric_limits<float>::quiet_NaN();
+    // Squares of large values may be beyond what a float holds.
+    constexpr double most = std::numeric_limits<float>::max();
+    map.values()[i] = pair.valid[i] ? static_cast<float>(std::min<double>(errors[i], most))
+                                    : std::numeric_limits<float>::quiet_NaN();
   }
   return map;
 }

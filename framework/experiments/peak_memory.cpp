@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <fstream>
 #include <malloc.h>
 #include <string>
@@ -5,27 +6,31 @@
 #include <pharos/experiments/peak_memory.h>
 
 namespace pharos {
-namespace {
 
-bool was_reset = false;
-
-}  // namespace
-
-void reset_peak_memory() {
+PeakMemory::PeakMemory() {
   malloc_trim(0);  // what earlier work has freed is not this one's
-  std::ofstream refs("/proc/self/clear_refs");
-  refs << "5" << std::flush;  // see proc(5)
-  was_reset = static_cast<bool>(refs);
+  reset();
 }
 
-std::optional<double> peak_memory() {
-  if (!was_reset) return std::nullopt;
+std::optional<double> PeakMemory::bytes() {
+  take();
+  if (!known_) return std::nullopt;
+  return peak_;
+}
+
+void PeakMemory::reset() {
+  std::ofstream refs("/proc/self/clear_refs");
+  refs << "5" << std::flush;  // the peak starts anew, see proc(5)
+  known_ = known_ && static_cast<bool>(refs);
+}
+
+void PeakMemory::take() {
   std::ifstream status("/proc/self/status");
   for (std::string word; status >> word;) {
     double kibibytes = 0;
-    if (word == "VmHWM:" && status >> kibibytes) return kibibytes * 1024;
+    if (word == "VmHWM:" && status >> kibibytes) peak_ = std::max(peak_, kibibytes * 1024);
   }
-  return std::nullopt;
+  known_ = known_ && peak_ > 0;
 }
 
 }  // namespace pharos

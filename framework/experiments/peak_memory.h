@@ -4,11 +4,28 @@
 
 namespace pharos {
 
-/// Starts a new measurement of the most memory that the process holds. Linux only; elsewhere, and
-/// where the system does not allow it, peak_memory() is empty.
-void reset_peak_memory();
+/// Measures the most memory that the process holds from its construction on. One at a time; Linux
+/// only: elsewhere, and where the system does not allow it, there is no value.
+class PeakMemory {
+ public:
+  PeakMemory();
 
-/// The most memory resident since reset_peak_memory() [bytes].
-std::optional<double> peak_memory();
+  /// Runs `work` without counting what it holds.
+  template <class Work>
+  void leave_out(Work&& work) {
+    take();
+    work();
+    reset();
+  }
+  /// The most memory resident so far [bytes].
+  std::optional<double> bytes();
+
+ private:
+  void reset();
+  void take();
+
+  bool known_ = true;
+  double peak_ = 0;
+};
 
 }  // namespace pharos

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <pharos/experiments/build_key.h>
 #include <pharos/experiments/content_key.h>
 #include <pharos/experiments/pixel_pair.h>
 #include <pharos/experiments/plan.h>
@@ -48,7 +49,7 @@ PlannedCell plan_cell(const ExperimentConfig& experiment, const ConfigNode& scen
   loaded.resolved.take("seed");
   loaded.resolved.take("output");
   cell.text = to_yaml(loaded.resolved);
-  cell.key = content_key(loaded);
+  cell.key = content_key(content_key(loaded) + build_key(loaded.resolved, registry));
   return cell;
 }
 
@@ -60,9 +61,7 @@ PlannedReference plan_reference(const ReferenceSettings& settings, const ConfigN
   reference.config.set("budget", budget_node({.spp = std::max(settings.spp / settings.parts, 1u)}));
   const FilmSettings film = build_run(reference.config, 0, registry).config.film;
   reference.width = film.width, reference.height = film.height;
-  if (!settings.image.empty()) {
-    reference.image = read_reference(settings.image, film.width, film.height);
-  }
+  if (!settings.image.empty()) read_reference(settings.image, film.width, film.height);
   return reference;
 }
 

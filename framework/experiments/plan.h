@@ -14,13 +14,12 @@ struct PlannedCell {
   std::size_t scene = 0, method = 0;  ///< indices into the experiment's lists
   ConfigNode config;                  ///< of the render, budget included
   std::string text;                   ///< the same with every value in force, but for the seed
-  std::string key;                    ///< of its content, see content_key()
+  std::string key;                    ///< of its content and of the code that renders it
 };
 
 /// The reference of a scene: a file, or a render.
 struct PlannedReference {
   std::filesystem::path file;  ///< empty when it is to be rendered
-  Image image;                 ///< R, G, B of the file
   ConfigNode config;           ///< of one part of a render
   std::uint32_t parts = 0;     ///< of a render; 0: it is a file
   int width = 0, height = 0;   ///< of the scene's images

@@ -3,8 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <pharos/core/error.h>
+#include <pharos/core/file_lock.h>
 #include <pharos/core/version.h>
+#include <pharos/experiments/build_key.h>
 #include <pharos/experiments/content_key.h>
 #include <pharos/experiments/metrics.h>
 #include <pharos/experiments/reference.h>
@@ -42,9 +43,16 @@ class MeanImage {
   int count_ = 0;
 };
 
-double number_at(const Metadata& metadata, const std::string& key) {
+std::string text_at(const Metadata& metadata, const std::string& key) {
   const auto entry = metadata.find(key);
-  return entry == metadata.end() ? 0 : std::strtod(entry->second.c_str(), nullptr);
+  return entry == metadata.end() ? "" : entry->second;
+}
+
+/// Empty where there is none.
+std::optional<double> number_at(const Metadata& metadata, const std::string& key) {
+  const std::string text = text_at(metadata, key);
+  if (text.empty()) return std::nullopt;
+  return std::strtod(text.c_str(), nullptr);
 }
 
 /// References of one cache folder, by key; parts of those that are not finished stand beside.
@@ -59,26 +67,26 @@ class Cache {
     const Metadata metadata = read_metadata(file);
     Reference reference{
         .image = read_reference(file, planned_.width, planned_.height), .key = key_, .file = file};
-    reference.samples_per_pixel = number_at(metadata, "pharos:samples_per_pixel");
-    reference.seconds = number_at(metadata, "pharos:seconds");
+    reference.samples_per_pixel = number_at(metadata, "pharos:samples_per_pixel").value_or(0);
+    reference.seconds = number_at(metadata, "pharos:seconds").value_or(0);
     reference.mse = number_at(metadata, "pharos:own_mse");
     reference.relative_mse = number_at(metadata, "pharos:own_relative_mse");
-    if (metadata.contains("pharos:version")) reference.version = metadata.at("pharos:version");
+    reference.version = text_at(metadata, "pharos:version");
+    reference.build = text_at(metadata, "pharos:build");
     return reference;
   }
 
   bool has_part(std::uint32_t part) const { return fs::exists(part_path(part)); }
 
   void keep_part(std::uint32_t part, const RenderResult& result) const {
-    fs::create_directories(folder_);
     write_exr(select_layers(result.image, {}), part_path(part),
               {{"pharos:version", version()},
                {"pharos:samples_per_pixel", fmt::format("{}", result.samples_per_pixel)},
-               {"pharos:seconds", fmt::format("{}", seconds_of(result.times))}});
+               {"pharos:seconds", fmt::format("{}", result.times.budgeted())}});
   }
 
   /// Makes the whole of its parts.
-  void finish(const std::string& config) const {
+  void finish(const std::string& config, const std::string& build) const {
     MeanImage whole;
     std::array<MeanImage, 2> halves;
     double samples = 0, seconds = 0;
@@ -87,8 +95,8 @@ class Cache {
       const Metadata metadata = read_metadata(part_path(part));
       whole.add(image);
       halves[part % 2].add(image);
-      samples += number_at(metadata, "pharos:samples_per_pixel");
-      seconds += number_at(metadata, "pharos:seconds");
+      samples += number_at(metadata, "pharos:samples_per_pixel").value_or(0);
+      seconds += number_at(metadata, "pharos:seconds").value_or(0);
     }
     // Halves differ by twice the variance of one, which is twice that of the whole.
     static constexpr std::array<Metric, 2> metrics{Metric::mse, Metric::relative_mse};
@@ -96,19 +104,24 @@ class Cache {
     write_exr(
         whole.mean(), path(),
         {{"pharos:version", version()},
+         {"pharos:build", build},
          {"pharos:config", config},
          {"pharos:parts", std::to_string(planned_.parts)},
          {"pharos:samples_per_pixel", fmt::format("{}", samples)},
          {"pharos:seconds", fmt::format("{}", seconds)},
          {"pharos:own_mse", fmt::format("{}", difference[Metric::mse] / 4)},
          {"pharos:own_relative_mse", fmt::format("{}", difference[Metric::relative_mse] / 4)}});
+    remove_parts();
+  }
+
+  void remove_parts() const {
     for (std::uint32_t part = 0; part < planned_.parts; ++part) fs::remove(part_path(part));
   }
 
+  /// Held by the process that renders this reference.
+  fs::path lock_path() const { return folder_ / (key_ + ".lock"); }
+
  private:
-  static double seconds_of(const RenderTimes& times) {
-    return times.training + times.update + times.rendering;
-  }
   fs::path path() const { return folder_ / (key_ + ".exr"); }
   fs::path part_path(std::uint32_t part) const {
     return folder_ / fmt::format("{}.part-{}.exr", key_, part);
@@ -134,7 +147,8 @@ std::optional<Reference> find_or_render(const PlannedReference& planned,
                                         const fs::path& cache_folder, const Registry& registry,
                                         const RenderControl& control, const PartReport& report) {
   if (planned.parts == 0) {
-    Reference given{.image = planned.image, .file = planned.file};
+    Reference given{.image = read_reference(planned.file, planned.width, planned.height),
+                    .file = planned.file};
     const std::vector<float>& values = given.image.values();
     given.key =
         content_key({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float)});
@@ -144,7 +158,14 @@ std::optional<Reference> find_or_render(const PlannedReference& planned,
   const Cache cache(cache_folder,
                     content_key(content_key(whole) + fmt::format(" in {}", planned.parts)),
                     planned);
-  if (std::optional<Reference> known = cache.find()) return known;
+  fs::create_directories(cache_folder);
+  // Another process may be rendering the same: its result is then ours.
+  const auto lock = FileLock::wait(cache.lock_path(), control.stop);
+  if (!lock) return std::nullopt;
+  if (std::optional<Reference> known = cache.find()) {
+    cache.remove_parts();  // of a process that ended before it could
+    return known;
+  }
   for (std::uint32_t part = 0; part < planned.parts; ++part) {
     if (cache.has_part(part)) continue;
     report(part, planned.parts);
@@ -153,7 +174,7 @@ std::optional<Reference> find_or_render(const PlannedReference& planned,
     if (result.stopped) return std::nullopt;
     cache.keep_part(part, result);
   }
-  cache.finish(to_yaml(whole.resolved));
+  cache.finish(to_yaml(whole.resolved), build_key(whole.resolved, registry));
   return cache.find();
 }
 

@@ -20,6 +20,7 @@ struct Reference {
   double samples_per_pixel = 0;
   double seconds = 0;
   std::string version;  ///< of Pharos
+  std::string build;    ///< see build_key(): the code that rendered it
   /// Its own expected error, from two halves of its parts: results as small as this mean nothing.
   std::optional<double> mse, relative_mse;
 };

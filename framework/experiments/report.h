@@ -23,6 +23,7 @@ struct ReportCell {
   std::optional<double> ratio;  ///< this value over the baseline's in the same row; not shown in
                                 ///< the baseline's column
   std::optional<Interval> ratio_interval;
+  bool contends = true;  ///< for the best of its row
 };
 
 enum class Better { lower, higher, neither };

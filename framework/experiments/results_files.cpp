@@ -1,10 +1,10 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <pharos/core/atomic_file.h>
 #include <pharos/core/version.h>
+#include <pharos/experiments/json_number.h>
 #include <pharos/experiments/results_files.h>
 #include <pharos/experiments/summary.h>
 
@@ -15,10 +15,6 @@ using nlohmann::json;
 
 /// Of results.json.
 constexpr int kFormat = 1;
-
-json number(double value) {
-  return std::isfinite(value) ? json(value) : json(nullptr);
-}
 
 /// The shortest text that reads as the same number; empty for what is not known.
 std::string csv_number(double value) {
@@ -31,21 +27,21 @@ json reference_json(const Reference& reference) {
     node["samples_per_pixel"] = reference.samples_per_pixel;
     node["seconds"] = reference.seconds;
     node["version"] = reference.version;
-    node["own_mse"] = number(reference.mse.value_or(NAN));
-    node["own_relative_mse"] = number(reference.relative_mse.value_or(NAN));
+    node["own_mse"] = json_number<json>(reference.mse);
+    node["own_relative_mse"] = json_number<json>(reference.relative_mse);
   }
   return node;
 }
 
 json interval_json(const std::optional<Interval>& interval) {
   if (!interval) return nullptr;
-  return json::array({number(interval->low), number(interval->high)});
+  return json::array({json_number<json>(interval->low), json_number<json>(interval->high)});
 }
 
 json cell_json(const ReportCell& cell) {
-  return {{"value", number(cell.value)},
+  return {{"value", json_number<json>(cell.value)},
           {"interval", interval_json(cell.interval)},
-          {"ratio", number(cell.ratio.value_or(NAN))},
+          {"ratio", json_number<json>(cell.ratio)},
           {"ratio_interval", interval_json(cell.ratio_interval)}};
 }
 
@@ -71,7 +67,7 @@ json slopes_json(const Report& report) {
                       {"method", curve.method},
                       {"metric", curve.metric},
                       {"axis", curve.axis},
-                      {"slope", number(curve.slope.value_or(NAN))},
+                      {"slope", json_number<json>(curve.slope)},
                       {"interval", interval_json(curve.slope_interval)}});
   }
   return slopes;

@@ -2,9 +2,8 @@
 #include <cmath>
 #include <fstream>
 
-#include <nlohmann/json.hpp>
-
 #include <pharos/core/atomic_file.h>
+#include <pharos/experiments/json_number.h>
 #include <pharos/experiments/run_record.h>
 
 namespace pharos {
@@ -15,16 +14,11 @@ using nlohmann::json;
 /// Of the records' files.
 constexpr int kFormat = 1;
 
-/// JSON has no word for what is not finite.
-json number(double value) {
-  return std::isfinite(value) ? json(value) : json(nullptr);
-}
-
 ImageErrors errors_from(const json& node) {
   ImageErrors errors;
   for (const MetricInfo& info : metric_infos()) {
     const auto value = node.find(info.key);
-    if (value != node.end() && value->is_number()) errors[info.metric] = value->get<double>();
+    if (value != node.end()) errors[info.metric] = number_from(*value);
   }
   errors.invalid_pixels = node.value("invalid_pixels", std::size_t{0});
   return errors;
@@ -33,10 +27,13 @@ ImageErrors errors_from(const json& node) {
 RunRecord record_from(const json& node) {
   RunRecord record{.key = node.at("key"),
                    .version = node.at("version"),
+                   .threads = node.at("threads"),
+                   .processor = node.at("processor"),
                    .scene = node.at("scene"),
                    .method = node.at("method"),
                    .seed = node.at("seed"),
                    .samples_per_pixel = node.at("samples_per_pixel"),
+                   .training_samples = node.at("training_samples"),
                    .times = {.preparation = node.at("seconds_preparation"),
                              .training = node.at("seconds_training"),
                              .update = node.at("seconds_update"),
@@ -67,7 +64,7 @@ json to_json(const ImageErrors& errors) {
   json node = json::object();
   for (const MetricInfo& info : metric_infos()) {
     const double value = errors[info.metric];
-    if (!std::isnan(value)) node[std::string(info.key)] = number(value);
+    if (!std::isnan(value)) node[std::string(info.key)] = json_number<json>(value);
   }
   node["invalid_pixels"] = errors.invalid_pixels;
   return node;
@@ -82,10 +79,13 @@ json to_json(const RunRecord& record) {
   }
   return {{"key", record.key},
           {"version", record.version},
+          {"threads", record.threads},
+          {"processor", record.processor},
           {"scene", record.scene},
           {"method", record.method},
           {"seed", record.seed},
           {"samples_per_pixel", record.samples_per_pixel},
+          {"training_samples", record.training_samples},
           {"seconds_preparation", record.times.preparation},
           {"seconds_training", record.times.training},
           {"seconds_update", record.times.update},

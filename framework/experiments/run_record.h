@@ -24,9 +24,12 @@ struct Checkpoint {
 struct RunRecord {
   std::string key;  ///< of config, reference and version: another key, another run
   std::string version;
+  int threads = 0;
+  std::string processor;  ///< empty when unknown
   std::string scene, method;
   std::uint64_t seed = 0;
-  double samples_per_pixel = 0;
+  double samples_per_pixel = 0;  ///< training included
+  double training_samples = 0;   ///< a pixel
   RenderTimes times;
   std::uint64_t rays = 0;
   std::uint64_t invalid_paths = 0;
@@ -36,13 +39,13 @@ struct RunRecord {
   std::vector<Checkpoint> checkpoints;  ///< of the final image, in order; the last is its end
 
   /// Of training, updates and rendering: what a time budget counts.
-  double seconds() const { return times.training + times.update + times.rendering; }
+  double seconds() const { return times.budgeted(); }
 };
 
 /// The metrics that are measured at checkpoints.
 std::span<const Metric> checkpoint_metrics();
 
-/// The errors that are known, by the metrics' keys; NaN and infinity are null.
+/// The errors that are known, by the metrics' keys.
 nlohmann::json to_json(const ImageErrors& errors);
 nlohmann::json to_json(const RunRecord& record);
 

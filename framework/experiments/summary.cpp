@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <pharos/experiments/seed_means.h>
 #include <pharos/experiments/summary.h>
 
 namespace pharos {
@@ -16,6 +17,7 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 struct RunMeasure {
   ReportTable head;  ///< without rows
   bool has_ratios;   ///< values are positive, and twice as much is as much again
+  bool is_error;     ///< shown even where it is zero
   std::function<double(const RunRecord&)> value;
 };
 
@@ -28,6 +30,7 @@ RunMeasure metric_measure(const MetricInfo& info) {
            info.lower_is_better ? Better::lower : Better::higher,
            {}},
           info.has_ratios,
+          true,
           [metric](const RunRecord& run) { return run.errors[metric]; }};
 }
 
@@ -45,9 +48,15 @@ std::vector<RunMeasure> all_measures() {
   const auto add = [&](const char* key, const char* title, const char* unit, const char* definition,
                        Better better, bool has_ratios,
                        std::function<double(const RunRecord&)> value) {
-    measures.push_back({{key, title, unit, definition, better, {}}, has_ratios, std::move(value)});
+    measures.push_back(
+        {{key, title, unit, definition, better, {}}, has_ratios, false, std::move(value)});
   };
   using R = RunRecord;
+  add("invalid_pixels", "invalid pixels", "", "Pixels of NaN or infinite value, left out of errors",
+      Better::lower, false,
+      [](const R& r) { return static_cast<double>(r.errors.invalid_pixels); });
+  add("invalid_paths", "invalid paths", "", "Paths of NaN or infinite value, which count as black",
+      Better::lower, false, [](const R& r) { return static_cast<double>(r.invalid_paths); });
   add("error_times_seconds", "relMSE x time", "s",
       "relMSE times the seconds it took: the inverse of efficiency", Better::lower, true,
       [](const R& r) { return r.errors[Metric::relative_mse] * r.seconds(); });
@@ -76,58 +85,6 @@ std::vector<RunMeasure> all_measures() {
   return measures;
 }
 
-/// The runs of one method on one scene, by seed.
-std::vector<const RunRecord*> runs_of(const ExperimentResults& results, const std::string& scene,
-                                      const std::string& method) {
-  std::vector<const RunRecord*> runs;
-  for (const RunRecord& run : results.records) {
-    if (run.scene == scene && run.method == method) runs.push_back(&run);
-  }
-  return runs;
-}
-
-bool all_positive(const std::vector<double>& values) {
-  return std::all_of(values.begin(), values.end(),
-                     [](double v) { return v > 0 && std::isfinite(v); });
-}
-
-/// The mean in the way of a measure; the interval only of several values.
-void set_mean(const std::vector<double>& values, bool geometric, ReportCell& cell) {
-  const statistics::Bounded mean =
-      geometric ? statistics::geometric_mean(values) : statistics::arithmetic_mean(values);
-  cell.value = mean.value;
-  if (values.size() > 1) cell.interval = mean.interval;
-}
-
-void set_ratio(const std::vector<double>& values, const std::vector<double>& baseline,
-               ReportCell& cell) {
-  const statistics::Bounded ratio = statistics::mean_ratio(values, baseline);
-  cell.ratio = ratio.value;
-  if (values.size() > 1) cell.ratio_interval = ratio.interval;
-}
-
-ReportCell cell_of(const RunMeasure& measure, const std::vector<const RunRecord*>& runs,
-                   const std::vector<const RunRecord*>& baseline) {
-  std::vector<double> values, own, others;
-  for (const RunRecord* run : runs) {
-    values.push_back(measure.value(*run));
-    for (const RunRecord* other : baseline) {
-      if (other->seed != run->seed) continue;
-      own.push_back(values.back());
-      others.push_back(measure.value(*other));
-    }
-  }
-  ReportCell cell;
-  const bool known = !values.empty() && std::all_of(values.begin(), values.end(),
-                                                    [](double v) { return std::isfinite(v); });
-  if (!known) return cell;
-  set_mean(values, measure.has_ratios && all_positive(values), cell);
-  if (measure.has_ratios && !own.empty() && all_positive(own) && all_positive(others)) {
-    set_ratio(own, others, cell);
-  }
-  return cell;
-}
-
 bool says_something(const ReportTable& table) {
   for (const ReportTable::Row& row : table.rows) {
     for (const ReportCell& cell : row.cells) {
@@ -143,15 +100,11 @@ std::vector<ReportTable> summary_tables(const ExperimentResults& results) {
   std::vector<ReportTable> tables;
   for (RunMeasure& measure : all_measures()) {
     ReportTable table = std::move(measure.head);
+    const auto value = [&](const RunRecord& run, const RunRecord*) { return measure.value(run); };
     for (const ExperimentScene& scene : results.config.scenes) {
-      const auto baseline = runs_of(results, scene.name, results.config.baseline);
-      ReportTable::Row row{scene.name, {}};
-      for (const ExperimentMethod& method : results.config.methods) {
-        row.cells.push_back(cell_of(measure, runs_of(results, scene.name, method.name), baseline));
-      }
-      table.rows.push_back(std::move(row));
+      table.rows.push_back(row_over_seeds(results, scene.name, measure.has_ratios, value));
     }
-    if (says_something(table)) tables.push_back(std::move(table));
+    if (measure.is_error || says_something(table)) tables.push_back(std::move(table));
   }
   return tables;
 }

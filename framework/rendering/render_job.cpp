@@ -215,12 +215,12 @@ class RenderJob::Implementation {
     result_.times.update += watch_.seconds() - start;
   }
 
-  /// Renders `size` samples of every pixel; false when it was cut short.
   Film make_film() const {
     const FilmSettings& film = config_.film;
     return {film.width, film.height, film.filter, film.least_weight};
   }
 
+  /// Renders `size` samples of every pixel; false when it was cut short.
   bool run_pass(std::uint32_t index, std::uint32_t first_sample, std::uint32_t size, Film& film) {
     const IterationContext shared = context(iterations_[index].training);
     // Large passes are cut into chunks: chunk by chunk, each over all tiles.

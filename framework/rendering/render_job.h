@@ -50,6 +50,9 @@ struct RenderTimes {
   double training = 0;     ///< rendering of training iterations
   double update = 0;       ///< learners' updates
   double rendering = 0;    ///< of the final image
+
+  /// What a time budget counts.
+  double budgeted() const { return training + update + rendering; }
 };
 
 /// What a render has made.

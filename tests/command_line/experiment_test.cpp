@@ -1,8 +1,11 @@
 // `pharos experiment` as people use it: files, stopping and going on.
 
+#include <chrono>
 #include <fstream>
+#include <future>
 #include <iterator>
 #include <sstream>
+#include <thread>
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -129,6 +132,110 @@ TEST_CASE("an experiment leaves tables, images, records and a report") {
   }
 }
 
+/// How many parts of references were rendered.
+std::size_t rendered_parts(const Outcome& outcome) {
+  std::size_t count = 0;
+  for (std::size_t at = 0; (at = outcome.err.find("reference, part", at)) != std::string::npos;
+       ++at) {
+    ++count;
+  }
+  return count;
+}
+
+TEST_CASE("what an experiment reads is known by its content, wherever it lies") {
+  const ScratchFolder folder;
+  const auto write_mesh = [&](const std::string& name, const char* height) {
+    folder.write(name, fmt::format("v -1 -1 {0}\nv 1 -1 {0}\nv 0 1 {0}\nf 1 2 3\n", height));
+  };
+  const auto run_with = [&](const std::string& mesh) {
+    return run_pharos(
+        "experiment test.yaml --set seeds=1 --set 'scenes.0.settings={ scene: { shapes: "
+        "[{ type: mesh, file: " +
+            mesh +
+            " }], emitters: [{ type: constant }], sensor: { "
+            "type: perspective, to_world: { look_at: { origin: [0, 0, 4], target: [0, 0, 0] "
+            "} } } } }'",
+        folder.path());
+  };
+  write_experiment(folder, "spp: 4", 1);
+  write_mesh("a.obj", "0");
+  const Outcome first = run_with("a.obj");
+  REQUIRE_MESSAGE(first.exit_code == 0, first.err);
+  CHECK(rendered_runs(first) == 4);
+  CHECK(rendered_parts(first) == 8);
+  write_mesh("b.obj", "0");
+  const Outcome moved = run_with("b.obj");
+  CHECK(rendered_runs(moved) == 0);
+  CHECK(rendered_parts(moved) == 0);
+  write_mesh("b.obj", "0.5");
+  const Outcome changed = run_with("b.obj");
+  CHECK(rendered_runs(changed) == 2);
+  CHECK(rendered_parts(changed) == 4);
+}
+
+TEST_CASE("nothing of an earlier config stays") {
+  const ScratchFolder folder;
+  write_experiment(folder, "spp: 8", 2);
+  const std::string stubs = std::string("PHAROS_MODULE_PATH=") + PHAROS_TEST_PLUGINS;
+  const Outcome guided = run_pharos(
+      "experiment test.yaml --set 'methods.1.settings={ integrator: { guiding: { learner: "
+      "stub_direction, guider: stub_direction, training: { iterations: 2 } } } }'",
+      folder.path(), stubs);
+  REQUIRE_MESSAGE(guided.exit_code == 0, guided.err);
+  CHECK(folder.has("test/runs/deep/sobol/seed-1.slice-x.exr"));
+
+  const Outcome plain = run_pharos("experiment test.yaml", folder.path());
+  CHECK(rendered_runs(plain) == 4);
+  CHECK_FALSE(folder.has("test/runs/deep/sobol/seed-1.slice-x.exr"));
+
+  // A first seed that has no image yet is made again; so is one whose image is gone.
+  const Outcome later =
+      run_pharos("experiment test.yaml --set first_seed=2 --set seeds=1", folder.path());
+  CHECK(rendered_runs(later) == 4);
+  fs::remove(folder.path() / "test/runs/deep/sobol/seed-2.exr");
+  CHECK(rendered_runs(run_pharos("experiment test.yaml --set first_seed=2 --set seeds=1",
+                                 folder.path())) == 1);
+}
+
+TEST_CASE("an output folder belongs to one experiment, and to one process at a time") {
+  const ScratchFolder folder;
+  write_experiment(folder, "spp: 4", 1);
+  REQUIRE(run_pharos("experiment test.yaml", folder.path()).exit_code == 0);
+  fs::copy_file(folder.path() / "test.yaml", folder.path() / "other.yaml");
+  const Outcome other = run_pharos("experiment other.yaml -o test", folder.path());
+  CHECK(other.exit_code == 2);
+  CHECK(other.err.find("holds the results of '") != std::string::npos);
+
+  const ScratchFolder elsewhere;
+  const std::string same =
+      fmt::format("experiment {0}/test.yaml -o {0}/test", folder.path().string());
+  auto busy = std::async(std::launch::async, [&] {
+    return interrupt_pharos("experiment test.yaml --set seeds=10000 -q", folder.path(), 3, "INT");
+  });
+  std::this_thread::sleep_for(std::chrono::seconds(1));
+  const Outcome second = run_pharos(same, elsewhere.path());
+  CHECK(second.exit_code == 2);
+  CHECK(second.err.find("another process is at work here") != std::string::npos);
+  CHECK(busy.get().exit_code == 130);
+  CHECK(run_pharos(same, elsewhere.path()).exit_code == 0);
+}
+
+TEST_CASE("two processes that need one reference share it") {
+  const ScratchFolder folder, elsewhere;
+  write_experiment(folder, "spp: 4", 1);
+  auto first = std::async(std::launch::async, [&] {
+    return run_pharos("experiment test.yaml --set reference.spp=2048", folder.path());
+  });
+  const Outcome second =
+      run_pharos(fmt::format("experiment {}/test.yaml -o out --set reference.spp=2048",
+                             folder.path().string()),
+                 elsewhere.path());
+  CHECK(second.exit_code == 0);
+  const Outcome other = first.get();
+  CHECK(other.exit_code == 0);
+  CHECK(rendered_parts(second) + rendered_parts(other) == 8);
+}
+
 TEST_CASE("a method that learns: checkpoints after training, sizes, pictures of its density") {
   const ScratchFolder folder;
   write_experiment(folder, "spp: 32", 1);
@@ -163,6 +270,15 @@ TEST_CASE("Ctrl-C keeps finished runs and reports them; the same command goes on
   const Outcome rest = run_pharos("experiment test.yaml --set seeds=2", folder.path());
   CHECK(rest.exit_code == 0);
   CHECK(table_of(folder.path()) == undisturbed_table(2));
+
+  // What is known of methods that did not change is kept, however early the next run is stopped.
+  interrupt_pharos(
+      "experiment test.yaml --set seeds=2 --set methods.1.settings={} --set "
+      "budget.spp=16 --set scenes.1.reference.spp=1000000",
+      folder.path(), 1.5, "INT");
+  const std::string kept = table_of(folder.path());
+  CHECK(kept.find("deep,independent,1,") != std::string::npos);
+  CHECK(kept.find("deep,independent,2,") != std::string::npos);
 }
 
 TEST_CASE("an experiment that is killed and started again gives the same table") {

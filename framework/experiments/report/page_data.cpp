@@ -1,8 +1,7 @@
 #include <cmath>
 
-#include <nlohmann/json.hpp>
-
 #include <pharos/core/error.h>
+#include <pharos/experiments/json_number.h>
 #include <pharos/experiments/report/page_data.h>
 
 namespace pharos {
@@ -11,17 +10,9 @@ namespace {
 // Keeps the order in which things are written.
 using Json = nlohmann::ordered_json;
 
-Json number(double value) {
-  if (std::isinf(value)) return value > 0 ? "Infinity" : "-Infinity";
-  return value;
-}
-
-Json number(const std::optional<double>& value) {
-  return value ? number(*value) : Json(nullptr);
-}
-
 Json interval(const std::optional<Interval>& bounds) {
-  return bounds ? Json{number(bounds->low), number(bounds->high)} : Json(nullptr);
+  return bounds ? Json{json_number<Json>(bounds->low), json_number<Json>(bounds->high)}
+                : Json(nullptr);
 }
 
 const char* name(Better better) {
@@ -41,9 +32,10 @@ Json json(const ReportTable& table) {
   for (const ReportTable::Row& row : table.rows) {
     Json cells = Json::array();
     for (const ReportCell& cell : row.cells) {
-      cells.push_back({{"value", number(cell.value)},
+      cells.push_back({{"value", json_number<Json>(cell.value)},
                        {"interval", interval(cell.interval)},
-                       {"ratio", number(cell.ratio)},
+                       {"ratio", json_number<Json>(cell.ratio)},
+                       {"contends", cell.contends},
                        {"ratio_interval", interval(cell.ratio_interval)}});
     }
     rows.push_back({{"scene", row.scene}, {"cells", cells}});
@@ -59,15 +51,16 @@ Json json(const ReportTable& table) {
 Json json(const ReportCurve& curve) {
   Json points = Json::array();
   for (const ReportCurve::Point& point : curve.points) {
-    points.push_back(
-        {{"x", number(point.x)}, {"y", number(point.y)}, {"interval", interval(point.interval)}});
+    points.push_back({{"x", json_number<Json>(point.x)},
+                      {"y", json_number<Json>(point.y)},
+                      {"interval", interval(point.interval)}});
   }
   return {{"scene", curve.scene},
           {"method", curve.method},
           {"metric", curve.metric},
           {"axis", curve.axis},
           {"points", points},
-          {"slope", number(curve.slope)},
+          {"slope", json_number<Json>(curve.slope)},
           {"slope_interval", interval(curve.slope_interval)}};
 }
 

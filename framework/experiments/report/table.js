@@ -11,7 +11,7 @@ function tableCell(cell, best, isBaseline) {
   const value = toNumber(cell.value);
   const interval = toInterval(cell.interval);
   const element = make("td", {}, make("span", { className: "value" }, formatNumber(value)));
-  if (value === best) {
+  if (value === best && cell.contends) {
     element.className = "best";
     element.firstChild.prepend("★ ");
     element.title = "best of its row";
@@ -30,7 +30,8 @@ function tableCell(cell, best, isBaseline) {
 }
 
 function tableRow(row, table) {
-  const best = bestOf(row.cells.map((cell) => toNumber(cell.value)), table.better);
+  const contenders = row.cells.filter((cell) => cell.contends);
+  const best = bestOf(contenders.map((cell) => toNumber(cell.value)), table.better);
   return make("tr", {}, make("th", { scope: "row" }, row.scene),
     ...row.cells.map((cell, i) => tableCell(cell, best, report.methods[i] === report.baseline)));
 }

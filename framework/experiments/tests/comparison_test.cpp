@@ -162,7 +162,7 @@ TEST_CASE("table: several images") {
   holes.set_rgb(1, 1, Rgb(std::numeric_limits<float>::quiet_NaN()));
   write_exr(holes, folder / "holes.exr");
   const std::string text = comparison_table(folder.compare({"far.exr", "near.exr", "holes.exr"}));
-  CHECK(line_of(text, "MSE") == "MSE 0.25 0.0625* (0.25) 0.25 (1)");
+  CHECK(line_of(text, "MSE") == "MSE 0.25 0.0625* (0.25) 0.25");
   CHECK(line_of(text, "samples") == "samples a pixel - 64 -");
   CHECK(line_of(text, "time") == "time [s] - 3.75 -");
   CHECK(line_of(text, "pixels left out") == "pixels left out - - 1");
@@ -189,7 +189,7 @@ TEST_CASE("JSON: everything, with infinity as a word") {
   CHECK(near["label"] == "near");
   CHECK(near["errors"].size() == kMetricCount);
   CHECK(near["errors"]["mse"] == 0.0625);
-  CHECK(near["errors"]["psnr"] == "infinity");
+  CHECK(near["errors"]["psnr"] == "Infinity");
   CHECK(near["ratios"]["mse"] == 0.25);
   CHECK_FALSE(near["ratios"].contains("psnr"));
   CHECK(json["images"][0]["ratios"].empty());

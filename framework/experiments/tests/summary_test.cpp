@@ -32,6 +32,7 @@ ExperimentResults results_of(std::vector<RunRecord> records) {
   results.config.scenes.push_back({.name = "s"});
   results.config.methods = {{.name = "base"}, {.name = "fast"}};
   results.config.baseline = "base";
+  results.config.seeds = 2;
   for (const std::size_t method : {0, 1}) results.plan.cells.push_back({kScene, method});
   results.run_count = records.size();
   results.records = std::move(records);
@@ -95,33 +96,76 @@ TEST_CASE("convergence curves are means over seeds, with the slope of each") {
   const std::vector<ReportCurve> curves = convergence_curves(two_methods());
   const ReportCurve& samples = curve(curves, "base", "samples");
   REQUIRE(samples.points.size() == 7);
-  CHECK(samples.points[3].x == 8);
+  CHECK(samples.points[3].x == doctest::Approx(8));
   CHECK(samples.points[3].y == doctest::Approx(2.0 / 8));
   CHECK(*samples.slope == doctest::Approx(-1));
   CHECK(curve(curves, "base", "seconds").points[6].x == doctest::Approx(0.64));
 }
 
-TEST_CASE("curves of seeds that stopped elsewhere are interpolated, not extrapolated") {
-  ExperimentResults results = results_of({run("base", 1, 1, 0.01), run("base", 2, 1, 0.013)});
+TEST_CASE("curves of seeds that stopped elsewhere go from where all have begun to the first end") {
+  const ExperimentResults results = results_of({run("base", 1, 1, 0.013), run("base", 2, 1, 0.01)});
   const std::vector<ReportCurve> curves = convergence_curves(results);
   const ReportCurve& seconds = curve(curves, "base", "seconds");
-  // The second begins at 0.013 s, so the first's point at 0.01 s has no mean.
-  REQUIRE(seconds.points.size() == 6);
-  CHECK(seconds.points[0].x == doctest::Approx(0.02));
-  CHECK(seconds.points[0].y == doctest::Approx(std::sqrt(0.5 * 0.013 / 0.02)));
+  // The first runs from 0.013 s to 0.832 s, the second from 0.01 s to 0.64 s.
+  REQUIRE(seconds.points.size() == 7);
+  CHECK(seconds.points.front().x == doctest::Approx(0.013));
+  CHECK(seconds.points.back().x == doctest::Approx(0.64));
+  // Errors fall as one over samples, and so do straight lines between checkpoints.
+  CHECK(seconds.points.front().y == doctest::Approx(std::sqrt(1 * 0.01 / 0.013)));
+  CHECK(seconds.points.back().y == doctest::Approx(std::sqrt(0.013 / 0.64 * 0.01 / 0.64)));
 }
 
-TEST_CASE("time to equal error: where the curve falls below the baseline's end") {
-  const ExperimentResults results = two_methods();
-  const ReportTable table = equal_error_table(results, convergence_curves(results));
+TEST_CASE("slopes leave training out") {
+  RunRecord guided = run("base", 1, 1, 0.01);
+  guided.training_samples = 32;
+  guided.times.training = 0.3;
+  guided.times.update = 0.1;
+  for (Checkpoint& checkpoint : guided.checkpoints) {
+    checkpoint.samples_per_pixel += 32;
+    checkpoint.seconds += 0.4;
+  }
+  const std::vector<ReportCurve> curves = convergence_curves(results_of({guided}));
+  CHECK(*curve(curves, "base", "samples").slope == doctest::Approx(-1));
+  CHECK(*curve(curves, "base", "seconds").slope == doctest::Approx(-1));
+  CHECK(curve(curves, "base", "samples").points.front().x == doctest::Approx(33));
+}
+
+TEST_CASE("means are over the seeds that all methods have") {
+  const ExperimentResults results =
+      results_of({run("base", 1, 1, 0.01), run("fast", 1, 0.5, 0.01), run("base", 2, 100, 0.01)});
+  const ReportTable errors = table(summary_tables(results), "relative_mse");
+  CHECK(errors.rows[0].cells[0].value == doctest::Approx(1.0 / 64));
+  CHECK_FALSE(errors.rows[0].cells[0].interval);
+}
+
+TEST_CASE("a row's means are of one kind, and errors of zero have a table") {
+  const ExperimentResults results = results_of({run("base", 1, 1, 0.01), run("fast", 1, 0, 0.01),
+                                                run("base", 2, 9, 0.01), run("fast", 2, 1, 0.01)});
+  const ReportTable errors = table(summary_tables(results), "relative_mse");
+  CHECK(errors.rows[0].cells[0].value == doctest::Approx(5.0 / 64));  // arithmetic, as beside it
+  CHECK(errors.rows[0].cells[1].value == doctest::Approx(0.5 / 64));
+  CHECK_FALSE(errors.rows[0].cells[1].ratio);
+  const ExperimentResults none = results_of({run("base", 1, 0, 0.01), run("fast", 1, 0, 0.01)});
+  CHECK(table(summary_tables(none), "relative_mse").rows[0].cells[0].value == 0);
+}
+
+TEST_CASE("time to equal error: where a run falls below the baseline's end with its seed") {
+  const ReportTable table = equal_error_table(two_methods());
   const std::vector<ReportCell>& cells = table.rows[0].cells;
   CHECK(cells[0].value == doctest::Approx(0.64));
   // Half the error at each sample: 32 samples are enough, at twice the pace.
   CHECK(cells[1].value == doctest::Approx(0.16));
   CHECK(*cells[1].ratio == doctest::Approx(0.25));
+  CHECK(cells[1].ratio_interval->high == doctest::Approx(0.25));
 
   const ExperimentResults worse = results_of({run("base", 1, 1, 0.01), run("fast", 1, 3, 0.01)});
-  CHECK(std::isnan(equal_error_table(worse, convergence_curves(worse)).rows[0].cells[1].value));
+  CHECK(std::isnan(equal_error_table(worse).rows[0].cells[1].value));
+  CHECK(*equal_error_table(worse).rows[0].cells[0].ratio == doctest::Approx(1));
+  // Ends of the baseline at other times do not move it.
+  const ExperimentResults uneven = results_of({run("base", 1, 1, 0.013), run("fast", 1, 0.5, 0.01),
+                                               run("base", 2, 1, 0.01), run("fast", 2, 0.5, 0.01)});
+  CHECK(equal_error_table(uneven).rows[0].cells[0].value ==
+        doctest::Approx(std::sqrt(0.832 * 0.64)));
 }
 
 TEST_CASE(

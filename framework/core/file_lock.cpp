@@ -1,0 +1,46 @@
+#include <chrono>
+#include <fcntl.h>
+#include <sys/file.h>
+#include <thread>
+#include <unistd.h>
+#include <utility>
+
+#include <pharos/core/error.h>
+#include <pharos/core/file_lock.h>
+
+namespace pharos {
+namespace {
+
+constexpr std::chrono::milliseconds kPause{100};
+
+}  // namespace
+
+std::optional<FileLock> FileLock::try_lock(const std::filesystem::path& file) {
+  const int descriptor = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  if (descriptor < 0) throw RunError("cannot write '" + file.string() + "'");
+  FileLock lock(descriptor);
+  if (flock(descriptor, LOCK_EX | LOCK_NB) != 0) return std::nullopt;
+  return lock;
+}
+
+std::optional<FileLock> FileLock::wait(const std::filesystem::path& file,
+                                       const std::atomic<bool>* stop) {
+  for (;;) {
+    if (std::optional<FileLock> lock = try_lock(file)) return lock;
+    if (stop != nullptr && stop->load()) return std::nullopt;
+    std::this_thread::sleep_for(kPause);
+  }
+}
+
+FileLock::~FileLock() {
+  if (descriptor_ >= 0) close(descriptor_);
+}
+
+FileLock::FileLock(FileLock&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
+
+FileLock& FileLock::operator=(FileLock&& other) noexcept {
+  std::swap(descriptor_, other.descriptor_);
+  return *this;
+}
+
+}  // namespace pharos
