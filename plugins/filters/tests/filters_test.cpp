@@ -1,9 +1,13 @@
+#include <numbers>
+
 #include <doctest/doctest.h>
 
 #include <pharos/statistics/quadrature.h>
 
 #include "../box.h"
+#include "../catmull_rom.h"
 #include "../gaussian.h"
+#include "../lanczos.h"
 #include "../mitchell.h"
 #include "../tent.h"
 
@@ -118,6 +122,43 @@ TEST_CASE("mitchell filter: known members of the family") {
   CHECK(own.evaluate({0, 0}) == doctest::Approx(64.0 / 81));
   CHECK(own.evaluate({1, 0}) == doctest::Approx(8.0 / 9 / 18));
   CHECK(own.evaluate({0, 1.4f}) < 0);
+}
+
+TEST_CASE("catmull_rom filter: interpolates, sums to one and reproduces parabolas") {
+  const CatmullRomFilter filter({});
+  CHECK(filter.radius() == 2);
+  CHECK(filter.integral() == doctest::Approx(integrate(filter)).epsilon(1e-5));
+  CHECK(filter.evaluate({0, 0}) == 1);
+  CHECK(filter.evaluate({0, 1}) == doctest::Approx(0).scale(1));
+  CHECK(filter.evaluate({-1.5f, 0}) == doctest::Approx(-1.0 / 16));
+  for (const float x : {0.0f, 0.2f, 0.5f, 0.9f}) {
+    double parabola = 0;
+    for (int i = -2; i <= 3; ++i) {
+      parabola += i * i * double{filter.evaluate({x - static_cast<float>(i), 0})};
+    }
+    CHECK(parabola == doctest::Approx(x * x).epsilon(1e-5));
+    CHECK(sum_of_weights(filter, {x, 0.3f}) == doctest::Approx(1));
+  }
+}
+
+TEST_CASE("lanczos filter: known values, integral and support") {
+  for (const int lobes : {1, 2, 3, 5}) {
+    const LanczosFilter filter({.lobes = lobes});
+    CAPTURE(lobes);
+    CHECK(filter.radius() == static_cast<float>(lobes));
+    CHECK(filter.integral() == doctest::Approx(integrate(filter)).epsilon(1e-5));
+    CHECK(filter.evaluate({0, 0}) == 1);
+    CHECK(filter.evaluate({1e-30f, 0}) == 1);
+    for (int i = 1; i <= lobes; ++i) {
+      CHECK(filter.evaluate({static_cast<float>(i), 0}) == doctest::Approx(0).scale(1));
+    }
+    CHECK(filter.evaluate({0, -1.01f * static_cast<float>(lobes)}) == 0);
+  }
+  // sin(pi / 2) sin(pi / 6) / ((pi / 2) (pi / 6)), and the trough of the second lobe.
+  const LanczosFilter filter({});
+  const double pi = std::numbers::pi;
+  CHECK(filter.evaluate({0.5f, 0}) == doctest::Approx(6 / (pi * pi)));
+  CHECK(filter.evaluate({0, 1.5f}) == doctest::Approx(-4 / (3 * pi * pi)));
 }
 
 }  // namespace pharos
