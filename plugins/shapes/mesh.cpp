@@ -1,9 +1,11 @@
 // mesh: the triangles of a file. Its extension says which format it has:
 //
-//   .gltf .glb   glTF 2.0; parts are its nodes and meshes
-//   .obj         Wavefront OBJ; parts are its objects (o) and groups (g)
-//   .ply         PLY, text or binary; it has no parts
-//   .stl         STL, text or binary; it has no parts
+//   .gltf .glb    glTF 2.0; parts are its nodes and meshes
+//   .obj          Wavefront OBJ; parts are its objects (o) and groups (g)
+//   .ply          PLY, text or binary; it has no parts
+//   .serialized   Mitsuba's, version 3 or 4; parts are its meshes, in version 4, and `shape_index`
+//                 chooses one by its number, from 0
+//   .stl          STL, text or binary; it has no parts
 //
 // Meshes within the file are joined, with the transforms of its nodes applied, and polygons, which
 // are taken to be convex, cut into triangles that fan out from their first corner. `part` takes
@@ -14,8 +16,8 @@
 // skins and animations in the file are not used. Triangles without area are left out.
 //
 // Texture coordinates have their origin at the lower left of the picture, as `bitmap` has. Those of
-// glTF files, where v runs from the top, are converted, so that pictures look as their author saw
-// them.
+// glTF and `serialized` files, where v runs from the top, are converted, so that pictures look as
+// their author saw them.
 //
 // A damaged file is an error that says where: no count in it is believed before the bytes are
 // there. glTF files may use every type of numbers, KHR_mesh_quantization included; sparse accessors
@@ -34,9 +36,13 @@
 namespace pharos {
 
 void Mesh::Settings::describe(Schema<Settings>& s) {
-  s.field("file", &Settings::file, "The file with the triangles: .glb, .gltf, .obj, .ply or .stl")
+  s.field("file", &Settings::file,
+          "The file with the triangles: .glb, .gltf, .obj, .ply, .serialized or .stl")
       .required();
   s.field("part", &Settings::part, "Only the mesh or node of this name; empty: everything");
+  s.field("shape_index", &Settings::shape_index,
+          "Only the mesh of this number, from 0; .serialized files alone")
+      .at_least(0);
   s.field("to_world", &Settings::to_world, "From the file's space to world space");
   s.field("flip_normals", &Settings::flip_normals, "Exchange the outer and the inner side");
   s.field("face_normals", &Settings::face_normals, "Ignore the file's shading normals");
@@ -44,7 +50,8 @@ void Mesh::Settings::describe(Schema<Settings>& s) {
 }
 
 Mesh::Mesh(const Settings& settings)
-    : TriangleShape(transformed(read_mesh_file(settings.file, settings.part, settings.face_normals),
+    : TriangleShape(transformed(read_mesh_file(settings.file, settings.part, settings.face_normals,
+                                               settings.shape_index),
                                 settings.to_world, settings.flip_normals),
                     settings.file.string()) {}
 

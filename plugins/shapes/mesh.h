@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include <pharos/config/schema.h>
@@ -15,6 +16,7 @@ class Mesh : public TriangleShape {
   struct Settings {
     std::filesystem::path file = {};
     std::string part = {};
+    std::optional<int> shape_index = {};
     Transform to_world = {};
     bool flip_normals = false;
     bool face_normals = false;

@@ -15,6 +15,7 @@
 #include "mesh_source.h"
 #include "obj_file.h"
 #include "ply_file.h"
+#include "serialized_file.h"
 #include "stl_file.h"
 #include "weld.h"
 
@@ -23,15 +24,16 @@ namespace {
 
 struct Format {
   std::string_view extension;
-  bool has_parts;
+  bool has_parts, has_numbers;
   TriangleMesh (*read)(const MeshSource&);
 };
-constexpr std::array<Format, 5> kFormats{
-    {{".glb", true, read_gltf},
-     {".gltf", true, read_gltf},
-     {".obj", true, read_obj},
-     {".ply", false, [](const MeshSource& source) { return read_ply(source.bytes); }},
-     {".stl", false, read_stl}}};
+constexpr std::array<Format, 6> kFormats{
+    {{".glb", true, false, read_gltf},
+     {".gltf", true, false, read_gltf},
+     {".obj", true, false, read_obj},
+     {".ply", false, false, [](const MeshSource& source) { return read_ply(source.bytes); }},
+     {".serialized", true, true, read_serialized},
+     {".stl", false, false, read_stl}}};
 
 const Format& format_of(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
@@ -45,13 +47,18 @@ const Format& format_of(const std::filesystem::path& path) {
                                suggestion(extension, known), quoted_list(known)));
 }
 
-TriangleMesh read_triangles(const std::filesystem::path& path, const std::string& part) {
+TriangleMesh read_triangles(const std::filesystem::path& path, const std::string& part,
+                            std::optional<int> index) {
   const Format& format = format_of(path);
   if (!part.empty() && !format.has_parts) {
     throw InputError(fmt::format("{} files have no parts", format.extension));
   }
+  if (index && !format.has_numbers) {
+    throw InputError(fmt::format("{} files do not number their meshes", format.extension));
+  }
+  if (index && !part.empty()) throw InputError("'part' and 'shape_index' exclude each other");
   const std::string bytes = read_regular_file(path);
-  TriangleMesh mesh = format.read({path, bytes, part});
+  TriangleMesh mesh = format.read({path, bytes, part, index});
   if (mesh.triangles.empty()) throw InputError("it holds no triangles");
   return mesh;
 }
@@ -59,12 +66,12 @@ TriangleMesh read_triangles(const std::filesystem::path& path, const std::string
 }  // namespace
 
 TriangleMesh read_mesh_file(const std::filesystem::path& path, const std::string& part,
-                            bool face_normals) {
+                            bool face_normals, std::optional<int> index) {
   const auto fail = [&](const std::string& reason) {
     throw InputError("mesh '" + path.string() + "': " + one_line(reason, 1000));
   };
   try {
-    TriangleMesh mesh = read_triangles(path, part);
+    TriangleMesh mesh = read_triangles(path, part, index);
     if (face_normals) mesh.normals.clear();
     return welded(mesh);
   } catch (const InputError& e) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -13,6 +14,8 @@ struct MeshSource {
   const std::filesystem::path& path;  ///< for messages, and for the files that this one names
   std::string_view bytes;
   const std::string& part;  ///< empty: everything
+  /// The number of the wanted mesh, >= 0, in formats that count them; empty: any.
+  std::optional<int> index = {};
 };
 
 /// All bytes of a file. Devices and pipes, which may never end, are not opened. Throws InputError,

@@ -37,6 +37,8 @@ case $name in
     printf '\1v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nvt 0 0\nf 1/1/1 2/1/1 3/1/1\n' >"$corpus/triangle.obj"
     printf '\2solid t\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid t\n' >"$corpus/ascii.stl"
     printf '\3{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}],"bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36,"uri":"data:application_octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]}' >"$corpus/triangle.gltf"
+    # In zlib's form, yet not packed; the checksum counts after everything else has been read.
+    printf '\005\034\004\004\000\170\001\001\106\000\271\377\000\020\000\000\164\000\003\000\000\000\000\000\000\000\001\000\000\000\000\000\000\000\000\000\000\000\000\000\000\000\000\000\000\000\000\000\200\077\000\000\000\000\000\000\000\000\000\000\000\000\000\000\200\077\000\000\000\000\000\000\000\000\001\000\000\000\002\000\000\000\111\324\002\012\000\000\000\000\000\000\000\000\001\000\000\000' >"$corpus/triangle.serialized"
     printf '"%s"\n' vertex face element property list uchar int float double format end_header \
       binary_little_endian binary_big_endian vertex_indices mtllib usemtl solid facet endloop \
       accessors bufferView byteOffset byteStride componentType indices sparse count >"$words"

@@ -19,7 +19,8 @@ namespace {
 
 using namespace pharos;
 
-constexpr std::array<std::string_view, 5> kFormats{"ply", "obj", "stl", "gltf", "glb"};
+constexpr std::array<std::string_view, 6> kFormats{"ply",  "obj", "stl",
+                                                   "gltf", "glb", "serialized"};
 
 /// Faces, lines and points of OBJ files need slashes and name no files.
 bool names_no_file(std::string_view line) {
@@ -29,7 +30,7 @@ bool names_no_file(std::string_view line) {
 }
 
 std::string keep_in_folder(std::string_view format, std::string_view bytes) {
-  if (format == "ply" || format == "stl") return std::string(bytes);
+  if (format == "ply" || format == "stl" || format == "serialized") return std::string(bytes);
   std::string kept(bytes);
   for (std::size_t begin = 0, end = 0; begin < kept.size(); begin = end + 1) {
     end = std::min(kept.find('\n', begin), kept.size());

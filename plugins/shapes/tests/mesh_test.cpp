@@ -112,7 +112,7 @@ TEST_CASE("other formats are refused with a list and the nearest") {
     const auto file = folder.write(name, "mesh");
     return test::input_error_in(folder, [&] { Mesh({.file = file, .part = part}); });
   };
-  const std::string list = "; known are '.glb', '.gltf', '.obj', '.ply', '.stl'";
+  const std::string list = "; known are '.glb', '.gltf', '.obj', '.ply', '.serialized', '.stl'";
   CHECK(message("a.fbx", "") == "mesh 'a.fbx': the format '.fbx' is not known" + list);
   CHECK(message("a.gltff", "") ==
         "mesh 'a.gltff': the format '.gltff' is not known (did you mean '.gltf'?)" + list);
@@ -122,6 +122,14 @@ TEST_CASE("other formats are refused with a list and the nearest") {
         }).starts_with("mesh '/dev/zero': the format '' is not known"));  // nothing is read before
   CHECK(message("a.stl", "lid") == "mesh 'a.stl': .stl files have no parts");
   CHECK(message("a.ply", "lid") == "mesh 'a.ply': .ply files have no parts");
+  const auto numbered = [&](const std::string& name, const std::string& part) {
+    const auto file = folder.write(name, "mesh");
+    return test::input_error_in(folder,
+                                [&] { Mesh({.file = file, .part = part, .shape_index = 0}); });
+  };
+  CHECK(numbered("a.obj", "") == "mesh 'a.obj': .obj files do not number their meshes");
+  CHECK(numbered("a.serialized", "lid") ==
+        "mesh 'a.serialized': 'part' and 'shape_index' exclude each other");
 }
 
 TEST_CASE("only regular files are opened, those that a file names too") {
