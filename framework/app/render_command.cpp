@@ -50,17 +50,20 @@ void check_outputs(const OutputSettings& output) {
 void replay_path(RenderJob& job, const RenderConfig& config,
                  const std::vector<std::uint32_t>& numbers) {
   const int x = static_cast<int>(numbers[0]), y = static_cast<int>(numbers[1]);
-  if (x < 0 || y < 0 || x >= config.film.width || y >= config.film.height) {
-    throw InputError(fmt::format("--replay: error: pixel ({}, {}) is not on the film of {} x {}",
-                                 numbers[0], numbers[1], config.film.width, config.film.height));
+  const PixelRect window = config.film.window();
+  if (x < window.x0 || y < window.y0 || x >= window.x1 || y >= window.y1) {
+    throw InputError(fmt::format("--replay: error: pixel ({}, {}) is not on the film of {} x {}{}",
+                                 numbers[0], numbers[1], config.film.width, config.film.height,
+                                 config.film.crop ? ", or not in its window" : ""));
   }
   fmt::print("{}", job.replay(x, y, numbers[2], numbers.size() > 3 ? numbers[3] : 0).text);
 }
 
 void report(const RenderResult& result, const RenderConfig& config) {
   const double seconds = result.times.budgeted();
+  const PixelRect window = config.film.window();
   log_info(fmt::format("{}: {} x {}, {:.6g} samples a pixel, {:.1f} s, {:.2f} Mrays/s{}",
-                       config.output.image, config.film.width, config.film.height,
+                       config.output.image, window.width(), window.height(),
                        result.samples_per_pixel, seconds,
                        static_cast<double>(result.counters.rays) / seconds * 1e-6,
                        result.stopped ? " (interrupted)" : ""));

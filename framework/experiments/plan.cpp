@@ -30,12 +30,13 @@ ConfigNode budget_node(const Budget& budget) {
 
 void check_film(const FilmSettings& film, const PlannedReference& reference,
                 const ConfigNode& config) {
-  if (film.width == reference.width && film.height == reference.height) return;
+  const PixelRect window = film.window();
+  if (window.width() == reference.width && window.height() == reference.height) return;
   const ConfigNode* node = config.find("film");
   node->fail(
       fmt::format("a method must not change the size of the film: expected {} x {} as in the "
                   "reference, found {} x {}",
-                  reference.width, reference.height, film.width, film.height));
+                  reference.width, reference.height, window.width(), window.height()));
 }
 
 PlannedCell plan_cell(const ExperimentConfig& experiment, const ConfigNode& scene,
@@ -59,9 +60,9 @@ PlannedReference plan_reference(const ReferenceSettings& settings, const ConfigN
   if (settings.spp > 0) reference.parts = settings.parts;
   // A file is compared with images of the scene's size: any budget tells that.
   reference.config.set("budget", budget_node({.spp = std::max(settings.spp / settings.parts, 1u)}));
-  const FilmSettings film = build_run(reference.config, 0, registry).config.film;
-  reference.width = film.width, reference.height = film.height;
-  if (!settings.image.empty()) read_reference(settings.image, film.width, film.height);
+  const PixelRect window = build_run(reference.config, 0, registry).config.film.window();
+  reference.width = window.width(), reference.height = window.height();
+  if (!settings.image.empty()) read_reference(settings.image, reference.width, reference.height);
   return reference;
 }
 

@@ -128,8 +128,8 @@ Film::Pixel& Film::Pixel::operator+=(const Pixel& other) {
   return *this;
 }
 
-Film::Film(int width, int height, Ref<Filter> filter, float least_weight)
-    : pixels_{0, 0, width, height},
+Film::Film(PixelRect window, Ref<Filter> filter, float least_weight)
+    : pixels_(window),
       filter_(std::move(filter)),
       least_weight_(least_weight),
       total_(pixels_.area()),
@@ -179,7 +179,7 @@ void Film::find_splat_norms() {
       if (is_new) {
         entry->second = 1 / (filter_->integral() * share_on_film(*filter_, margins));
       }
-      splat_norms_[pixels_.index(x, y)] = entry->second;
+      splat_norms_[pixels_.index(pixels_.x0 + x, pixels_.y0 + y)] = entry->second;
     }
   }
 }
@@ -246,7 +246,7 @@ Image Film::layers() const {
       freedom > 0 ? 1 / (freedom * samples_) : std::numeric_limits<double>::infinity());
   for (int y = 0; y < height(); ++y) {
     for (int x = 0; x < width(); ++x) {
-      const std::size_t i = pixels_.index(x, y);
+      const std::size_t i = pixels_.index(pixels_.x0 + x, pixels_.y0 + y);
       const FilmTile::Pixel& sum = total_[i].sum;
       const float per_sample = sum.samples > 0 ? 1 / sum.samples : 0.0f;
       const Vec3 normal = per_sample * sum.features.normal;

@@ -100,7 +100,11 @@ class Film {
   /// See FilmSettings::least_weight, of which this is the default.
   static constexpr float kLeastWeight = 0.1f;
 
-  Film(int width, int height, Ref<Filter> filter, float least_weight = kLeastWeight);
+  Film(int width, int height, Ref<Filter> filter, float least_weight = kLeastWeight)
+      : Film(PixelRect{0, 0, width, height}, std::move(filter), least_weight) {}
+  /// Of a window of a larger picture, at whose positions samples come; what falls beside the window
+  /// is not on the film.
+  Film(PixelRect window, Ref<Filter> filter, float least_weight = kLeastWeight);
 
   int width() const { return pixels_.width(); }
   int height() const { return pixels_.height(); }

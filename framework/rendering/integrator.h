@@ -54,7 +54,9 @@ struct IterationContext {
 struct RenderTarget {
   const Scene& scene;
   const PreparedSensor& sensor;
-  int width = 0, height = 0;
+  int width = 0, height = 0;  ///< of the whole film, by whose pixels paths are keyed
+  /// The part of the film that is rendered; paths start at its pixels alone, as many at each.
+  PixelRect window{0, 0, width, height};
 };
 
 /// One path, step by step, as text; made by replaying its key.

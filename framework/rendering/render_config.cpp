@@ -31,13 +31,24 @@ const ConfigNode& nearest_node(const ConfigNode& root, std::initializer_list<con
   return *node;
 }
 
+void check_film(const FilmSettings& film, const ConfigNode& node) {
+  const PixelRect window = film.window();
+  if (window.x1 > film.width || window.y1 > film.height) {
+    nearest_node(node, {"film", "crop"})
+        .fail(fmt::format("expected a window of the film of {} x {}, found one from ({}, {}) to "
+                          "({}, {})",
+                          film.width, film.height, window.x0, window.y0, window.x1, window.y1));
+  }
+  if (static_cast<std::int64_t>(window.area()) > kMostPixels) {
+    nearest_node(node, {"film"})
+        .fail(fmt::format("a film of {} x {} has more than {} pixels", window.width(),
+                          window.height(), kMostPixels));
+  }
+}
+
 /// What no single parameter can check.
 void check_together(const RenderConfig& config, const ConfigNode& node) {
-  const auto [width, height] = std::pair<std::int64_t, int>(config.film.width, config.film.height);
-  if (width * height > kMostPixels) {
-    nearest_node(node, {"film"})
-        .fail(fmt::format("a film of {} x {} has more than {} pixels", width, height, kMostPixels));
-  }
+  check_film(config.film, node);
   if (config.budget.spp.has_value() == config.budget.seconds.has_value()) {
     nearest_node(node, {"budget"}).fail("expected either 'spp' or 'seconds'");
   }
@@ -54,9 +65,29 @@ void check_together(const RenderConfig& config, const ConfigNode& node) {
 
 }  // namespace
 
+void CropSettings::describe(Schema<CropSettings>& s) {
+  constexpr int kMost = 32768;
+  s.field("x", &CropSettings::x, "Columns to the left of it")
+      .unit("pixels")
+      .at_least(0)
+      .at_most(kMost);
+  s.field("y", &CropSettings::y, "Rows above it").unit("pixels").at_least(0).at_most(kMost);
+  s.field("width", &CropSettings::width, "Width")
+      .unit("pixels")
+      .at_least(1)
+      .at_most(kMost)
+      .required();
+  s.field("height", &CropSettings::height, "Height")
+      .unit("pixels")
+      .at_least(1)
+      .at_most(kMost)
+      .required();
+}
+
 void FilmSettings::describe(Schema<FilmSettings>& s) {
   s.field("width", &FilmSettings::width, "Width").unit("pixels").at_least(1).at_most(32768);
   s.field("height", &FilmSettings::height, "Height").unit("pixels").at_least(1).at_most(32768);
+  s.field("crop", &FilmSettings::crop, "A window of the film, which alone is rendered");
   s.field("filter", &FilmSettings::filter, "Reconstruction filter").otherwise("default");
   s.field("tile", &FilmSettings::tile, "Edge of a work unit")
       .unit("pixels")

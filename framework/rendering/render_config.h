@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,14 +15,33 @@
 
 namespace pharos {
 
+/// A window of the film, all of which is on it [pixels].
+struct CropSettings {
+  int x = 0, y = 0;  ///< of its left upper pixel
+  int width = 0, height = 0;
+
+  static void describe(Schema<CropSettings>& schema);
+};
+
 struct FilmSettings {
   int width = 512, height = 512;
+  /// The part that is rendered; the image has its size. A path is keyed by its pixel of the whole
+  /// film, and work units are those of the whole film, so that pixels have the same bits in it as
+  /// in the whole picture, but where the filter reaches beyond the window. What is learned is
+  /// learned from the window's paths alone.
+  std::optional<CropSettings> crop;
   Ref<Filter> filter;
   int tile = 32;  ///< edge of a work unit [pixels]
   /// The least share of the weights' magnitude that a pixel is divided by. Filters without negative
   /// lobes never meet it, nor does Mitchell and Netravali's with B = C = 1/3; the sharper
   /// Catmull-Rom does in one of 2500 pixels of a single sample, and no longer with two.
   float least_weight = Film::kLeastWeight;
+
+  /// What is rendered of the film.
+  PixelRect window() const {
+    if (!crop) return {0, 0, width, height};
+    return {crop->x, crop->y, crop->x + crop->width, crop->y + crop->height};
+  }
 
   static void describe(Schema<FilmSettings>& schema);
 };

@@ -8,6 +8,7 @@
 #include <pharos/core/parallel.h>
 #include <pharos/rendering/image_combiner.h>
 #include <pharos/rendering/render_job.h>
+#include <pharos/rendering/window_sensor.h>
 
 namespace pharos {
 namespace {
@@ -47,14 +48,23 @@ std::uint32_t round_up(std::uint32_t value, std::uint32_t granule) {
   return (value + granule - 1) / granule * granule;
 }
 
-std::vector<PixelRect> tiles_of(int width, int height, int edge) {
+/// The tiles of the whole film, as far as they lie in `window`.
+std::vector<PixelRect> tiles_of(const PixelRect& window, int edge) {
   std::vector<PixelRect> tiles;
-  for (int y = 0; y < height; y += edge) {
-    for (int x = 0; x < width; x += edge) {
-      tiles.push_back({x, y, std::min(x + edge, width), std::min(y + edge, height)});
+  for (int y = window.y0 / edge * edge; y < window.y1; y += edge) {
+    for (int x = window.x0 / edge * edge; x < window.x1; x += edge) {
+      tiles.push_back({std::max(x, window.x0), std::max(y, window.y0),
+                       std::min(x + edge, window.x1), std::min(y + edge, window.y1)});
     }
   }
   return tiles;
+}
+
+std::unique_ptr<const PreparedSensor> prepared_sensor(const Sensor& sensor,
+                                                      const FilmSettings& film) {
+  std::unique_ptr<const PreparedSensor> whole = sensor.prepare(film.width, film.height);
+  if (!film.crop) return whole;
+  return window_sensor(std::move(whole), film.width, film.height, film.window());
 }
 
 SceneParts with_sensor(SceneParts parts, const Ref<Sensor>& sensor) {
@@ -107,10 +117,10 @@ class RenderJob::Implementation {
   explicit Implementation(const RenderConfig& config)
       : config_(config),
         scene_(with_sensor(config.scene, config.sensor)),
-        sensor_(scene_.sensor().prepare(config.film.width, config.film.height)),
-        integrator_(
-            config.integrator->prepare({scene_, *sensor_, config.film.width, config.film.height})),
-        tiles_(tiles_of(config.film.width, config.film.height, config.film.tile)) {
+        sensor_(prepared_sensor(scene_.sensor(), config.film)),
+        integrator_(config.integrator->prepare(
+            {scene_, *sensor_, config.film.width, config.film.height, config.film.window()})),
+        tiles_(tiles_of(config.film.window(), config.film.tile)) {
     const GuidingSettings* guiding = config.integrator->guiding();
     const TrainingSchedule untrained{.iterations = 0};
     iterations_ = (guiding != nullptr ? guiding->training : untrained)
@@ -217,7 +227,7 @@ class RenderJob::Implementation {
 
   Film make_film() const {
     const FilmSettings& film = config_.film;
-    return {film.width, film.height, film.filter, film.least_weight};
+    return {film.window(), film.filter, film.least_weight};
   }
 
   /// Renders `size` samples of every pixel; false when it was cut short.
@@ -256,7 +266,7 @@ class RenderJob::Implementation {
     return complete;
   }
 
-  double film_area() const { return static_cast<double>(config_.film.width) * config_.film.height; }
+  double film_area() const { return static_cast<double>(config_.film.window().area()); }
 
   /// The budget of the iterations before `end`: samples a pixel, or seconds since the start. What
   /// updates take in between is taken off the iterations that follow them.

@@ -77,7 +77,8 @@ class RenderJob {
 
   RenderResult run(const RenderControl& control = {});
 
-  /// Runs one path of `iteration` again, after training up to there. `iteration` counts training
+  /// Runs one path of `iteration` again, after training up to there; (x, y) is its pixel on the
+  /// whole film. `iteration` counts training
   /// iterations too; unguided renders have only iteration 0.
   PathTrace replay(int x, int y, std::uint32_t sample, std::uint32_t iteration);
 

@@ -118,8 +118,9 @@ class PathWalk {
     result_.film = {response->film.x * size.x, response->film.y * size.y};
     recorder_.film(result_.film);
     step.unguided_pdf = response->direction_pdf;
-    step.value = Rgb(response->direction_pdf * size.x * size.y);
-    step.unguided_weight = Rgb(size.x * size.y);
+    const auto pixels = static_cast<float>(shared_.target.window.area());
+    step.value = Rgb(response->direction_pdf * pixels);
+    step.unguided_weight = Rgb(pixels);
     return step;
   }
 

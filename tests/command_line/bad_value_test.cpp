@@ -41,6 +41,24 @@ TEST_CASE("numbers") {
                 {"bad.yaml:5:35: error: ", "fov must be", "180"});
 }
 
+TEST_CASE("windows of the film") {
+  const auto crop = [](const std::string& window) {
+    return config_with("film: { width: 64, height: 48, crop: " + window + " }\n");
+  };
+  check_refused(crop("{ width: 65, height: 1 }"),
+                {"bad.yaml:5:38: error: ", "a window of the film of 64 x 48", "(65, 1)"});
+  check_refused(crop("{ x: 60, y: 4, width: 5, height: 4 }"), {"bad.yaml:5:38: error: "});
+  check_refused(crop("{ y: 40, width: 5, height: 9 }"), {"bad.yaml:5:38: error: ", "(5, 49)"});
+  check_refused(crop("{ width: 0, height: 4 }"), {"bad.yaml:5:47: error: ", "width must be"});
+  check_refused(crop("{ x: -1, width: 4, height: 4 }"), {"bad.yaml:5:43: error: ", "x must be"});
+  check_refused(crop("{ x: 1, y: 2, width: 4 }"), {"bad.yaml:5:38: error: ", "'height'"});
+  check_refused(crop("{ x: 1, y: 2, widht: 4, height: 4 }"), {"'width'"});
+  check_refused(crop("[1, 2, 3, 4]"), {"bad.yaml:5:38: error: "});
+  check_refused(config_with("film: { width: 32768, height: 32768, crop: { width: 32768, height: "
+                            "4096 } }\n"),
+                {"bad.yaml:5:", "more than 67108864 pixels"});
+}
+
 TEST_CASE("types") {
   check_refused(config_with("film: 12\n"), {"bad.yaml:5:7: error: ", "a mapping"});
   check_refused(config_with("film: 512x512\n"), {"bad.yaml:5:7: error: ", "'width'"});

@@ -68,6 +68,15 @@ TEST_CASE("furnace (d): wide filters and combined images keep the splat layer ex
   CHECK(result.image.pixel(16, 16)[result.image.channel_index("depth.Z")] > 0);
 }
 
+TEST_CASE("furnace (d): a window of the film") {
+  const std::string film = "filter: box";
+  std::string scene = kDiffuseScene;
+  scene.replace(scene.find(film), film.size(),
+                film + ", crop: { x: 4, y: 9, width: 24, height: 15 }");
+  const std::string config = path_config(scene, 4, pair("stub_camera", "stub_camera"), 128);
+  CHECK(std::abs(furnace_t(config, kDiffuseFurnace)) < kLimit);
+}
+
 TEST_CASE("furnace (d): a camera density off by 3 % is seen") {
   const std::string guider = "{ type: stub_camera, pdf_scale: 1.03 }";
   const std::string config = path_config(kDiffuseScene, 1, pair("stub_camera", guider), 128);
