@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
+#include <utility>
 #include <vector>
 
 #include <pharos/core/rgb.h>
@@ -47,6 +48,9 @@ class LatLongImage {
   /// of the first three channels or of the only one. Throws InputError as read_image() does, and
   /// for values that are negative or not finite.
   explicit LatLongImage(const std::filesystem::path& file);
+  /// Of `pixels` row by row, top row first: width x height of them, finite and not negative.
+  LatLongImage(int width, int height, std::vector<Rgb> pixels)
+      : width_(width), height_(height), pixels_(std::move(pixels)) {}
 
   int width() const { return width_; }
   int height() const { return height_; }

@@ -6,7 +6,9 @@
 #include "directional_area.h"
 #include "environment_map.h"
 #include "point.h"
+#include "sky.h"
 #include "spot.h"
+#include "sun.h"
 
 PHAROS_MODULE(registry) {
   registry.add<pharos::AreaEmitter>("area", "Radiance from the outer side of a shape");
@@ -17,5 +19,7 @@ PHAROS_MODULE(registry) {
   registry.add<pharos::EnvironmentMap>("environment_map",
                                        "Radiance by direction from a latitude-longitude image");
   registry.add<pharos::PointEmitter>("point", "Light from a point, the same in all directions");
+  registry.add<pharos::SkyEmitter>("sky", "The clear sky of a turbidity and a height of the sun");
   registry.add<pharos::SpotEmitter>("spot", "Light from a point within a cone");
+  registry.add<pharos::SunEmitter>("sun", "The sun's disk, as the air lets it through");
 }

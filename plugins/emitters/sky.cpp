@@ -1,0 +1,81 @@
+// sky: the light of the clear sky without the sun's disk, by Preetham, Shirley and Smits 1999 ("A
+// Practical Analytic Model for Daylight"): luminance and chromaticity from closed formulas in the
+// air's turbidity, the height of the sun and the angles from sun and zenith, taken to linear
+// Rec.709. With `sun` of the same parameters beside it, it is daylight.
+//
+// The sun stands at `sun_direction`, or where it is seen by an `observer` at a place and time (to
+// half a minute of arc, without refraction); daylight saving time is for the timezone to state. In
+// the sky's own space +y is up, +x east and -z north; to_world turns it. A sun below the horizon is
+// an error. Below the horizon the sky is black, unless `stretch` takes the horizon further down: a
+// factor on all angles from the zenith, for scenes whose ground ends too soon.
+//
+// Radiance is spectral radiance in W/(m^2 sr nm), as Mitsuba 0.6 has it: mean over wavelength,
+// weighted by the matching functions, so that a luminance Y of Rec.709 is 72984 Y cd/m^2. The model
+// was fitted for turbidities from 2 to 6. Below 2 its horizon is far too bright, and the light that
+// the ground throws back into the sky is that of the fit, whatever the ground of the scene.
+//
+// The sky is evaluated at the pixels of an image of the sphere, `resolution` pixels wide and half
+// as high, and from there on it is the `environment_map` of that image.
+//
+//     emitters:
+//       - { type: sky, turbidity: 3, sun_direction: [1, 0, 1],
+//           to_world: { rotate: { axis: [1, 0, 0], degrees: 90 } } }
+
+#include "sky.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "latlong_light.h"
+#include "preetham.h"
+
+namespace pharos {
+namespace {
+
+LatLongImage sky_image(const SkyEmitter::Settings& settings, const SunPlace& sun) {
+  const PreethamSky sky(settings.turbidity, sun.zenith);
+  const int width = settings.resolution, height = width / 2;
+  std::vector<Rgb> pixels;
+  pixels.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  for (int row = 0; row < height; ++row) {
+    const double zenith = std::numbers::pi * (row + 0.5) / height / settings.stretch;
+    for (int column = 0; column < width; ++column) {
+      const double azimuth = 2 * std::numbers::pi * (column + 0.5) / width;
+      const double cosine =
+          std::cos(zenith) * std::cos(sun.zenith) +
+          std::sin(zenith) * std::sin(sun.zenith) * std::cos(azimuth - sun.azimuth);
+      pixels.push_back(2 * zenith < std::numbers::pi
+                           ? sky.radiance(zenith, std::acos(std::clamp(cosine, -1.0, 1.0)))
+                           : Rgb());
+    }
+  }
+  return {width, height, std::move(pixels)};
+}
+
+}  // namespace
+
+void SkyEmitter::Settings::describe(Schema<Settings>& s) {
+  describe_daylight(s);
+  s.field("resolution", &Settings::resolution, "Width of the image; even")
+      .unit("pixels")
+      .at_least(8)
+      .at_most(8192)
+      .check("even", [](int width) { return width % 2 == 0; });
+  s.example("{ turbidity: 2, sun_direction: [1, 1, 0] }");
+  s.example(
+      "{ turbidity: 6, sun_direction: [1, 0, 0.1], stretch: 1.2, resolution: 64, scale: 3, "
+      "to_world: { rotate: { axis: [1, 0, 0], degrees: 90 } } }");
+  s.example("{ observer: { latitude: 52.5, longitude: 13.4, timezone: 1, month: 12, hour: 10 } }");
+}
+
+SkyEmitter::SkyEmitter(const Settings& settings)
+    : axes_(turned_axes(settings.to_world, "sky")),
+      image_(sky_image(settings, sun_place(settings, axes_, "sky"))),
+      distribution_(image_),
+      scale_(settings.scale) {}
+
+std::unique_ptr<const Light> SkyEmitter::place(const EmitterSite& site) const {
+  return latlong_light(image_, distribution_, axes_, scale_, site);
+}
+
+}  // namespace pharos

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <pharos/config/schema.h>
+#include <pharos/scene/emitter.h>
+
+#include "daylight.h"
+
+namespace pharos {
+
+/// See sun.cpp.
+class SunEmitter : public Emitter {
+ public:
+  struct Settings : DaylightSettings {
+    float radius_scale = 1;
+    static void describe(Schema<Settings>& s);
+  };
+
+  /// Throws InputError when the sun is below the horizon or stated twice, or when to_world does
+  /// not keep angles.
+  explicit SunEmitter(const Settings& settings);
+
+  bool needs_shape() const override { return false; }
+  std::unique_ptr<const Light> place(const EmitterSite& site) const override;
+
+ private:
+  Vec3 towards_sun_;
+  Rgb irradiance_;       ///< at normal incidence [W/(m^2 nm)]
+  float one_minus_cos_;  ///< of the disk's angular radius; 0: a single direction
+};
+
+}  // namespace pharos

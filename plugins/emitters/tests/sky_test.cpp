@@ -1,0 +1,136 @@
+#include "../sky.h"
+
+#include <numbers>
+
+#include <doctest/doctest.h>
+
+#include <pharos/core/random.h>
+#include <pharos/statistics/goodness_of_fit.h>
+#include <pharos/statistics/quadrature.h>
+#include <pharos/tests/fixtures.h>
+
+#include "../preetham.h"
+
+namespace pharos {
+namespace {
+
+SkyEmitter::Settings settings(float turbidity, Vec3 sun, int resolution = 512) {
+  SkyEmitter::Settings s;
+  s.turbidity = turbidity;
+  s.sun_direction = sun;
+  s.resolution = resolution;
+  return s;
+}
+
+struct Sky {
+  SkyEmitter emitter;
+  std::unique_ptr<const Light> light;
+
+  explicit Sky(const SkyEmitter::Settings& s)
+      : emitter(s), light(emitter.place({.scene_center = {5, 0, 0}, .scene_radius = 2})) {}
+
+  Rgb seen(Vec3 direction) const { return light->environment_radiance(normalize(direction)); }
+};
+
+}  // namespace
+
+TEST_CASE("sky: every direction shows the model, within a pixel") {
+  const double sun_zenith = std::numbers::pi / 3;
+  const Vec3 sun{0, static_cast<float>(std::cos(sun_zenith)),
+                 static_cast<float>(std::sin(sun_zenith))};
+  const Sky sky(settings(3, sun));
+  const PreethamSky model(3, sun_zenith);
+  RandomStream random(1);
+  for (int i = 0; i < 500; ++i) {
+    const Vec3 d = LatLong::direction(random.next_1d(), 0.48 * random.next_1d());
+    const double gamma = std::acos(std::clamp(dot(d, sun), -1.0f, 1.0f));
+    if (gamma < 0.05) continue;  // where it has a kink
+    const Rgb expected = model.radiance(std::acos(d.y), gamma);
+    for (int c = 0; c < 3; ++c) {
+      CHECK(sky.seen(d)[c] == doctest::Approx(expected[c]).epsilon(0.02));
+    }
+  }
+  CHECK(is_black(sky.seen({0.3f, -0.1f, 0.2f})));
+  CHECK(is_black(sky.seen({0, -1, 0})));
+}
+
+TEST_CASE("sky: the same to both sides of the sun's meridian") {
+  const Sky sky(settings(2.5f, {0.6f, 0.5f, 0}));
+  for (const Vec3 d : {Vec3{1, 1, 1}, Vec3{-0.2f, 0.1f, 0.9f}, Vec3{0.5f, 0.02f, 0.1f}}) {
+    const Rgb left = sky.seen(d), right = sky.seen({d.x, d.y, -d.z});
+    for (int c = 0; c < 3; ++c) CHECK(left[c] == doctest::Approx(right[c]).epsilon(1e-4));
+    CHECK(luminance(sky.seen({std::abs(d.x), d.y, d.z})) >
+          luminance(sky.seen({-std::abs(d.x), d.y, d.z})));
+  }
+}
+
+TEST_CASE("sky: to_world says where up is, the sun stays where it is in the world") {
+  SkyEmitter::Settings z_up = settings(3, {0, 1, 2});
+  z_up.to_world = Transform::rotate({1, 0, 0}, 90);
+  z_up.scale = 2;
+  const Sky sky(z_up), y_up(settings(3, {0, 2, -1}));
+  // rotate takes +y to +z and -z to +y.
+  CHECK(sky.seen({0, 1, 2}).g == doctest::Approx(2 * y_up.seen({0, 2, -1}).g).epsilon(1e-3));
+  CHECK(sky.seen({1, 0, 0.5f}).r == doctest::Approx(2 * y_up.seen({1, 0.5f, 0}).r).epsilon(1e-3));
+  CHECK(is_black(sky.seen({0, 1, -0.5f})));
+  SkyEmitter::Settings sheared;
+  sheared.to_world = Transform::scale({1, 2, 1});
+  CHECK(test::input_error([&] { SkyEmitter{sheared}; }) ==
+        "sky: 'to_world' must scale evenly and not shear");
+}
+
+TEST_CASE("sky: stretch takes the horizon further down") {
+  SkyEmitter::Settings stretched = settings(3, {0, 1, 0});
+  stretched.stretch = 2;
+  const Sky sky(stretched), plain(settings(3, {0, 1, 0}));
+  CHECK(luminance(sky.seen({1, -1, 0})) > 0);
+  CHECK(sky.seen({1, 0, 0}).g == doctest::Approx(plain.seen({1, 1, 0}).g).epsilon(1e-3));
+}
+
+TEST_CASE("sky: directions follow the density, and the ground's irradiance is its quadrature") {
+  for (const Vec3 sun : {Vec3{0, 1, 0}, Vec3{1, 0.7f, 0}, Vec3{1, 0.05f, 0.2f}}) {
+    for (const float turbidity : {2.0f, 8.0f}) {
+      const Sky sky(settings(turbidity, sun, 128));
+      const auto fit = statistics::fit_direction_density(
+          [&](RandomStream& random) -> std::optional<Vec3> {
+            return sky.light->sample({}, random.next_2d()).direction;
+          },
+          [&](Vec3 d) -> double { return sky.light->pdf_direction(d); },
+          {.draws = 40'000, .cells = 100, .quadrature_tolerance = 3e-4});
+      CHECK(fit.chi_square.p_value > 1e-4);
+      CHECK(fit.integral == doctest::Approx(1).epsilon(2e-3));
+      const auto on_ground = [&](Vec3 d) -> double {
+        return std::max(0.0f, d.y) * sky.light->environment_radiance(d).g;
+      };
+      const double exact =
+          statistics::integrate_sphere(on_ground, {.tolerance = 1e-5}, 64, 64).value;
+      double sum = 0, squares = 0;
+      constexpr int kDraws = 20'000;
+      RandomStream random(5);
+      for (int i = 0; i < kDraws; ++i) {
+        const LightSample s = sky.light->sample({}, random.next_2d());
+        const double value = std::max(0.0f, s.direction.y) * s.radiance.g / s.pdf;
+        sum += value, squares += value * value;
+      }
+      const double found = sum / kDraws;
+      const double error = std::sqrt((squares / kDraws - found * found) / kDraws);
+      CHECK(std::abs(found - exact) < 4 * error + 1e-3 * exact);
+      CHECK(error < 0.01 * exact);
+    }
+  }
+}
+
+TEST_CASE("sky: on a clear day the ground gets 10 to 40 klx from it") {
+  // Measured skies make about 15; the model is known to be bright (Zotti, Wilkie and Purgathofer
+  // 2007, "A Critical Review of the Preetham Skylight Model").
+  const Sky sky(settings(2.5f, {0.5f, 1, 0}, 128));
+  const auto on_ground = [&](Vec3 d) -> double {
+    return std::max(0.0f, d.y) * luminance(sky.light->environment_radiance(d));
+  };
+  const double lux =
+      683 * 106.857 * statistics::integrate_sphere(on_ground, {.tolerance = 1e-5}, 64, 64).value;
+  CHECK(lux > 10'000);
+  CHECK(lux < 40'000);
+}
+
+}  // namespace pharos
