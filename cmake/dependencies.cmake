@@ -31,6 +31,7 @@ find_package(nlohmann_json REQUIRED)
 find_package(Boost REQUIRED)
 find_library(xxhash xxhash REQUIRED)
 find_package(ZLIB REQUIRED)
+find_package(pugixml REQUIRED)
 # Written into every report page (framework/experiments/report).
 find_file(PHAROS_CHART_JS chart.min.js PATHS /usr/share/javascript/chart.js
           DOC "Chart.js 3 as one minified file")

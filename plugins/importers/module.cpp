@@ -1,0 +1,5 @@
+#include <pharos/config/module.h>
+
+PHAROS_MODULE(registry) {
+  static_cast<void>(registry);
+}

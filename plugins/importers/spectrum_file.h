@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace pharos::mitsuba {
+
+/// Values at rising wavelengths [nm]: linear between them, 0 outside.
+class WavelengthList {
+ public:
+  /// Takes the next pair; returns what is wrong with it, "" when nothing is.
+  std::string add(double wavelength, double value);
+  std::size_t size() const { return wavelengths_.size(); }
+  double at(double wavelength) const;
+
+ private:
+  std::vector<double> wavelengths_, values_;
+};
+
+/// The pairs of a file with a wavelength and a value in each line; lines that begin with `#` are
+/// comments. `path` must be a file that can be read. Throws InputError with line and column for
+/// everything else, and for files above 16 MiB.
+WavelengthList read_spectrum_file(const std::filesystem::path& path);
+
+}  // namespace pharos::mitsuba

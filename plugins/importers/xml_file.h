@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <pugixml.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <pharos/core/error.h>
+
+namespace pharos::mitsuba {
+
+/// What the files of one scene may cost together; each takes its share.
+struct ReadingBudget {
+  std::size_t bytes = std::size_t{256} << 20;
+  std::size_t elements = 1'000'000;
+  std::size_t attributes = 8'000'000;
+};
+
+/// A file of well-formed XML with one outermost element, that knows where everything stands.
+/// Columns count bytes.
+class XmlFile {
+ public:
+  /// Throws InputError for what is no XML in UTF-8, has a document type, or exceeds the budget.
+  /// `path` must be a file that can be read, see file_problem().
+  XmlFile(const std::filesystem::path& path, ReadingBudget& budget);
+
+  const std::filesystem::path& path() const { return path_; }
+  /// The outermost element.
+  pugi::xml_node root() const { return root_; }
+  /// The elements in an element. Throws InputError for text among them.
+  std::vector<pugi::xml_node> elements_in(pugi::xml_node element) const;
+
+  /// Where an element or text begins.
+  Location where(pugi::xml_node node) const;
+  /// Where the value of one of an element's attributes begins.
+  Location where(pugi::xml_node element, std::string_view attribute) const;
+
+ private:
+  void read(ReadingBudget& budget);
+  void check_encoding() const;
+  void count_parts(ReadingBudget& budget) const;
+  void find_lines();
+  void parse();
+  void find_root();
+  Location where(std::size_t offset) const;
+  [[noreturn]] void fail(std::size_t offset, const std::string& message) const;
+
+  std::filesystem::path path_;
+  std::string text_;  ///< without a byte order mark
+  std::vector<std::size_t> line_begins_;
+  pugi::xml_document document_;
+  pugi::xml_node root_;
+};
+
+}  // namespace pharos::mitsuba
