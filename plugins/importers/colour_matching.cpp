@@ -96,7 +96,7 @@ Rgb colour_of_light(const WavelengthFunction& spectrum) {
 }
 
 Rgb colour_in_daylight(const WavelengthFunction& spectrum) {
-  constexpr Xyz white{0.950456, 1, 1.089058};  // Rec.709's own
+  constexpr Xyz white{0.950456, 1, 1.088754};  // what rec_709() takes to (1, 1, 1)
   static const Weights daylit = weights(daylight, white);
   auto [colour, largest] = summed(spectrum, daylit);
   if (largest > 1) return colour;

@@ -2,13 +2,13 @@
 # Runs one fuzzer on seeds and words that come from the scenes and the registry:
 #
 #     cmake --preset fuzz && cmake --build --preset fuzz
-#     tests/fuzzing/fuzz.sh config 600        # or mesh; seconds
+#     tests/fuzzing/fuzz.sh config 600        # or mesh, mitsuba; seconds
 #
 # What it learns stays in build/fuzz/corpus/NAME, input that fails in build/fuzz/found/.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 build=${PHAROS_BUILD:-$root/build/fuzz}
-name=${1:?usage: fuzz.sh config|mesh [seconds] [libFuzzer options]}
+name=${1:?usage: fuzz.sh config|mesh|mitsuba [seconds] [libFuzzer options]}
 seconds=${2:-600}
 shift $(($# < 2 ? $# : 2))
 
@@ -43,8 +43,16 @@ case $name in
       binary_little_endian binary_big_endian vertex_indices mtllib usemtl solid facet endloop \
       accessors bufferView byteOffset byteStride componentType indices sparse count >"$words"
     limit=4096 ;;
+  mitsuba)
+    # A scene in each dialect; include files of the fuzzer's own.
+    printf '<scene version="0.6.0"><default name="n" value="1"/><integrator type="path"><integer name="maxDepth" value="$n"/></integrator><sensor type="perspective"><transform name="toWorld"><scale value="2"/><rotate y="1" angle="30"/><lookAt origin="0,0,1" target="0 0 0" up="0 1 0"/><matrix value="1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1"/></transform><film type="hdrfilm"/></sensor><bsdf type="diffuse" id="a"><srgb name="reflectance" value="#ff8000"/></bsdf><alias id="a" as="b"/><shape type="sphere"><point name="center" x="0" y="1" z="2"/><ref id="b"/><emitter type="area"><blackbody name="radiance" temperature="5000K" scale="2"/></emitter></shape></scene>' >"$corpus/old.xml"
+    printf '<?xml version="1.0"?>\n<!-- c -->\n<scene version="3.0.0"><path value="."/><include filename="a.xml"/><include filename="b.xml"/><bsdf type="conductor"><spectrum name="eta" value="400:0.1, 500:0.2, 700:1"/><spectrum name="k" filename="s.spd"/></bsdf><shape type="cube"><transform name="to_world"><translate value="1 2 3"/></transform><boolean name="flip_normals" value="true"/><string name="filename" value="m.ply"/><ref name="bsdf" id="inc"/></shape></scene>' >"$corpus/new.xml"
+    grep -o '"[A-Za-z]*"' "$root/plugins/importers/names.h" >"$words"
+    printf '"%s"\n' name value type id as filename version temperature origin target up angle \
+      '<!--' '-->' '<![CDATA[' ']]>' '<?xml' '&quot;' '<scene version=\"0.6.0\">' '</scene>' >>"$words"
+    limit=4096 ;;
   *)
-    echo "fuzz.sh: there is no fuzzer '$name': config or mesh" >&2
+    echo "fuzz.sh: there is no fuzzer '$name': config, mesh or mitsuba" >&2
     exit 2 ;;
 esac
 exec "$build/fuzz-$name" "$corpus" -dict="$words" -max_total_time="$seconds" -max_len="$limit" \
