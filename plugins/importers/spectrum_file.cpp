@@ -1,7 +1,6 @@
 #include "spectrum_file.h"
 
 #include <algorithm>
-#include <fstream>
 #include <optional>
 #include <string_view>
 
@@ -9,23 +8,13 @@
 
 #include <pharos/core/error.h>
 
+#include "read_file.h"
 #include "values.h"
 
 namespace pharos::mitsuba {
 namespace {
 
 constexpr std::size_t kMostBytes = std::size_t{16} << 20;
-
-std::string read_text(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::string text(kMostBytes + 1, '\0');
-  in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(in.gcount()));
-  if (text.size() > kMostBytes) {
-    throw InputError(Location{path.string()}, "a spectrum may have 16 MiB");
-  }
-  return text;
-}
 
 void add_line(WavelengthList& list, std::string_view line, const Location& where) {
   const std::vector<std::string_view> pair = words(line);
@@ -62,7 +51,7 @@ double WavelengthList::at(double wavelength) const {
 }
 
 WavelengthList read_spectrum_file(const std::filesystem::path& path) {
-  const std::string text = read_text(path);
+  const std::string text = read_file(path, kMostBytes, "a spectrum may have 16 MiB");
   WavelengthList list;
   int line = 0;
   for (std::size_t begin = 0, end = 0; begin < text.size(); begin = end + 1) {

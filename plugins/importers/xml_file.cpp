@@ -1,10 +1,10 @@
 #include "xml_file.h"
 
 #include <algorithm>
-#include <fstream>
 
 #include <fmt/format.h>
 
+#include "read_file.h"
 #include "utf8.h"
 
 namespace pharos::mitsuba {
@@ -44,31 +44,15 @@ std::size_t behind(std::string_view text, std::size_t from, std::string_view end
 
 }  // namespace
 
-XmlFile::XmlFile(const std::filesystem::path& path, ReadingBudget& budget) : path_(path) {
-  read(budget);
+XmlFile::XmlFile(const std::filesystem::path& path, ReadingBudget& budget)
+    : path_(path),
+      text_(read_file(path, budget.bytes, "the files of a scene may have 256 MiB together")) {
+  budget.bytes -= text_.size();
   check_encoding();
   find_lines();
   count_parts(budget);
   parse();
   find_root();
-}
-
-void XmlFile::read(ReadingBudget& budget) {
-  const Location file{path_.string()};
-  std::ifstream in(path_, std::ios::binary);
-  text_.resize(budget.bytes + 1 < (std::size_t{1} << 16) ? budget.bytes + 1 : std::size_t{1} << 16);
-  std::size_t size = 0;
-  while (in.read(text_.data() + size, static_cast<std::streamsize>(text_.size() - size)),
-         in.gcount() > 0) {
-    size += static_cast<std::size_t>(in.gcount());
-    if (size > budget.bytes) {
-      throw InputError(file, "the files of a scene may have 256 MiB together");
-    }
-    if (size == text_.size()) text_.resize(std::min(2 * size, budget.bytes + 1));
-  }
-  if (in.bad()) throw InputError(file, "the file cannot be read");
-  text_.resize(size);
-  budget.bytes -= size;
 }
 
 void XmlFile::check_encoding() const {

@@ -38,7 +38,6 @@ class XmlFile {
   Location where(pugi::xml_node element, std::string_view attribute) const;
 
  private:
-  void read(ReadingBudget& budget);
   void check_encoding() const;
   void count_parts(ReadingBudget& budget) const;
   void find_lines();
