@@ -8,6 +8,8 @@
 #include <pharos/core/random.h>
 #include <pharos/statistics/quadrature.h>
 
+extern "C" void pharos_module_register(pharos::Registry& registry);
+
 namespace pharos::test {
 namespace {
 
@@ -15,16 +17,49 @@ void check_close(Rgb a, Rgb b) {
   for (int c = 0; c < 3; ++c) CHECK(a[c] == doctest::Approx(b[c]).epsilon(1e-5));
 }
 
+double tangent_squared(Vec3 v) {
+  return (1 - double{v.z} * v.z) / (double{v.z} * v.z);
+}
+
 }  // namespace
 
+void UniformTexture::Settings::describe(Schema<Settings>& s) {
+  s.field("value", &Settings::value, "The value");
+}
+
 Ref<Texture> uniform(Rgb value) {
-  return std::make_shared<UniformTexture>(value);
+  return std::make_shared<UniformTexture>(UniformTexture::Settings{value});
+}
+
+const Registry& registry() {
+  static const Registry all = [] {
+    Registry r;
+    r.add<UniformTexture>("uniform", "The same everywhere");
+    r.set_shorthand<Texture>("uniform", "value");
+    pharos_module_register(r);
+    return r;
+  }();
+  return all;
+}
+
+Ref<Bsdf> build(const std::string& yaml, BuildContext context) {
+  ConfigNode resolved;
+  return registry().build<Bsdf>(parse_yaml(yaml, "test"), context, resolved);
 }
 
 Vec3 direction(double theta, double phi) {
   const double t = theta * M_PI / 180, p = phi * M_PI / 180;
   return {static_cast<float>(std::sin(t) * std::cos(p)),
           static_cast<float>(std::sin(t) * std::sin(p)), static_cast<float>(std::cos(t))};
+}
+
+double ggx(Vec3 m, double alpha) {
+  const double c2 = double{m.z} * m.z, t = alpha * alpha + tangent_squared(m);
+  return alpha * alpha / (M_PI * c2 * c2 * t * t);
+}
+
+double smith_lambda(Vec3 w, double alpha) {
+  return 0.5 * (std::sqrt(1 + alpha * alpha * tangent_squared(w)) - 1);
 }
 
 statistics::DensityFit fit_smooth(const Bsdf& bsdf, Vec3 wo, ScatterOptions options,
@@ -67,9 +102,11 @@ void check_samples(const Bsdf& bsdf, Vec3 wo, ScatterOptions options) {
   }
 }
 
-double smooth_albedo(const Bsdf& bsdf, Vec3 wo) {
+double smooth_albedo(const Bsdf& bsdf, Vec3 wo, ScatterOptions options) {
   const SurfacePoint point;
-  const auto value = [&](Vec3 wi) { return double{mean(bsdf.evaluate(point, wo, wi, {}).value)}; };
+  const auto value = [&](Vec3 wi) {
+    return double{mean(bsdf.evaluate(point, wo, wi, options).value)};
+  };
   return statistics::integrate_sphere(value, {.tolerance = 1e-4}, 64, 64).value;
 }
 

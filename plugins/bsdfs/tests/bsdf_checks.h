@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
+#include <pharos/config/registry.h>
 #include <pharos/scene/bsdf.h>
 #include <pharos/scene/texture.h>
 #include <pharos/statistics/goodness_of_fit.h>
@@ -9,10 +11,14 @@
 /// What the suites of this folder share.
 namespace pharos::test {
 
-/// The same colour everywhere.
+/// The same colour everywhere; a number or colour stands for it in YAML.
 class UniformTexture final : public Texture {
  public:
-  explicit UniformTexture(Rgb value) : value_(value) {}
+  struct Settings {
+    Rgb value;
+    static void describe(Schema<Settings>& s);
+  };
+  explicit UniformTexture(const Settings& settings) : value_(settings.value) {}
   Rgb evaluate(const SurfacePoint&) const override { return value_; }
   float maximum() const override { return max_component(value_); }
   Rgb average() const override { return value_; }
@@ -23,8 +29,19 @@ class UniformTexture final : public Texture {
 
 Ref<Texture> uniform(Rgb value);
 
+/// This folder's plugins, and UniformTexture for the textures of another module.
+const Registry& registry();
+
+/// Builds a BSDF from YAML, in a file "test". Throws InputError.
+Ref<Bsdf> build(const std::string& yaml, BuildContext context = {registry()});
+
 /// The unit direction at polar angle `theta` and azimuth `phi` [degrees].
 Vec3 direction(double theta, double phi);
+
+/// D of GGX in the form of Walter et al. 2007, eq. 33, and Smith's Lambda of it (Heitz 2014, eq.
+/// 72), both in double precision.
+double ggx(Vec3 m, double alpha);
+double smith_lambda(Vec3 w, double alpha);
 
 /// Fits sample() to evaluate().pdf.
 statistics::DensityFit fit_smooth(const Bsdf& bsdf, Vec3 wo, ScatterOptions options,
@@ -35,6 +52,6 @@ statistics::DensityFit fit_smooth(const Bsdf& bsdf, Vec3 wo, ScatterOptions opti
 void check_samples(const Bsdf& bsdf, Vec3 wo, ScatterOptions options);
 
 /// Integral of the smooth value over all directions, mean of the channels [1].
-double smooth_albedo(const Bsdf& bsdf, Vec3 wo);
+double smooth_albedo(const Bsdf& bsdf, Vec3 wo, ScatterOptions options = {});
 
 }  // namespace pharos::test

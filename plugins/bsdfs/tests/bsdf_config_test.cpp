@@ -4,49 +4,14 @@
 
 #include <doctest/doctest.h>
 
-#include <pharos/config/registry.h>
 #include <pharos/core/error.h>
 
 #include "bsdf_checks.h"
 
-extern "C" void pharos_module_register(pharos::Registry& registry);
-
 namespace pharos {
-namespace {
 
-/// Stands for the textures of another module.
-class Plain final : public Texture {
- public:
-  struct Settings {
-    Rgb value;
-    static void describe(Schema<Settings>& s) { s.field("value", &Settings::value, "The value"); }
-  };
-  explicit Plain(const Settings& settings) : value_(settings.value) {}
-  Rgb evaluate(const SurfacePoint&) const override { return value_; }
-  float maximum() const override { return max_component(value_); }
-  Rgb average() const override { return value_; }
-
- private:
-  Rgb value_;
-};
-
-const Registry& registry() {
-  static const Registry all = [] {
-    Registry r;
-    r.add<Plain>("plain", "The same everywhere");
-    r.set_shorthand<Texture>("plain", "value");
-    pharos_module_register(r);
-    return r;
-  }();
-  return all;
-}
-
-Ref<Bsdf> build(const std::string& yaml, BuildContext context = {registry()}) {
-  ConfigNode resolved;
-  return registry().build<Bsdf>(parse_yaml(yaml, "test"), context, resolved);
-}
-
-}  // namespace
+using test::build;
+using test::registry;
 
 TEST_CASE("materials: nested in place or by name") {
   BuildContext context{registry()};

@@ -4,12 +4,9 @@
 
 #include <doctest/doctest.h>
 
-#include <pharos/config/registry.h>
 #include <pharos/core/error.h>
 
-#include "../conductor.h"
 #include "../fresnel.h"
-#include "../rough_conductor.h"
 #include "bsdf_checks.h"
 
 namespace pharos {
@@ -20,33 +17,10 @@ Rgb normal_reflectance(Metal metal) {
   return conductor_fresnel(1, ior.eta, ior.k);
 }
 
-/// A texture that a number can stand for.
-class Plain final : public Texture {
- public:
-  struct Settings {
-    Rgb value;
-    static void describe(Schema<Settings>& s) { s.field("value", &Settings::value, "Colour"); }
-  };
-  explicit Plain(const Settings& settings) : value_(settings.value) {}
-  Rgb evaluate(const SurfacePoint&) const override { return value_; }
-  float maximum() const override { return max_component(value_); }
-  Rgb average() const override { return value_; }
-
- private:
-  Rgb value_;
-};
-
-/// Builds a BSDF of metal from YAML; returns what is wrong with it.
+/// Builds a BSDF from YAML; returns what is wrong with it.
 std::string complaint(const std::string& yaml) {
-  Registry registry;
-  registry.add<Plain>("plain", "");
-  registry.set_shorthand<Texture>("plain", "value");
-  registry.add<Conductor>("conductor", "");
-  registry.add<RoughConductor>("rough_conductor", "");
-  BuildContext context{.registry = registry};
-  ConfigNode resolved;
   try {
-    registry.build<Bsdf>(parse_yaml(yaml, "scene.yaml"), context, resolved);
+    test::build(yaml);
   } catch (const InputError& e) {
     return e.what();
   }
@@ -122,7 +96,7 @@ TEST_CASE("metals: anything else is refused where it stands") {
     CHECK(with(", eta: 1, k: [1, 2, 3]").empty());
     const std::string both = with(", material: Al, eta: 1, k: 2");
     CHECK(mentions(both, "exclude each other"));
-    CHECK(mentions(both, "scene.yaml:1"));
+    CHECK(mentions(both, "test:1"));
     CHECK(mentions(with(", material: Al, k: 2"), "exclude each other"));
     CHECK(mentions(with(", eta: 1"), "'k' is missing"));
     CHECK(mentions(with(", k: 1"), "'eta' is missing"));

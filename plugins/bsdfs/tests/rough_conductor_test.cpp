@@ -17,19 +17,6 @@ RoughConductor mirror_metal(float alpha, Masking masking) {
                          .specular_reflectance = test::uniform(Rgb(1))});
 }
 
-double tangent_squared(Vec3 v) {
-  return (1 - double{v.z} * v.z) / (double{v.z} * v.z);
-}
-/// Smith's Lambda of GGX (Heitz 2014, eq. 72).
-double lambda(Vec3 v, double alpha) {
-  return 0.5 * (std::sqrt(1 + alpha * alpha * tangent_squared(v)) - 1);
-}
-/// D in the form of Walter et al. 2007, eq. 33.
-double ggx(Vec3 m, double alpha) {
-  const double c2 = double{m.z} * m.z, t = alpha * alpha + tangent_squared(m);
-  return alpha * alpha / (M_PI * c2 * c2 * t * t);
-}
-
 }  // namespace
 
 TEST_CASE("rough conductor: the textbook formula") {
@@ -42,9 +29,9 @@ TEST_CASE("rough conductor: the textbook formula") {
                                             .specular_reflectance = test::uniform(Rgb(0.9f))};
     RoughConductor::Settings separable = defaults;
     separable.masking = Masking::separable;
-    const double lo = lambda(wo, alpha), li = lambda(wi, alpha);
+    const double lo = test::smith_lambda(wo, alpha), li = test::smith_lambda(wi, alpha);
     const double fresnel = conductor_fresnel(dot(wo, m), copper.eta.g, copper.k.g);
-    const double common = 0.9 * fresnel * ggx(m, alpha) / (4 * wo.z);
+    const double common = 0.9 * fresnel * test::ggx(m, alpha) / (4 * wo.z);
     CHECK(RoughConductor(defaults).evaluate(point, wo, wi, {}).value.g ==
           doctest::Approx(common / (1 + lo + li)).epsilon(1e-4));
     CHECK(RoughConductor(separable).evaluate(point, wo, wi, {}).value.g ==
