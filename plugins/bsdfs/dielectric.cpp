@@ -7,7 +7,6 @@
 //     { type: dielectric, ior: 1.5, specular_transmittance: [0.9, 1, 0.95] }
 #include "dielectric.h"
 
-#include "discrete_choice.h"
 #include "fresnel.h"
 #include "parameters.h"
 
@@ -15,43 +14,25 @@ namespace pharos {
 
 void Dielectric::Settings::describe(Schema<Settings>& s) {
   describe_ior(s, "Refractive index inside over outside");
-  describe_factor(s, "specular_reflectance", &Settings::specular_reflectance,
-                  "Factor on what is reflected");
-  describe_factor(s, "specular_transmittance", &Settings::specular_transmittance,
-                  "Factor on what is refracted");
+  describe_both_factors(s, "refracted");
   s.example("{ ior: 0.75 }");
   s.example("{ ior: 2.4, specular_reflectance: 0.9, specular_transmittance: [0.2, 0.7, 1] }");
 }
 
 Dielectric::Dielectric(const Settings& settings)
-    : settings_(settings), average_fresnel_(average_dielectric_fresnel(settings.ior)) {}
+    : SmoothInterface(settings.specular_reflectance, settings.specular_transmittance,
+                      average_dielectric_fresnel(settings.ior)),
+      ior_(settings.ior) {}
 
 DiscreteOutcomes Dielectric::discrete(const SurfacePoint& point, Vec3 wo,
                                       ScatterOptions options) const {
   if (wo.z == 0) return {};
-  const float eta = wo.z > 0 ? settings_.ior : 1 / settings_.ior;
+  const float eta = wo.z > 0 ? ior_ : 1 / ior_;
   const DielectricFresnel fresnel = dielectric_fresnel(std::min(1.0f, std::abs(wo.z)), eta);
-  const float reflected = fresnel.reflectance, transmitted = 1 - fresnel.reflectance;
   const Vec3 refracted{-wo.x / eta, -wo.y / eta, std::copysign(fresnel.cos_transmitted, -wo.z)};
   const float scale = options.transport == Transport::radiance ? 1 / (eta * eta) : 1;
-  return allowed_outcomes(
-      {Event::discrete_reflect,
-       {-wo.x, -wo.y, wo.z},
-       reflected * settings_.specular_reflectance->evaluate(point),
-       reflected},
-      {Event::discrete_transmit, normalize(refracted),
-       scale * transmitted * settings_.specular_transmittance->evaluate(point), transmitted},
-      options.events);
-}
-
-std::optional<ScatterSample> Dielectric::sample(const SurfacePoint& point, Vec3 wo, float u_choice,
-                                                Vec2, ScatterOptions options) const {
-  return draw_outcome(discrete(point, wo, options), u_choice);
-}
-
-Rgb Dielectric::albedo(const SurfacePoint& point) const {
-  return average_fresnel_ * settings_.specular_reflectance->evaluate(point) +
-         (1 - average_fresnel_) * settings_.specular_transmittance->evaluate(point);
+  return split(point, wo, fresnel.reflectance,
+               {Event::discrete_transmit, normalize(refracted), scale}, options.events);
 }
 
 }  // namespace pharos

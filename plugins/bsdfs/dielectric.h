@@ -1,13 +1,13 @@
 #pragma once
 
 #include <pharos/config/schema.h>
-#include <pharos/scene/bsdf.h>
-#include <pharos/scene/texture.h>
+
+#include "smooth_interface.h"
 
 namespace pharos {
 
 /// See dielectric.cpp.
-class Dielectric final : public Bsdf {
+class Dielectric final : public SmoothInterface {
  public:
   struct Settings {
     float ior = 1.5f;
@@ -19,20 +19,12 @@ class Dielectric final : public Bsdf {
   EventMask events() const override {
     return mask_of(Event::discrete_reflect) | mask_of(Event::discrete_transmit);
   }
-  ScatterValue evaluate(const SurfacePoint&, Vec3, Vec3, ScatterOptions) const override {
-    return {};
-  }
-  std::optional<ScatterSample> sample(const SurfacePoint& point, Vec3 wo, float u_choice, Vec2 u,
-                                      ScatterOptions options) const override;
   DiscreteOutcomes discrete(const SurfacePoint& point, Vec3 wo,
                             ScatterOptions options) const override;
-  float roughness(const SurfacePoint&) const override { return 0; }
-  float relative_ior() const override { return 1 / settings_.ior; }
-  Rgb albedo(const SurfacePoint& point) const override;
+  float relative_ior() const override { return 1 / ior_; }
 
  private:
-  Settings settings_;
-  float average_fresnel_;  ///< over the outer hemisphere [1]
+  float ior_;
 };
 
 }  // namespace pharos

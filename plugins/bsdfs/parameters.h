@@ -36,4 +36,14 @@ void describe_factor(Schema<Settings>& s, std::string key, Ref<Texture> Settings
       .check("at most 1 everywhere", [](const Ref<Texture>& t) { return t->maximum() <= 1; });
 }
 
+/// Declares the factors of an interface on either part of light; `onward` is what becomes of the
+/// second, in a word.
+template <class Settings>
+void describe_both_factors(Schema<Settings>& s, const std::string& onward) {
+  describe_factor(s, "specular_reflectance", &Settings::specular_reflectance,
+                  "Factor on what is reflected");
+  describe_factor(s, "specular_transmittance", &Settings::specular_transmittance,
+                  "Factor on what is " + onward);
+}
+
 }  // namespace pharos

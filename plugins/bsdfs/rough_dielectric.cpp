@@ -50,10 +50,7 @@ void RoughDielectric::Settings::describe(Schema<Settings>& s) {
   s.field("alpha", &Settings::alpha, "GGX roughness").at_least(1e-4).at_most(1);
   describe_ior(s, "Refractive index inside over outside");
   s.field("masking", &Settings::masking, "How masking and shadowing are combined");
-  describe_factor(s, "specular_reflectance", &Settings::specular_reflectance,
-                  "Factor on what is reflected");
-  describe_factor(s, "specular_transmittance", &Settings::specular_transmittance,
-                  "Factor on what is refracted");
+  describe_both_factors(s, "refracted");
   s.example("{ alpha: 0.02, ior: 1.33 }");
   s.example("{ alpha: 0.3, ior: 0.66, masking: separable }");
   s.example(

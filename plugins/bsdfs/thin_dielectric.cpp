@@ -11,7 +11,6 @@
 //     { type: thin_dielectric, ior: 1.5, specular_transmittance: [0.9, 1, 0.95] }
 #include "thin_dielectric.h"
 
-#include "discrete_choice.h"
 #include "fresnel.h"
 #include "hemisphere_mean.h"
 #include "parameters.h"
@@ -29,43 +28,22 @@ float pane_reflectance(float cosine, float ior) {
 
 void ThinDielectric::Settings::describe(Schema<Settings>& s) {
   describe_ior(s, "Refractive index of the pane over its surroundings");
-  describe_factor(s, "specular_reflectance", &Settings::specular_reflectance,
-                  "Factor on what is reflected");
-  describe_factor(s, "specular_transmittance", &Settings::specular_transmittance,
-                  "Factor on what is transmitted");
+  describe_both_factors(s, "transmitted");
   s.example("{ ior: 0.75 }");
   s.example("{ ior: 1.33, specular_reflectance: 0.9, specular_transmittance: [0.2, 0.7, 1] }");
 }
 
 ThinDielectric::ThinDielectric(const Settings& settings)
-    : settings_(settings),
-      average_reflected_(
-          hemisphere_mean([&](float cosine) { return pane_reflectance(cosine, settings.ior); })) {}
+    : SmoothInterface(
+          settings.specular_reflectance, settings.specular_transmittance,
+          hemisphere_mean([&](float cosine) { return pane_reflectance(cosine, settings.ior); })),
+      ior_(settings.ior) {}
 
 DiscreteOutcomes ThinDielectric::discrete(const SurfacePoint& point, Vec3 wo,
                                           ScatterOptions options) const {
   if (wo.z == 0) return {};
-  const float reflected = pane_reflectance(std::min(1.0f, std::abs(wo.z)), settings_.ior);
-  const float transmitted = 1 - reflected;
-  return allowed_outcomes(
-      {Event::discrete_reflect,
-       {-wo.x, -wo.y, wo.z},
-       reflected * settings_.specular_reflectance->evaluate(point),
-       reflected},
-      {Event::pass_through, -wo, transmitted * settings_.specular_transmittance->evaluate(point),
-       transmitted},
-      options.events);
-}
-
-std::optional<ScatterSample> ThinDielectric::sample(const SurfacePoint& point, Vec3 wo,
-                                                    float u_choice, Vec2,
-                                                    ScatterOptions options) const {
-  return draw_outcome(discrete(point, wo, options), u_choice);
-}
-
-Rgb ThinDielectric::albedo(const SurfacePoint& point) const {
-  return average_reflected_ * settings_.specular_reflectance->evaluate(point) +
-         (1 - average_reflected_) * settings_.specular_transmittance->evaluate(point);
+  const float reflected = pane_reflectance(std::min(1.0f, std::abs(wo.z)), ior_);
+  return split(point, wo, reflected, {Event::pass_through, -wo}, options.events);
 }
 
 }  // namespace pharos
