@@ -39,6 +39,10 @@ constexpr float mean(Rgb c) {
 constexpr float max_component(Rgb c) {
   return std::max(c.r, std::max(c.g, c.b));
 }
+/// The larger value in each channel.
+constexpr Rgb max(Rgb x, Rgb y) {
+  return {std::max(x.r, y.r), std::max(x.g, y.g), std::max(x.b, y.b)};
+}
 constexpr bool is_black(Rgb c) {
   return c.r == 0 && c.g == 0 && c.b == 0;
 }

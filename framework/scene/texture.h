@@ -17,8 +17,8 @@ class Texture : public Component {
   /// radiance [W/(m^2 sr)] in [0, inf).
   virtual Rgb evaluate(const SurfacePoint& point) const = 0;
 
-  /// The largest value of any channel anywhere; for range checks and light selection.
-  virtual float maximum() const = 0;
+  /// The largest value of each channel anywhere, or a bound near it; for range checks.
+  virtual Rgb maximum() const = 0;
   /// The average over texture space; for light selection and albedo.
   virtual Rgb average() const = 0;
 };

@@ -54,7 +54,7 @@ class FileTexture final : public Texture {
   Rgb evaluate(const SurfacePoint&) const override {
     return Rgb(settings_.mode == Mode::odd ? 2.0f : settings_.dark ? 0.0f : 1.0f);
   }
-  float maximum() const override { return 1; }
+  Rgb maximum() const override { return Rgb(1); }
   Rgb average() const override { return Rgb(settings_.dark ? 0.0f : 1.0f); }
 
  private:

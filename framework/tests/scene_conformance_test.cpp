@@ -210,7 +210,8 @@ class FaultyTexture final : public Texture {
     const float x = p.uv.x - std::floor(p.uv.x);
     return Rgb(x < 0.25f ? 0.8f : 0.4f);
   }
-  float maximum() const override { return fault_ == TextureFault::range ? 0.7f : 0.8f; }
+  // The other channels' bounds hold: a bound is one of its channel.
+  Rgb maximum() const override { return {0.8f, fault_ == TextureFault::range ? 0.7f : 0.8f, 0.8f}; }
   Rgb average() const override { return Rgb(fault_ == TextureFault::average ? 0.6f : 0.5f); }
 
  private:

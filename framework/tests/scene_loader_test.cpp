@@ -16,7 +16,7 @@ class Grey : public Texture {
   };
   explicit Grey(Settings settings) : value_(settings.value) {}
   Rgb evaluate(const SurfacePoint&) const override { return Rgb(value_); }
-  float maximum() const override { return value_; }
+  Rgb maximum() const override { return Rgb(value_); }
   Rgb average() const override { return Rgb(value_); }
 
  private:

@@ -19,6 +19,8 @@
 
 #include <pharos/config/registry.h>
 
+#include "parameters.h"
+
 namespace pharos {
 namespace {
 
@@ -36,9 +38,7 @@ bool refract_differently(const Bsdf& a, const Bsdf& b) {
 void Blend::Settings::describe(Schema<Settings>& s) {
   s.field("first", &Settings::first, "Material where the weight is 0").required();
   s.field("second", &Settings::second, "Material where the weight is 1").required();
-  s.field("weight", &Settings::weight, "Share of the second")
-      .otherwise("0.5")
-      .check("at most 1 everywhere", [](const Ref<Texture>& t) { return t->maximum() <= 1; });
+  describe_share(s, "weight", &Settings::weight, "Share of the second", "0.5");
   s.example("{ first: { type: diffuse }, second: { type: rough_conductor, alpha: 0.3 } }");
   s.example("{ first: { type: plastic }, second: { type: diffuse }, weight: [0.2, 0.5, 0.8] }");
   s.example(

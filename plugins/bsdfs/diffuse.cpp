@@ -7,12 +7,13 @@
 #include <pharos/config/registry.h>
 #include <pharos/core/warp.h>
 
+#include "parameters.h"
+
 namespace pharos {
 
 void Diffuse::Settings::describe(Schema<Settings>& s) {
-  s.field("reflectance", &Settings::reflectance, "Share of light that is reflected")
-      .otherwise("0.5")
-      .check("at most 1 everywhere", [](const Ref<Texture>& t) { return t->maximum() <= 1; });
+  describe_share(s, "reflectance", &Settings::reflectance, "Share of light that is reflected",
+                 "0.5");
 }
 
 ScatterValue Diffuse::evaluate(const SurfacePoint& point, Vec3 wo, Vec3 wi,

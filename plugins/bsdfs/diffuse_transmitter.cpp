@@ -3,68 +3,35 @@
 // the side it came from. Both sides are alike. sample() chooses between them by the mean of the
 // channels.
 //
-// The two must not add up to more than 1. Of uniform colours that is tested in each channel; of a
-// texture that varies only its largest value is known, which stands for all channels and places.
+// The two must not add up to more than 1. Of textures that vary only the largest value of each
+// channel is known, which stands for all places.
 //
 //     { type: diffuse_transmitter, transmittance: [0.2, 0.4, 0.05], reflectance: 0.3 }
 #include "diffuse_transmitter.h"
 
-#include <cmath>
-
-#include <fmt/core.h>
-
 #include <pharos/config/registry.h>
 #include <pharos/core/warp.h>
 
+#include "parameters.h"
+
 namespace pharos {
-namespace {
-
-/// A bound of `texture` in each channel: its colour if it is uniform, as far as probes can tell,
-/// and else its largest value.
-Rgb upper_bound(const Texture& texture) {
-  const Rgb average = texture.average();
-  constexpr int kProbes = 64;
-  for (int i = 0; i < kProbes; ++i) {
-    // Points that fill the square evenly (Roberts 2018, "The Unreasonable Effectiveness of
-    // Quasirandom Sequences").
-    const float x = 0.7548777f * static_cast<float>(i), y = 0.5698403f * static_cast<float>(i);
-    SurfacePoint point;
-    point.uv = {x - std::floor(x), y - std::floor(y)};
-    point.position = {point.uv.x, point.uv.y, 0};
-    if (texture.evaluate(point) != average) return Rgb(texture.maximum());
-  }
-  return average;
-}
-
-}  // namespace
 
 void DiffuseTransmitter::Settings::describe(Schema<Settings>& s) {
-  s.field("transmittance", &Settings::transmittance, "Share of light that is let through")
-      .otherwise("0.5")
-      .check("at most 1 everywhere", [](const Ref<Texture>& t) { return t->maximum() <= 1; });
-  s.field("reflectance", &Settings::reflectance, "Share of light that is reflected")
-      .otherwise("0")
-      .check("at most 1 everywhere", [](const Ref<Texture>& t) { return t->maximum() <= 1; });
+  describe_share(s, "transmittance", &Settings::transmittance, "Share of light that is let through",
+                 "0.5");
+  describe_share(s, "reflectance", &Settings::reflectance, "Share of light that is reflected", "0");
   s.example("{ transmittance: 0.3, reflectance: 0.7 }");
   s.example("{ transmittance: [0.1, 0.6, 0.2], reflectance: [0.3, 0.3, 0.05] }");
 }
 
 DiffuseTransmitter::DiffuseTransmitter(const Settings& settings) : settings_(settings) {
-  const Rgb transmitted = upper_bound(*settings.transmittance);
-  const Rgb reflected = upper_bound(*settings.reflectance);
-  for (int c = 0; c < 3; ++c) {
-    if (transmitted[c] + reflected[c] <= 1) continue;
-    throw InputError(
-        fmt::format("transmittance and reflectance must not add up to more than 1, but their "
-                    "largest values are {:.4g} and {:.4g}",
-                    transmitted[c], reflected[c]));
-  }
+  check_sum(*settings.transmittance, *settings.reflectance, "transmittance and reflectance");
 }
 
 EventMask DiffuseTransmitter::events() const {
   EventMask all = EventMask::nothing;
-  if (settings_.reflectance->maximum() > 0) all = all | mask_of(Event::smooth_reflect);
-  if (settings_.transmittance->maximum() > 0) all = all | mask_of(Event::smooth_transmit);
+  if (!is_black(settings_.reflectance->maximum())) all = all | mask_of(Event::smooth_reflect);
+  if (!is_black(settings_.transmittance->maximum())) all = all | mask_of(Event::smooth_transmit);
   return all;
 }
 

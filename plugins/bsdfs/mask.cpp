@@ -11,6 +11,8 @@
 
 #include <pharos/config/registry.h>
 
+#include "parameters.h"
+
 namespace pharos {
 namespace {
 
@@ -41,9 +43,7 @@ class PassThrough final : public Bsdf {
 
 void Mask::Settings::describe(Schema<Settings>& s) {
   s.field("bsdf", &Settings::bsdf, "Material of what is not hole").otherwise("{ type: diffuse }");
-  s.field("opacity", &Settings::opacity, "Share of light that meets the material")
-      .otherwise("0.5")
-      .check("at most 1 everywhere", [](const Ref<Texture>& t) { return t->maximum() <= 1; });
+  describe_share(s, "opacity", &Settings::opacity, "Share of light that meets the material", "0.5");
   s.example("{ opacity: [0.3, 0.6, 0.9], bsdf: { type: rough_conductor, alpha: 0.3 } }");
   s.example("{ opacity: 0.8, bsdf: { type: dielectric, ior: 1.3 } }");
   s.example("{ opacity: 0.7, bsdf: { type: mask, opacity: 0.4, bsdf: { type: plastic } } }");

@@ -3,8 +3,11 @@
 #include <string>
 #include <utility>
 
+#include <fmt/core.h>
+
 #include <pharos/config/registry.h>
 #include <pharos/config/schema.h>
+#include <pharos/core/error.h>
 #include <pharos/scene/texture.h>
 
 namespace pharos {
@@ -27,13 +30,21 @@ void describe_coat_ior(Schema<Settings>& s) {
       .at_most(kLargestIor);
 }
 
-/// Declares a texture that scales what is reflected or transmitted: 1 unless stated, never more.
+/// Declares a texture of shares, which are never more than 1; `otherwise` is its default in YAML.
+template <class Settings>
+void describe_share(Schema<Settings>& s, std::string key, Ref<Texture> Settings::*member,
+                    std::string help, std::string otherwise) {
+  s.field(std::move(key), member, std::move(help))
+      .otherwise(std::move(otherwise))
+      .check("at most 1 everywhere",
+             [](const Ref<Texture>& t) { return max_component(t->maximum()) <= 1; });
+}
+
+/// Declares a texture that scales what is reflected or transmitted: 1 unless stated.
 template <class Settings>
 void describe_factor(Schema<Settings>& s, std::string key, Ref<Texture> Settings::*member,
                      std::string help) {
-  s.field(std::move(key), member, std::move(help))
-      .otherwise("1")
-      .check("at most 1 everywhere", [](const Ref<Texture>& t) { return t->maximum() <= 1; });
+  describe_share(s, std::move(key), member, std::move(help), "1");
 }
 
 /// Declares the factors of an interface on either part of light; `onward` is what becomes of the
@@ -44,6 +55,19 @@ void describe_both_factors(Schema<Settings>& s, const std::string& onward) {
                   "Factor on what is reflected");
   describe_factor(s, "specular_transmittance", &Settings::specular_transmittance,
                   "Factor on what is " + onward);
+}
+
+/// Throws InputError where two textures' largest values add up to more than 1 in a channel; `names`
+/// tells the user what they are.
+inline void check_sum(const Texture& a, const Texture& b, const char* names) {
+  const Rgb largest_a = a.maximum(), largest_b = b.maximum();
+  for (int c = 0; c < 3; ++c) {
+    if (largest_a[c] + largest_b[c] <= 1) continue;
+    throw InputError(
+        fmt::format("{} must not add up to more than 1, but their largest values are {:.4g} and "
+                    "{:.4g}",
+                    names, largest_a[c], largest_b[c]));
+  }
 }
 
 }  // namespace pharos

@@ -23,9 +23,8 @@ namespace pharos {
 void RoughPlastic::Settings::describe(Schema<Settings>& s) {
   s.field("alpha", &Settings::alpha, "GGX roughness of the coat").at_least(1e-4).at_most(1);
   describe_coat_ior(s);
-  s.field("reflectance", &Settings::reflectance, "Share of light that the base reflects")
-      .otherwise("0.5")
-      .check("at most 1 everywhere", [](const Ref<Texture>& t) { return t->maximum() <= 1; });
+  describe_share(s, "reflectance", &Settings::reflectance, "Share of light that the base reflects",
+                 "0.5");
   describe_factor(s, "specular_reflectance", &Settings::specular_reflectance,
                   "Factor on what the coat reflects");
   s.field("masking", &Settings::masking, "How masking and shadowing are combined");

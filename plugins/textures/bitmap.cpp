@@ -49,7 +49,7 @@ Bitmap::Bitmap(const Settings& settings) : settings_(settings) {
                          fmt::format("pixel ({}, {}) is negative or not finite", x, y));
       }
       texels_.push_back(c);
-      maximum_ = std::max(maximum_, max_component(c));
+      maximum_ = max(maximum_, c);
       for (int i = 0; i < 3; ++i) sums[i] += double{c[i]};
     }
   }

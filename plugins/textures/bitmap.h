@@ -46,7 +46,7 @@ class Bitmap final : public Texture {
   explicit Bitmap(const Settings& settings);
 
   Rgb evaluate(const SurfacePoint& point) const override;
-  float maximum() const override { return maximum_; }
+  Rgb maximum() const override { return maximum_; }
   Rgb average() const override { return average_; }
 
  private:
@@ -59,7 +59,7 @@ class Bitmap final : public Texture {
   Settings settings_;
   int width_ = 0, height_ = 0;
   std::vector<Rgb> texels_;
-  float maximum_ = 0;
+  Rgb maximum_;
   Rgb average_;
 };
 

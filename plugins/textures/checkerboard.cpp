@@ -26,8 +26,4 @@ Rgb Checkerboard::evaluate(const SurfacePoint& point) const {
   return same ? settings_.color0 : settings_.color1;
 }
 
-float Checkerboard::maximum() const {
-  return std::max(max_component(settings_.color0), max_component(settings_.color1));
-}
-
 }  // namespace pharos

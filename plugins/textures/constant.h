@@ -14,7 +14,7 @@ class ConstantTexture final : public Texture {
   explicit ConstantTexture(const Settings& settings) : value_(settings.value) {}
 
   Rgb evaluate(const SurfacePoint&) const override { return value_; }
-  float maximum() const override { return max_component(value_); }
+  Rgb maximum() const override { return value_; }
   Rgb average() const override { return value_; }
 
  private:

@@ -27,10 +27,6 @@ bool GridTexture::on_line(float coordinate) const {
   return std::abs(coordinate - std::round(coordinate)) < settings_.line_width;
 }
 
-float GridTexture::maximum() const {
-  return std::max(max_component(settings_.color0), max_component(settings_.color1));
-}
-
 Rgb GridTexture::average() const {
   const float ground = square(1 - 2 * settings_.line_width);
   return ground * settings_.color0 + (1 - ground) * settings_.color1;

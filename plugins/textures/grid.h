@@ -18,7 +18,7 @@ class GridTexture final : public Texture {
   explicit GridTexture(const Settings& settings) : settings_(settings) {}
 
   Rgb evaluate(const SurfacePoint& point) const override;
-  float maximum() const override;
+  Rgb maximum() const override { return max(settings_.color0, settings_.color1); }
   Rgb average() const override;
 
  private:

@@ -40,7 +40,7 @@ void ScaleTexture::Settings::describe(Schema<Settings>& s) {
 }
 
 ScaleTexture::ScaleTexture(Settings settings) : settings_(std::move(settings)) {
-  if (!std::isfinite(maximum())) {
+  if (!is_finite(maximum())) {
     throw InputError("scale: the product is beyond what a float can hold");
   }
   const Texture &a = *settings_.texture, &b = *settings_.factor;

@@ -18,7 +18,7 @@ class ScaleTexture final : public Texture {
   Rgb evaluate(const SurfacePoint& point) const override {
     return settings_.texture->evaluate(point) * settings_.factor->evaluate(point);
   }
-  float maximum() const override {
+  Rgb maximum() const override {
     return settings_.texture->maximum() * settings_.factor->maximum();
   }
   Rgb average() const override { return average_; }

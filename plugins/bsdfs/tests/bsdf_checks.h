@@ -20,7 +20,7 @@ class UniformTexture final : public Texture {
   };
   explicit UniformTexture(const Settings& settings) : value_(settings.value) {}
   Rgb evaluate(const SurfacePoint&) const override { return value_; }
-  float maximum() const override { return max_component(value_); }
+  Rgb maximum() const override { return value_; }
   Rgb average() const override { return value_; }
 
  private:

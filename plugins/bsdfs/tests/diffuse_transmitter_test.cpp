@@ -20,7 +20,7 @@ class Halves final : public Texture {
   Rgb evaluate(const SurfacePoint& point) const override {
     return point.uv.x < 0.5f ? Rgb(0.6f, 0.2f, 0) : Rgb(0.6f, 0.4f, 0);
   }
-  float maximum() const override { return 0.6f; }
+  Rgb maximum() const override { return {0.6f, 0.4f, 0}; }
   Rgb average() const override { return {0.6f, 0.3f, 0}; }
 };
 
@@ -62,13 +62,13 @@ TEST_CASE("diffuse transmitter: gives no light away") {
                        "transmittance and reflectance must not add up to more than 1, but their "
                        "largest values are 0.3 and 0.8",
                        InputError);
-  // The texture's blue is 0 everywhere, but that it does not tell.
+  // Of a texture that varies, its largest value in the same channel counts.
   const auto build = [](Rgb reflectance) {
     return DiffuseTransmitter(
         {.transmittance = std::make_shared<Halves>(), .reflectance = test::uniform(reflectance)});
   };
-  CHECK_NOTHROW(build(Rgb(0.4f)));
-  CHECK_THROWS_WITH_AS(build({0, 0, 0.5f}), doctest::Contains("are 0.6 and 0.5"), InputError);
+  CHECK_NOTHROW(build({0.4f, 0.6f, 1}));
+  CHECK_THROWS_WITH_AS(build({0, 0.7f, 0}), doctest::Contains("are 0.4 and 0.7"), InputError);
 }
 
 }  // namespace pharos

@@ -17,7 +17,7 @@ class TwoColours : public Texture {
   Rgb evaluate(const SurfacePoint& p) const override {
     return p.uv.x < 0.5f ? Rgb(4, 0, 0) : Rgb(0, 0, 2);
   }
-  float maximum() const override { return 4; }
+  Rgb maximum() const override { return {4, 0, 2}; }
   Rgb average() const override { return {2, 0, 1}; }
 };
 

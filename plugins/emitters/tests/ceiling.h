@@ -12,7 +12,7 @@ class OneColour final : public Texture {
  public:
   explicit OneColour(Rgb colour) : colour_(colour) {}
   Rgb evaluate(const SurfacePoint&) const override { return colour_; }
-  float maximum() const override { return max_component(colour_); }
+  Rgb maximum() const override { return colour_; }
   Rgb average() const override { return colour_; }
 
  private:

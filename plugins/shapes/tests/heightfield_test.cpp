@@ -19,7 +19,7 @@ class FormulaTexture : public Texture {
     const float v = formula_(point.uv);
     return {v - 0.1f, v, v + 0.1f};
   }
-  float maximum() const override { return 1; }
+  Rgb maximum() const override { return Rgb(1); }
   Rgb average() const override { return Rgb(0.5f); }
 
  private:

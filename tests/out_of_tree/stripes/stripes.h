@@ -27,9 +27,7 @@ class Stripes final : public pharos::Texture {
     const bool odd = std::fmod(stripe, 2.0f) != 0;
     return odd ? settings_.second : settings_.first;
   }
-  float maximum() const override {
-    return std::max(max_component(settings_.first), max_component(settings_.second));
-  }
+  pharos::Rgb maximum() const override { return max(settings_.first, settings_.second); }
   pharos::Rgb average() const override { return 0.5f * (settings_.first + settings_.second); }
 
  private:
