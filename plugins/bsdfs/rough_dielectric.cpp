@@ -22,8 +22,8 @@
 
 #include <pharos/core/error.h>
 
-#include "fresnel.h"
 #include "parameters.h"
+#include "rough_interface.h"
 
 namespace pharos {
 namespace {
@@ -37,11 +37,6 @@ float reflect_probability(float fresnel, EventMask allowed) {
 float refract_probability(float fresnel, EventMask allowed) {
   if (!contains(allowed, Event::smooth_transmit)) return 0;
   return contains(allowed, Event::smooth_reflect) ? 1 - fresnel : 1;
-}
-
-/// `w` as seen when `wo` is turned to lie above.
-Vec3 turned(Vec3 w, Vec3 wo) {
-  return {w.x, w.y, wo.z > 0 ? w.z : -w.z};
 }
 
 }  // namespace
@@ -87,16 +82,14 @@ std::optional<ScatterSample> RoughDielectric::sample(const SurfacePoint& point, 
   const Vec3 above = turned(wo, wo);
   const Vec3 m = facets_.sample_visible_normal(above, u);
   const float cosine = std::clamp(dot(above, m), 0.0f, 1.0f);
-  const DielectricFresnel fresnel = dielectric_fresnel(cosine, eta);
-  const bool reflects = u_choice < reflect_probability(fresnel.reflectance, options.events);
-  if (!reflects && fresnel.reflectance == 1) return {};  // total reflection, which is not allowed
-  const Vec3 wi = normalize(reflects ? 2 * cosine * m - above
-                                     : (cosine / eta - fresnel.cos_transmitted) * m - above / eta);
-  // A facet may send light to where the surface as a whole is in the way.
-  if (reflects ? !(wi.z > 0) : !(wi.z < 0)) return {};
-  const Scattering s = scatter(point, above, wi, eta, options);
+  const float fresnel = dielectric_fresnel(cosine, eta).reflectance;
+  const bool reflects = u_choice < reflect_probability(fresnel, options.events);
+  if (!reflects && fresnel == 1) return {};  // total reflection, which is not allowed
+  const std::optional<Vec3> wi = facet_direction(above, m, eta, reflects);
+  if (!wi) return {};
+  const Scattering s = scatter(point, above, *wi, eta, options);
   if (s.pdf == 0) return {};
-  return ScatterSample{turned(wi, wo), reflects ? Event::smooth_reflect : Event::smooth_transmit,
+  return ScatterSample{turned(*wi, wo), reflects ? Event::smooth_reflect : Event::smooth_transmit,
                        s.weight, s.pdf};
 }
 
@@ -120,23 +113,15 @@ RoughDielectric::Scattering RoughDielectric::reflect(const SurfacePoint& point, 
 
 RoughDielectric::Scattering RoughDielectric::refract(const SurfacePoint& point, Vec3 wo, Vec3 wi,
                                                      float eta, ScatterOptions options) const {
-  // The facet's normal lies on the side of the smaller index; before it is scaled its length is
-  // |o.m + eta i.m|.
-  const Vec3 normal = eta > 1 ? -(wo + eta * wi) : wo + eta * wi;
-  const float squared = length_squared(normal);
-  const Vec3 m = normal / std::sqrt(squared);
-  const float cos_o = dot(wo, m), cos_i = -dot(wi, m);
-  if (!(m.z > 0 && cos_o > 0 && cos_i > 0)) return {};
-  // From the thinner side, where cosines near total reflection are small and keep their digits.
-  const float fresnel = eta > 1 ? dielectric_fresnel(std::min(1.0f, cos_o), eta).reflectance
-                                : dielectric_fresnel(std::min(1.0f, cos_i), 1 / eta).reflectance;
-  const float probability = refract_probability(fresnel, options.events);
+  const std::optional<RefractingFacet> facet = refracting_facet(wo, wi, eta);
+  if (!facet) return {};
+  const float probability = refract_probability(facet->fresnel, options.events);
   if (probability == 0) return {};
-  const float jacobian = eta * eta * cos_i / squared;  // of m by i (Walter et al. 2007, eq. 17)
   const float scale = options.transport == Transport::radiance ? 1 / (eta * eta) : 1;
-  const float share = (1 - fresnel) / probability * facets_.shadowing(wo, wi, settings_.masking);
+  const float share =
+      (1 - facet->fresnel) / probability * facets_.shadowing(wo, wi, settings_.masking);
   return {scale * share * settings_.specular_transmittance->evaluate(point),
-          probability * facets_.visible_normal_pdf(wo, m) * jacobian};
+          probability * facets_.visible_normal_pdf(wo, facet->normal) * facet->jacobian};
 }
 
 Rgb RoughDielectric::albedo(const SurfacePoint& point) const {
