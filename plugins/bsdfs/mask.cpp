@@ -12,34 +12,9 @@
 #include <pharos/config/registry.h>
 
 #include "parameters.h"
+#include "pass_through.h"
 
 namespace pharos {
-namespace {
-
-/// A surface that is not there.
-class PassThrough final : public Bsdf {
- public:
-  EventMask events() const override { return mask_of(Event::pass_through); }
-  ScatterValue evaluate(const SurfacePoint&, Vec3, Vec3, ScatterOptions) const override {
-    return {};
-  }
-  std::optional<ScatterSample> sample(const SurfacePoint&, Vec3 wo, float, Vec2,
-                                      ScatterOptions options) const override {
-    if (!contains(options.events, Event::pass_through)) return {};
-    return ScatterSample{-wo, Event::pass_through, Rgb(1), 1};
-  }
-  DiscreteOutcomes discrete(const SurfacePoint&, Vec3 wo, ScatterOptions options) const override {
-    DiscreteOutcomes outcomes;
-    if (contains(options.events, Event::pass_through)) {
-      outcomes.add({Event::pass_through, -wo, Rgb(1), 1});
-    }
-    return outcomes;
-  }
-  float roughness(const SurfacePoint&) const override { return 0; }
-  Rgb albedo(const SurfacePoint&) const override { return Rgb(1); }
-};
-
-}  // namespace
 
 void Mask::Settings::describe(Schema<Settings>& s) {
   s.field("bsdf", &Settings::bsdf, "Material of what is not hole").otherwise("{ type: diffuse }");

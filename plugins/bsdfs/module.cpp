@@ -6,6 +6,7 @@
 #include "diffuse.h"
 #include "diffuse_transmitter.h"
 #include "mask.h"
+#include "pass_through.h"
 #include "plastic.h"
 #include "rough_conductor.h"
 #include "rough_dielectric.h"
@@ -26,6 +27,7 @@ PHAROS_MODULE(registry) {
                                            "Paper and leaves: Lambert's law on both sides");
   registry.add<pharos::TwoSided>("two_sided", "Gives an opaque material a back");
   registry.add<pharos::Mask>("mask", "A material with holes that light passes straight through");
+  registry.add<pharos::PassThrough>("pass_through", "A surface that is not there, around a medium");
   registry.add<pharos::Blend>("blend", "Two materials mixed");
   registry.set_default<pharos::Bsdf>("diffuse");
 }

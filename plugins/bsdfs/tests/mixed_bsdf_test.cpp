@@ -111,6 +111,20 @@ TEST_CASE("blend: value and density are linear mixes") {
         doctest::Approx(0.6 * a->discrete(point, kOut, {}).outcomes[0].probability));
 }
 
+TEST_CASE("blend: any number of materials by nesting, each with its weight") {
+  // 0.2, 0.3 and 0.4 of three, and 0.1 of nothing.
+  const Ref<Bsdf> a = plastic(), b = metal(), c = diffuse(0.7f);
+  const Ref<Bsdf> rest = blend(c, diffuse(0), Rgb(0.1f / 0.5f));
+  const Ref<Bsdf> all = blend(a, blend(b, rest, Rgb(0.5f / 0.8f)), Rgb(0.8f));
+  const auto value = [](const Ref<Bsdf>& bsdf) {
+    return double{bsdf->evaluate({}, kOut, kIn, {}).value.g};
+  };
+  CHECK(value(all) == doctest::Approx(0.2 * value(a) + 0.3 * value(b) + 0.4 * value(c)));
+  CHECK(all->discrete({}, kOut, {}).outcomes[0].value.g ==
+        doctest::Approx(0.2 * a->discrete({}, kOut, {}).outcomes[0].value.g));
+  test::check_samples(*all, kOut, {});
+}
+
 TEST_CASE("blend: discrete events of one kind become one") {
   const SurfacePoint point;
   const Ref<Bsdf> a = plastic(1.3f), b = plastic(1.9f);
