@@ -10,12 +10,14 @@
 #include "plastic.h"
 #include "rough_conductor.h"
 #include "rough_dielectric.h"
+#include "rough_diffuse.h"
 #include "rough_plastic.h"
 #include "thin_dielectric.h"
 #include "two_sided.h"
 
 PHAROS_MODULE(registry) {
   registry.add<pharos::Diffuse>("diffuse", "Lambert's cosine law on the outer side");
+  registry.add<pharos::RoughDiffuse>("rough_diffuse", "Oren and Nayar's grooves of matt facets");
   registry.add<pharos::Conductor>("conductor", "Mirror of a polished metal");
   registry.add<pharos::RoughConductor>("rough_conductor", "GGX microfacets of a metal");
   registry.add<pharos::Dielectric>("dielectric", "Smooth glass: mirror reflection and refraction");
