@@ -7,6 +7,7 @@
 #include "diffuse_transmitter.h"
 #include "mask.h"
 #include "pass_through.h"
+#include "phong.h"
 #include "plastic.h"
 #include "rough_conductor.h"
 #include "rough_dielectric.h"
@@ -25,6 +26,7 @@ PHAROS_MODULE(registry) {
   registry.add<pharos::ThinDielectric>("thin_dielectric", "Clear pane without thickness");
   registry.add<pharos::Plastic>("plastic", "A matt base under a smooth clear coat");
   registry.add<pharos::RoughPlastic>("rough_plastic", "A matt base under a rough clear coat");
+  registry.add<pharos::Phong>("phong", "A matt surface with a lobe about the mirror direction");
   registry.add<pharos::DiffuseTransmitter>("diffuse_transmitter",
                                            "Paper and leaves: Lambert's law on both sides");
   registry.add<pharos::TwoSided>("two_sided", "Gives an opaque material a back");
