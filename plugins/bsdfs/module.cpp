@@ -9,6 +9,7 @@
 #include "pass_through.h"
 #include "phong.h"
 #include "plastic.h"
+#include "principled.h"
 #include "rough_conductor.h"
 #include "rough_dielectric.h"
 #include "rough_diffuse.h"
@@ -27,6 +28,7 @@ PHAROS_MODULE(registry) {
   registry.add<pharos::Plastic>("plastic", "A matt base under a smooth clear coat");
   registry.add<pharos::RoughPlastic>("rough_plastic", "A matt base under a rough clear coat");
   registry.add<pharos::Phong>("phong", "A matt surface with a lobe about the mirror direction");
+  registry.add<pharos::Principled>("principled", "Disney's material for artists, opaque or clear");
   registry.add<pharos::DiffuseTransmitter>("diffuse_transmitter",
                                            "Paper and leaves: Lambert's law on both sides");
   registry.add<pharos::TwoSided>("two_sided", "Gives an opaque material a back");

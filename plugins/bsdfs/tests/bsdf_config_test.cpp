@@ -44,7 +44,11 @@ TEST_CASE("materials: finite at the ends of the ranges of refractive indices") {
         "{ type: rough_dielectric, ior: 100 }", "{ type: thin_dielectric, ior: 0.01 }",
         "{ type: thin_dielectric, ior: 100 }",
         "{ type: plastic, ior: 100, reflectance: 1, nonlinear: true }",
-        "{ type: rough_plastic, ior: 100, reflectance: 1, nonlinear: true }"}) {
+        "{ type: rough_plastic, ior: 100, reflectance: 1, nonlinear: true }",
+        "{ type: principled, ior: 0.01, spec_trans: 0.5 }",
+        "{ type: principled, ior: 100, spec_tint: 1, base_color: [0, 0, 1], roughness: 0 }",
+        "{ type: principled, ior: 1.001, spec_trans: 1, roughness: 0 }",
+        "{ type: phong, exponent: 1e5 }"}) {
     CAPTURE(yaml);
     const Ref<Bsdf> bsdf = build(yaml);
     CHECK(is_finite(bsdf->albedo({})));
@@ -73,6 +77,20 @@ TEST_CASE("materials: wrong settings say what is wrong, and where") {
   fails("{ type: rough_plastic, ior: 1e20 }", "test:1:29: error: ior must be <= 100, got 1e20");
   fails("{ type: plastic, ior: 0.9 }", "test:1:23: error: ior must be >= 1, got 0.9");
   fails("{ type: rough_plastic, alpha: 0 }", "test:1:31: error: alpha must be >= 0.0001, got 0");
+  fails("{ type: rough_diffuse, alpha: 1.1 }",
+        "test:1:31: error: alpha must be at most 1 everywhere, got 1.1");
+  fails("{ type: phong, diffuse_reflectance: 0.7, specular_reflectance: [0.1, 0.4, 0] }",
+        "test:1:1: error: diffuse_reflectance and specular_reflectance, without rescale_to, must "
+        "not add up to more than 1, but their largest values are 0.7 and 0.4");
+  fails("{ type: phong, exponent: 2e5 }",
+        "test:1:26: error: exponent must be in [0, 1e5] everywhere, got 2e5");
+  fails("{ type: principled, ior: 1.4, specular: 0.3 }",
+        "test:1:1: error: 'ior' and 'specular' exclude each other");
+  fails("{ type: principled, specular: 0, spec_trans: 0.5 }",
+        "test:1:1: error: where 'spec_trans' lets light through, the refractive index must differ "
+        "from 1 by at least 0.001, but it is 1");
+  fails("{ type: two_sided, bsdf: { type: principled, spec_trans: 0.1 } }",
+        "test:1:1: error: bsdf must be opaque, but 'principled' lets light through");
   CHECK_THROWS_WITH_AS(build("{ type: blend, first: { type: diffuse } }"),
                        doctest::Contains("'second'"), InputError);
 }

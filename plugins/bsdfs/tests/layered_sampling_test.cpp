@@ -54,10 +54,29 @@ std::vector<Subject> subjects() {
       make<Blend>({.first = make<Blend>({.first = frosted, .second = holes, .weight = red}),
                    .second = make<Blend>({.first = plastic, .second = mixed, .weight = grey}),
                    .weight = blue});
-  return {{"plastic", plastic},        {"rough plastic 0.01", rough(0.01f)},
-          {"rough plastic", rough(1)}, {"diffuse transmitter", sheet},
-          {"two sided", both},         {"mask", holes},
-          {"masked glass", frosted},   {"blend", mixed},
+  const Ref<Bsdf> phong = test::build(
+      "{ type: phong, diffuse_reflectance: [0.1, 0.2, 0.5], specular_reflectance: 0.5, exponent: "
+      "300 }");
+  const Ref<Bsdf> cloth = test::build(
+      "{ type: principled, base_color: [0.1, 0.2, 0.4], roughness: 0.7, sheen: 1, sheen_tint: 0.5, "
+      "flatness: 0.5, spec_tint: 0.3, clearcoat: 0.5, clearcoat_gloss: 0.1 }");
+  const Ref<Bsdf> clear = test::build(
+      "{ type: principled, base_color: [0.9, 0.6, 0.3], roughness: 0.5, spec_trans: 0.8, ior: 1.4, "
+      "metallic: 0.2 }");
+  const Ref<Bsdf> thinner =
+      test::build("{ type: principled, base_color: 0.9, roughness: 0.7, spec_trans: 1, ior: 0.7 }");
+  return {{"phong", phong},
+          {"principled cloth", cloth},
+          {"principled clear", clear},
+          {"principled thinner", thinner},
+          {"plastic", plastic},
+          {"rough plastic 0.01", rough(0.01f)},
+          {"rough plastic", rough(1)},
+          {"diffuse transmitter", sheet},
+          {"two sided", both},
+          {"mask", holes},
+          {"masked glass", frosted},
+          {"blend", mixed},
           {"three deep", three_deep}};
 }
 
@@ -148,8 +167,8 @@ TEST_CASE("layered BSDFs: samples carry all the light there is, and no more than
   for (const Subject& subject : subjects()) {
     CAPTURE(subject.name);
     for (const Vec3 wo : kOutgoing) {
-      const double albedo =
-          test::smooth_albedo(*subject.bsdf, wo) + discrete_albedo(*subject.bsdf, wo, options);
+      const double albedo = test::smooth_albedo(*subject.bsdf, wo, options) +
+                            discrete_albedo(*subject.bsdf, wo, options);
       CHECK(albedo < 1.001);
       std::vector<double> weights;
       for (int i = 0; i < kSamples; ++i) {
