@@ -35,6 +35,11 @@ std::string text(Vec3 v) {
   return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x, v.y, v.z);
 }
 
+/// Texture coordinates run along x and y, a unit over a unit of length.
+SurfacePoint point_at(Vec2 uv) {
+  return {.uv = uv, .tangents = {{1, 0, 0}, {0, 1, 0}}};
+}
+
 std::vector<Vec3> outgoing_directions() {
   return {direction(0, 0),    direction(35, 70),  direction(65, 200),
           direction(85, 320), direction(140, 20), direction(100, 260)};
@@ -45,7 +50,7 @@ std::vector<Question> questions() {
   std::vector<Question> all;
   for (const Vec3 wo : outgoing_directions()) {
     const auto i = static_cast<float>(all.size());
-    const SurfacePoint point{.uv = {std::fmod(0.31f + 0.037f * i, 1.0f), 0.72f - 0.02f * i}};
+    const SurfacePoint point = point_at({std::fmod(0.31f + 0.037f * i, 1.0f), 0.72f - 0.02f * i});
     all.push_back({point, wo, {Transport::radiance, EventMask::all}});
     all.push_back({point, wo, {Transport::importance, EventMask::all}});
     all.push_back({point, wo, {Transport::radiance, EventMask::reflect}});
@@ -165,7 +170,7 @@ void check_adjoint(const Bsdf& bsdf, Suite& suite) {
   check.not_applicable("nothing is scattered");
   RandomStream random(suite.seed(), 2);
   for (int i = 0; i < 2000; ++i) {
-    const SurfacePoint point{.uv = random.next_2d()};
+    const SurfacePoint point = point_at(random.next_2d());
     const Vec3 wo = warp::sphere_from_square(random.next_2d());
     Vec3 wi = warp::sphere_from_square(random.next_2d());
     if (i % 2 == 0) {
@@ -176,21 +181,36 @@ void check_adjoint(const Bsdf& bsdf, Suite& suite) {
     if (std::abs(wo.z) < 0.05f || std::abs(wi.z) < 0.05f) continue;
     check_adjoint_pair(bsdf, point, wo, wi, check);
   }
+  if (bsdf.tilts_normal()) return;  // Snell's law holds about a normal that only the BSDF knows
   for (const Vec3 wo : outgoing_directions()) check_adjoint_outcomes(bsdf, {}, wo, check);
 }
 
-/// Importance transport carries light itself, without the 1/eta^2 of radiance.
+/// How the energy is asked for. Importance transport carries light itself, without the 1/eta^2 of
+/// radiance. About a tilted normal it may gain (Veach 1997, sec. 5.3), and radiance must not.
+Transport energy_transport(const Bsdf& bsdf) {
+  return bsdf.tilts_normal() ? Transport::radiance : Transport::importance;
+}
+
+/// The factor that frees a sample's weight of the 1/eta^2.
+float energy_factor(const Bsdf& bsdf, const Question& q, const ScatterSample& s) {
+  const bool refracted = contains(EventMask::transmit, s.event) && s.event != Event::pass_through;
+  if (q.options.transport == Transport::importance || !refracted) return 1;
+  const float eta = q.wo.z > 0 ? 1 / bsdf.relative_ior() : bsdf.relative_ior();
+  return eta * eta;
+}
+
 void check_energy(const Bsdf& bsdf, Suite& suite) {
   constexpr double kTolerance = 0.005;
   Check& check = suite.check("energy");
   for (const Vec3 wo : outgoing_directions()) {
-    const Question q{{.uv = {0.4f, 0.6f}}, wo, {Transport::importance}};
+    const Question q{point_at({0.4f, 0.6f}), wo, {energy_transport(bsdf)}};
     RandomStream random(suite.seed(), 3);
     std::array<std::vector<double>, 3> weights;
     for (int i = 0; i < 10'000; ++i) {
       const auto s = draw(bsdf, q, random);
       for (int c = 0; c < 3; ++c) {
-        weights[static_cast<std::size_t>(c)].push_back(s ? double{s->weight[c]} : 0);
+        weights[static_cast<std::size_t>(c)].push_back(
+            s ? double{energy_factor(bsdf, q, *s) * s->weight[c]} : 0);
       }
     }
     for (const std::vector<double>& channel : weights) {
@@ -302,7 +322,7 @@ void check_finite(const Bsdf& bsdf, Suite& suite) {
   Check& check = suite.check("finite");
   for (const Vec3 wo : extreme_directions()) {
     for (const Transport transport : {Transport::radiance, Transport::importance}) {
-      check_finite_from(bsdf, {{}, wo, {transport}}, check);
+      check_finite_from(bsdf, {point_at({}), wo, {transport}}, check);
     }
   }
   const float roughness = bsdf.roughness({});

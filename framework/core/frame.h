@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include <pharos/core/vec.h>
 
 namespace pharos {
@@ -15,6 +17,18 @@ struct Frame {
     const float a = -1 / (sign + n.z);
     const float b = n.x * n.y * a;
     return {{1 + sign * n.x * n.x * a, sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}, n};
+  }
+
+  /// The frame around the unit normal `n` whose s is as near as may be to `tangent`, of any length;
+  /// as from_normal() where the two are parallel, or the tangent is zero or not finite.
+  static Frame along(Vec3 n, Vec3 tangent) {
+    const Vec3 s = tangent - dot(tangent, n) * n;
+    // In double, as squares may be beyond what a float can hold.
+    const double size = std::hypot(double{s.x}, double{s.y}, double{s.z});
+    if (!(size > 0) || !std::isfinite(size)) return from_normal(n);
+    const Vec3 unit{static_cast<float>(s.x / size), static_cast<float>(s.y / size),
+                    static_cast<float>(s.z / size)};
+    return {unit, cross(n, unit), n};
   }
 
   Vec3 to_local(Vec3 v) const { return {dot(v, s), dot(v, t), dot(v, n)}; }

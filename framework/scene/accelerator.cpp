@@ -174,6 +174,11 @@ void note_error(void* first, RTCError, const char* message) {
   if (text.empty()) text = message != nullptr && *message != '\0' ? message : "unknown reason";
 }
 
+/// Out of line, so that hits of other materials pay for no more than the question.
+[[gnu::noinline]] void add_tangents(const Shape& shape, SurfacePoint& point) {
+  point.set_tangents(shape.uv_tangents(point));
+}
+
 }  // namespace
 
 void Scene::Accelerator::Release::operator()(RTCDeviceTy* device) const {
@@ -205,7 +210,8 @@ Scene::Accelerator::EmbreeScene Scene::Accelerator::scene_of(
   rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
   rtcSetSceneBuildQuality(scene.get(), RTC_BUILD_QUALITY_HIGH);
   for (std::size_t i = 0; i < objects.size(); ++i) {
-    const Geometry known{objects[i].shape->mesh(), objects[i].shape.get()};
+    const Geometry known{objects[i].shape->mesh(), objects[i].shape.get(),
+                         objects[i].bsdf->needs_tangents()};
     attach(scene.get(),
            known.mesh != nullptr ? mesh_geometry(device_.get(), *known.mesh)
                                  : analytic_geometry(device_.get(), *known.shape),
@@ -255,6 +261,8 @@ inline float Scene::Accelerator::intersect(const Ray& ray, SurfacePoint& point) 
         ray, {.t = t, .coordinates = {query.hit.u, query.hit.v}, .primitive = query.hit.primID}));
   }
   point.object = query.hit.geomID;
+  if (geometry.needs_tangents) [[unlikely]]
+    add_tangents(*geometry.shape, point);
   return t;
 }
 
@@ -280,6 +288,9 @@ inline float Scene::Accelerator::intersect(const Ray& ray, SurfacePoint& point) 
   }
   ::new (&point) SurfacePoint(instance.placement.to_world(local, error.world));
   point.object = object;
+  if (geometry.needs_tangents) {
+    point.set_tangents(instance.placement.to_world(geometry.shape->uv_tangents(local)));
+  }
 }
 
 inline bool Scene::Accelerator::occluded(const Ray& ray) const {

@@ -35,6 +35,7 @@ class Scene::Accelerator {
   struct Geometry {
     const TriangleMesh* mesh;
     const Shape* shape;
+    bool needs_tangents;  ///< its material does
   };
 
   struct Instance {

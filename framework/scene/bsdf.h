@@ -53,12 +53,13 @@ struct ScatterOptions {
 
 /// Contract: how a surface scatters light. Thread-safe, free of randomness.
 ///
-/// Protocol: directions are unit vectors in the shading frame (z is the shading normal) and point
-/// away from the surface; `wo` is where the path came from, `wi` where it goes. sample() draws one
-/// event and direction; evaluate() gives value and density of the smooth events for a direction;
-/// discrete() lists the discrete ones. For every sample `weight == value / pdf`, where value and
-/// pdf are those of evaluate() (smooth) or of the listed outcome (discrete). For radiance
-/// transport through an interface values include the factor 1/eta^2 of compressed solid angle.
+/// Protocol: directions are unit vectors in the shading frame (z is the shading normal, x and y are
+/// arbitrary unless needs_tangents()) and point away from the surface; `wo` is where the path came
+/// from, `wi` where it goes. sample() draws one event and direction; evaluate() gives value and
+/// density of the smooth events for a direction; discrete() lists the discrete ones. For every
+/// sample `weight == value / pdf`, where value and pdf are those of evaluate() (smooth) or of the
+/// listed outcome (discrete). For radiance transport through an interface values include the factor
+/// 1/eta^2 of compressed solid angle.
 class Bsdf : public Component {
  public:
   static constexpr std::string_view contract_name = "bsdf";
@@ -87,6 +88,16 @@ class Bsdf : public Component {
 
   /// Approximate fraction of light scattered [1]; for the albedo image.
   virtual Rgb albedo(const SurfacePoint& point) const = 0;
+
+  /// Whether it depends on the directions of x and y, or on SurfacePoint::tangents. Only then are
+  /// these along the surface's texture coordinates; it costs time at every hit. BSDFs that contain
+  /// others ask for what these ask for.
+  virtual bool needs_tangents() const { return false; }
+
+  /// Whether it scatters about another normal than z, as a bump map does. Such a BSDF keeps
+  /// radiance, but as with shading normals, importance may gain: its values f |cos(wi)| have the
+  /// cosine to that other normal. BSDFs that contain others tilt if one of these does.
+  virtual bool tilts_normal() const { return false; }
 };
 
 }  // namespace pharos

@@ -28,15 +28,6 @@ Point3 precise_point(const Transform& map, Point3 p) {
   return image;
 }
 
-/// The frame around the unit normal `n` whose tangent is as near as may be to `tangent`.
-Frame frame_along(Vec3 n, Vec3 tangent) {
-  const Vec3 s = tangent - dot(tangent, n) * n;
-  const double size = length_of(s);
-  if (!(size > 0)) return Frame::from_normal(n);
-  const Vec3 unit = scaled(s, 1 / size);
-  return {unit, cross(n, unit), n};
-}
-
 }  // namespace
 
 Bounds3 placed_bounds(const Bounds3& local, const Transform& to_world) {
@@ -130,8 +121,8 @@ SurfacePoint Placement::to_world(const SurfacePoint& local, float error) const {
   const float side = dot(shading, point.normal);
   point.shading = side == 0
                       ? Frame::from_normal(point.normal)
-                      : frame_along(scaled(shading, std::copysign(1 / length_of(shading), side)),
-                                    to_world_.vector(local.shading.s));
+                      : Frame::along(scaled(shading, std::copysign(1 / length_of(shading), side)),
+                                     to_world_.vector(local.shading.s));
   return point;
 }
 

@@ -35,6 +35,10 @@ class Placement {
   PlacementError error_at(const SurfacePoint& local) const;
   /// The point in world space; `error` is that of error_at().
   SurfacePoint to_world(const SurfacePoint& local, float error) const;
+  /// Tangents in world space.
+  UvTangents to_world(const UvTangents& local) const {
+    return {to_world_.vector(local.du), to_world_.vector(local.dv)};
+  }
 
  private:
   Transform to_world_;

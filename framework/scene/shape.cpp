@@ -146,6 +146,19 @@ SurfacePoint TriangleMesh::surface_point(std::uint32_t triangle, float b1, float
   return point;
 }
 
+UvTangents TriangleMesh::uv_tangents(std::uint32_t triangle) const {
+  const auto [i0, i1, i2] = triangles[triangle];
+  const Vec3d origin(positions[i0]);
+  const Vec3d e1 = Vec3d(positions[i1]) - origin, e2 = Vec3d(positions[i2]) - origin;
+  if (uvs.empty()) return {to_float(e1), to_float(e2)};  // the coordinates are the weights of both
+  const double u1 = double{uvs[i1].x} - uvs[i0].x, v1 = double{uvs[i1].y} - uvs[i0].y;
+  const double u2 = double{uvs[i2].x} - uvs[i0].x, v2 = double{uvs[i2].y} - uvs[i0].y;
+  const double determinant = u1 * v2 - u2 * v1;
+  const UvTangents found{to_float((1 / determinant) * (v2 * e1 - v1 * e2)),
+                         to_float((1 / determinant) * (u1 * e2 - u2 * e1))};
+  return is_finite(found.du) && is_finite(found.dv) ? found : UvTangents{};
+}
+
 float TriangleMesh::area(std::uint32_t triangle) const {
   const auto [i0, i1, i2] = triangles[triangle];
   const Vec3d origin(positions[i0]);
@@ -161,6 +174,11 @@ Bounds3 TriangleMesh::bounds() const {
 
 SurfacePoint Shape::surface_point(const Ray&, const PrimitiveHit& hit) const {
   return mesh()->surface_point(hit.primitive, hit.coordinates.x, hit.coordinates.y);
+}
+
+UvTangents Shape::uv_tangents(const SurfacePoint& point) const {
+  const TriangleMesh* triangles = mesh();
+  return triangles != nullptr ? triangles->uv_tangents(point.primitive) : UvTangents{};
 }
 
 ShapeSample Shape::sample_from(Point3 from, Vec2 u) const {

@@ -42,6 +42,9 @@ struct TriangleMesh {
   SurfacePoint surface_point(std::uint32_t triangle, float b1, float b2) const;
   /// The position of surface_point(), kept `margin` away from the edges instead [scene units].
   Point3 position_off_edges(std::uint32_t triangle, float b1, float b2, float margin) const;
+  /// How the position moves with the texture coordinates, the same all over a triangle; zero where
+  /// these have no area in it.
+  UvTangents uv_tangents(std::uint32_t triangle) const;
   /// [scene units^2]
   float area(std::uint32_t triangle) const;
   Bounds3 bounds() const;
@@ -86,6 +89,10 @@ class Shape : public Component {
   virtual bool intersect(const Ray&, std::uint32_t, PrimitiveHit&) const { return false; }
   /// The surface at a hit that intersect() or Embree reported; `object` is filled in by Scene.
   virtual SurfacePoint surface_point(const Ray& ray, const PrimitiveHit& hit) const;
+
+  /// How the position moves with the texture coordinates at a point that surface_point() gave; zero
+  /// where it has no derivative. By default that of the triangle; zero for analytic shapes.
+  virtual UvTangents uv_tangents(const SurfacePoint& point) const;
 
   /// Uniform over the area; pdf 1 / area() [1/m^2].
   virtual ShapeSample sample(Vec2 u) const = 0;

@@ -31,6 +31,10 @@ class MixedBsdf : public Bsdf {
   float roughness(const SurfacePoint& point) const override;
   float relative_ior() const override;
   Rgb albedo(const SurfacePoint& point) const override;
+  bool needs_tangents() const override {
+    return first_->needs_tangents() || second_->needs_tangents();
+  }
+  bool tilts_normal() const override { return first_->tilts_normal() || second_->tilts_normal(); }
 
  private:
   /// One of the two, as it takes part at a point.

@@ -26,6 +26,10 @@ class TwoSided final : public Bsdf {
   float roughness(const SurfacePoint& point) const override;
   /// The front's: which side is seen is not asked.
   Rgb albedo(const SurfacePoint& point) const override { return front_->albedo(point); }
+  bool needs_tangents() const override {
+    return front_->needs_tangents() || back_->needs_tangents();
+  }
+  bool tilts_normal() const override { return front_->tilts_normal() || back_->tilts_normal(); }
 
  private:
   Ref<Bsdf> front_, back_;

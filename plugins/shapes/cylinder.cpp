@@ -119,6 +119,12 @@ SurfacePoint Cylinder::surface_near(Double3 local) const {
   return point;
 }
 
+UvTangents Cylinder::uv_tangents(const SurfacePoint& point) const {
+  const Double3 outward((flip_normals_ ? -1.0f : 1.0f) * point.normal);
+  const Double3 by_azimuth = dot(outward, side_) * across_ - dot(outward, across_) * side_;
+  return {Vec3(kFullTurn * radius_ * by_azimuth), Vec3(height_ * axis_)};
+}
+
 ShapeSample Cylinder::sample(Vec2 u) const {
   const double azimuth = kFullTurn * u.x;
   return {.point = surface_near({std::cos(azimuth), std::sin(azimuth), u.y * height_}),

@@ -30,6 +30,7 @@ class Cylinder : public Shape {
   /// The hit's first coordinate says which of the line's two meetings it is, 0 or 1.
   bool intersect(const Ray& ray, std::uint32_t primitive, PrimitiveHit& hit) const override;
   SurfacePoint surface_point(const Ray& ray, const PrimitiveHit& hit) const override;
+  UvTangents uv_tangents(const SurfacePoint& point) const override;
   ShapeSample sample(Vec2 u) const override;
   /// Uniform over height and projected angle, on the side of the wall whose outer side faces
   /// `from`; over the whole wall from inside.

@@ -96,6 +96,10 @@ SurfacePoint Disk::surface_at(Vec2 local) const {
   return point;
 }
 
+UvTangents Disk::uv_tangents(const SurfacePoint&) const {
+  return {2 * axis_x_, 2 * axis_y_};
+}
+
 ShapeSample Disk::sample(Vec2 u) const {
   return {.point = surface_at(warp::disk_from_square(u)), .pdf = 1 / area_};
 }

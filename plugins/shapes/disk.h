@@ -24,6 +24,7 @@ class Disk : public Shape {
   /// The hit's coordinates are the local x and y.
   bool intersect(const Ray& ray, std::uint32_t primitive, PrimitiveHit& hit) const override;
   SurfacePoint surface_point(const Ray& ray, const PrimitiveHit& hit) const override;
+  UvTangents uv_tangents(const SurfacePoint& point) const override;
   ShapeSample sample(Vec2 u) const override;
 
  private:

@@ -98,6 +98,16 @@ void Heightfield::Settings::describe(Schema<Settings>& s) {
 Heightfield::Heightfield(const Settings& settings)
     : TriangleShape(transformed(Grid(settings).mesh(settings.smooth), settings.to_world,
                                 settings.flip_normals),
-                    "heightfield") {}
+                    "heightfield"),
+      along_u_(settings.to_world.vector({2, 0, 0})),
+      along_v_(settings.to_world.vector({0, 2, 0})),
+      upwards_(settings.to_world.vector({0, 0, 1})) {}
+
+UvTangents Heightfield::uv_tangents(const SurfacePoint& point) const {
+  const Vec3 n = point.shading.n;
+  const float rise = dot(n, upwards_);  // not zero: the surface never stands upright
+  return {along_u_ - dot(n, along_u_) / rise * upwards_,
+          along_v_ - dot(n, along_v_) / rise * upwards_};
+}
 
 }  // namespace pharos

@@ -108,6 +108,16 @@ void Lathe::Settings::describe(Schema<Settings>& s) {
 
 Lathe::Lathe(const Settings& settings)
     : TriangleShape(transformed(turned(settings), settings.to_world, settings.flip_normals),
-                    "lathe") {}
+                    "lathe"),
+      to_world_(settings.to_world),
+      smooth_(settings.smooth) {}
+
+UvTangents Lathe::uv_tangents(const SurfacePoint& point) const {
+  UvTangents tangents = TriangleShape::uv_tangents(point);
+  if (!smooth_) return tangents;
+  const Point3 local = to_world_.inverse_point(point.position);
+  tangents.du = 2 * kPi * to_world_.vector({-local.y, local.x, 0});
+  return tangents;
+}
 
 }  // namespace pharos

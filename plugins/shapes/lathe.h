@@ -34,6 +34,13 @@ class Lathe : public TriangleShape {
 
   /// Throws InputError for profiles that enclose no surface.
   explicit Lathe(const Settings& settings);
+
+  /// Of smooth ones, du follows the circle instead of the facet, as the normals do.
+  UvTangents uv_tangents(const SurfacePoint& point) const override;
+
+ private:
+  Transform to_world_;
+  bool smooth_;
 };
 
 }  // namespace pharos

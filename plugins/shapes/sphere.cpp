@@ -92,6 +92,18 @@ SurfacePoint Sphere::surface_towards(Double3 outward) const {
   return point;
 }
 
+UvTangents Sphere::uv_tangents(const SurfacePoint& point) const {
+  const Vec3 outward = flip_normals_ ? -point.normal : point.normal;
+  const Vec3 local = normalize(to_world_.inverse_vector(outward));
+  const float beside_axis = std::hypot(local.x, local.y);
+  if (beside_axis == 0) return {};
+  const Vec3 by_azimuth{-local.y, local.x, 0};
+  const Vec3 by_polar{local.x * local.z / beside_axis, local.y * local.z / beside_axis,
+                      -beside_axis};
+  const float scale = radius_ / length(to_world_.vector({0, 0, 1}));
+  return {2 * kPi * scale * to_world_.vector(by_azimuth), kPi * scale * to_world_.vector(by_polar)};
+}
+
 ShapeSample Sphere::sample(Vec2 u) const {
   const Vec3 n = warp::sphere_from_square(u);
   return {.point = surface_towards(Double3(n)), .pdf = 1 / area()};

@@ -29,6 +29,7 @@ class Sphere : public Shape {
   float area() const override { return 4 * kPi * radius_ * radius_; }
   bool intersect(const Ray& ray, std::uint32_t primitive, PrimitiveHit& hit) const override;
   SurfacePoint surface_point(const Ray& ray, const PrimitiveHit& hit) const override;
+  UvTangents uv_tangents(const SurfacePoint& point) const override;
   ShapeSample sample(Vec2 u) const override;
   /// From outside uniform over the cone of directions that meet the sphere; from inside as
   /// sample().
