@@ -47,21 +47,28 @@ inline float beta_function(float a, float b) {
   return (sum - 2) * (sum - 1) / (a * b) * std::exp(log_beta);
 }
 
-/// The isotropic GGX distribution of microfacet normals with Smith masking (Walter et al. 2007,
-/// "Microfacet Models for Refraction through Rough Surfaces"; Heitz 2014, "Understanding the
-/// Masking-Shadowing Function"). All directions are unit vectors with z > 0 but where said
-/// otherwise; nothing divides by a cosine that may vanish.
+/// The GGX distribution of microfacet normals with Smith masking (Walter et al. 2007, "Microfacet
+/// Models for Refraction through Rough Surfaces"; Heitz 2014, "Understanding the Masking-Shadowing
+/// Function"), stretched along x or y where these have roughnesses of their own. All directions are
+/// unit vectors with z > 0 but where said otherwise; nothing divides by a cosine that may vanish.
 class GgxDistribution {
  public:
   /// `alpha` in (0, 1].
-  explicit GgxDistribution(float alpha) : alpha_(alpha) {}
+  explicit GgxDistribution(float alpha) : GgxDistribution(alpha, alpha) {}
+  /// Roughness along x and along y, in (0, 1].
+  GgxDistribution(float alpha_x, float alpha_y)
+      : alpha_x_(alpha_x),
+        alpha_y_(alpha_y),
+        y_over_x_(alpha_y / alpha_x),
+        x_over_y_(alpha_x / alpha_y) {}
 
   /// Density of facets with normal `m` over projected solid angle [1/sr].
   float density(Vec3 m) const {
-    const float alpha_squared = alpha_ * alpha_;
+    const float product = alpha_x_ * alpha_y_;
     // The form in x and y keeps its digits for smooth surfaces, where m.z is nearly one.
-    const float t = m.x * m.x + m.y * m.y + alpha_squared * m.z * m.z;
-    return alpha_squared / (kPi * t * t);
+    const float x = y_over_x_ * m.x, y = x_over_y_ * m.y;
+    const float t = x * m.x + y * m.y + product * m.z * m.z;
+    return product / (kPi * t * t);
   }
 
   /// The share G1(w) of facets' area that is visible from `w` [1] (Walter et al. 2007, eq. 34).
@@ -100,12 +107,12 @@ class GgxDistribution {
   /// A normal visible from `wo`, of density visible_normal_pdf(): spherical caps (Dupuy and Benyoub
   /// 2023, "Sampling Visible GGX Normals with Spherical Caps").
   Vec3 sample_visible_normal(Vec3 wo, Vec2 u) const {
-    const Vec3 o = normalize(Vec3{alpha_ * wo.x, alpha_ * wo.y, wo.z});
+    const Vec3 o = normalize(Vec3{alpha_x_ * wo.x, alpha_y_ * wo.y, wo.z});
     const float z = 1 - u.y * (1 + o.z);
     const float sine = safe_sqrt((1 - z) * (1 + z));
     const float phi = 2 * kPi * u.x;
     const Vec3 m = Vec3{sine * std::cos(phi), sine * std::sin(phi), z} + o;
-    return normalize(Vec3{alpha_ * m.x, alpha_ * m.y, std::max(0.0f, m.z)});
+    return normalize(Vec3{alpha_x_ * m.x, alpha_y_ * m.y, std::max(0.0f, m.z)});
   }
 
  private:
@@ -115,12 +122,14 @@ class GgxDistribution {
     return std::clamp(0.5f * (stretched_length(w) / w.z - 1), 0.0f, 1e17f);
   }
   /// Length of `w` in the space where the surface has roughness one: cos(w) sqrt(1 + alpha^2
-  /// tan^2).
+  /// tan^2), with the alpha of its azimuth (Heitz 2014, eq. 80).
   float stretched_length(Vec3 w) const {
-    return std::sqrt(alpha_ * alpha_ * (w.x * w.x + w.y * w.y) + w.z * w.z);
+    const float y = y_over_x_ * w.y;
+    return std::sqrt(alpha_x_ * alpha_x_ * (w.x * w.x + y * y) + w.z * w.z);
   }
 
-  float alpha_;
+  float alpha_x_, alpha_y_;
+  float y_over_x_, x_over_y_;  ///< ratios of the two, exactly one where they are the same
 };
 
 }  // namespace pharos

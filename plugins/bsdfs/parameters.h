@@ -40,6 +40,17 @@ void describe_share(Schema<Settings>& s, std::string key, Ref<Texture> Settings:
              [](const Ref<Texture>& t) { return max_component(t->maximum()) <= 1; });
 }
 
+/// Declares `alpha` and `alpha_v`, the roughness of a surface that may be brushed.
+template <class Settings>
+void describe_roughness(Schema<Settings>& s) {
+  s.field("alpha", &Settings::alpha, "GGX roughness; along u, where alpha_v is given")
+      .at_least(1e-4)
+      .at_most(1);
+  s.field("alpha_v", &Settings::alpha_v, "GGX roughness along v; without it as along u")
+      .at_least(1e-4)
+      .at_most(1);
+}
+
 /// Declares a texture that scales what is reflected or transmitted: 1 unless stated.
 template <class Settings>
 void describe_factor(Schema<Settings>& s, std::string key, Ref<Texture> Settings::*member,

@@ -10,7 +10,11 @@
 // renderers before Heitz 2014, Mitsuba 0.6 among them. Single precision resolves alpha down to
 // about 0.001; below, lobes become grainy, so less than 0.0001 is refused.
 //
+// With `alpha_v` facets are tilted by different amounts along u and v of the texture coordinates.
+// Metal brushed along u is smooth along u and rough along v: `alpha` is less than `alpha_v`.
+//
 //     { type: rough_conductor, alpha: 0.15, material: Au }
+//     { type: rough_conductor, alpha: 0.05, alpha_v: 0.3, material: Al }
 //     { type: rough_conductor, alpha: 0.15, eta: [1.66, 0.88, 0.52], k: [9.2, 6.27, 4.84] }
 #include "rough_conductor.h"
 
@@ -20,7 +24,7 @@
 namespace pharos {
 
 void RoughConductor::Settings::describe(Schema<Settings>& s) {
-  s.field("alpha", &Settings::alpha, "GGX roughness").at_least(1e-4).at_most(1);
+  describe_roughness(s);
   describe_metal(s);
   s.field("masking", &Settings::masking, "How masking and shadowing are combined");
   describe_factor(s, "specular_reflectance", &Settings::specular_reflectance,
@@ -28,13 +32,14 @@ void RoughConductor::Settings::describe(Schema<Settings>& s) {
   s.example("{ alpha: 0.02, material: Au }");
   s.example(
       "{ alpha: 0.4, material: Al, masking: separable, specular_reflectance: [0.9, 0.5, 0.2] }");
+  s.example("{ alpha: 0.5, alpha_v: 0.1, material: Cu }");
   s.example("{ alpha: 1, eta: [1.66, 0.88, 0.52], k: [9.2, 6.27, 4.84] }");
 }
 
 RoughConductor::RoughConductor(const Settings& settings)
     : settings_(settings),
       ior_(stated_ior(settings.material, settings.eta, settings.k)),
-      facets_(settings.alpha),
+      facets_(alpha_u(), alpha_v()),
       average_fresnel_(average_conductor_fresnel(ior_)) {}
 
 ScatterValue RoughConductor::evaluate(const SurfacePoint& point, Vec3 wo, Vec3 wi,

@@ -14,6 +14,7 @@ class RoughConductor final : public Bsdf {
  public:
   struct Settings {
     float alpha = 0.1f;
+    std::optional<float> alpha_v;
     std::optional<Metal> material;
     std::optional<Rgb> eta, k;
     Masking masking = Masking::height_correlated;
@@ -27,10 +28,13 @@ class RoughConductor final : public Bsdf {
                         ScatterOptions options) const override;
   std::optional<ScatterSample> sample(const SurfacePoint& point, Vec3 wo, float u_choice, Vec2 u,
                                       ScatterOptions options) const override;
-  float roughness(const SurfacePoint&) const override { return settings_.alpha; }
+  float roughness(const SurfacePoint&) const override { return std::min(alpha_u(), alpha_v()); }
   Rgb albedo(const SurfacePoint& point) const override;
+  bool needs_tangents() const override { return alpha_u() != alpha_v(); }
 
  private:
+  float alpha_u() const { return settings_.alpha; }
+  float alpha_v() const { return settings_.alpha_v.value_or(settings_.alpha); }
   /// An evaluation with the quotient of value and pdf, which needs no D(m).
   struct Reflection {
     Rgb weight;

@@ -11,6 +11,8 @@
 // What bounces between facets is lost, as usual. `masking: separable` is the product G1(o) G1(i) of
 // Walter et al., Mitsuba 0.6 among the renderers that have it.
 //
+// `alpha_v` is as in rough_conductor.
+//
 // The nearer `ior` comes to one, the narrower is the refracted lobe, and at one it is a single
 // direction: alpha |ior - 1| of less than 3e-5, where single precision no longer resolves it, is
 // refused. `dielectric` and surfaces without material take over there.
@@ -42,7 +44,7 @@ float refract_probability(float fresnel, EventMask allowed) {
 }  // namespace
 
 void RoughDielectric::Settings::describe(Schema<Settings>& s) {
-  s.field("alpha", &Settings::alpha, "GGX roughness").at_least(1e-4).at_most(1);
+  describe_roughness(s);
   describe_ior(s, "Refractive index inside over outside");
   s.field("masking", &Settings::masking, "How masking and shadowing are combined");
   describe_both_factors(s, "refracted");
@@ -51,14 +53,15 @@ void RoughDielectric::Settings::describe(Schema<Settings>& s) {
   s.example(
       "{ alpha: 1, ior: 2.4, specular_reflectance: 0.8, specular_transmittance: [0.2, 0.7, 1] }");
   s.example("{ alpha: 0.2, ior: 1.02 }");
+  s.example("{ alpha: 0.05, alpha_v: 0.4 }");
 }
 
 RoughDielectric::RoughDielectric(const Settings& settings)
     : settings_(settings),
-      facets_(settings.alpha),
+      facets_(alpha_u(), alpha_v()),
       average_fresnel_(average_dielectric_fresnel(settings.ior)) {
   constexpr float kNarrowest = 3e-5f;
-  const float width = settings.alpha * std::abs(settings.ior - 1);
+  const float width = std::min(alpha_u(), alpha_v()) * std::abs(settings.ior - 1);
   if (!(width >= kNarrowest)) {
     throw InputError(
         fmt::format("rough_dielectric: alpha * |ior - 1| must be at least {:g}, got "

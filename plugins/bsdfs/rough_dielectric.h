@@ -13,6 +13,7 @@ class RoughDielectric final : public Bsdf {
  public:
   struct Settings {
     float alpha = 0.1f;
+    std::optional<float> alpha_v;
     float ior = 1.5f;
     Masking masking = Masking::height_correlated;
     Ref<Texture> specular_reflectance, specular_transmittance;
@@ -28,11 +29,14 @@ class RoughDielectric final : public Bsdf {
                         ScatterOptions options) const override;
   std::optional<ScatterSample> sample(const SurfacePoint& point, Vec3 wo, float u_choice, Vec2 u,
                                       ScatterOptions options) const override;
-  float roughness(const SurfacePoint&) const override { return settings_.alpha; }
+  float roughness(const SurfacePoint&) const override { return std::min(alpha_u(), alpha_v()); }
   float relative_ior() const override { return 1 / settings_.ior; }
   Rgb albedo(const SurfacePoint& point) const override;
+  bool needs_tangents() const override { return alpha_u() != alpha_v(); }
 
  private:
+  float alpha_u() const { return settings_.alpha; }
+  float alpha_v() const { return settings_.alpha_v.value_or(settings_.alpha); }
   /// An evaluation with the quotient of value and pdf, which needs no D(m).
   struct Scattering {
     Rgb weight;

@@ -1,0 +1,45 @@
+// normal_map: a material whose shading normal is read from a picture. Red, green and blue in [0, 1]
+// stand for the components in [-1, 1] along dp/du, along dp/dv (as far as it is orthogonal to
+// dp/du) and along the shading normal; (0.5, 0.5, 1) tilts nothing, though 8 bits cannot say
+// exactly 0.5. Length does not matter. Green runs with v, from the bottom of the picture to its
+// top; maps made for the other direction have to be inverted. Where texture coordinates run the
+// other way round, as on mirrored halves of a model, green follows v. Such pictures are linear:
+// 8-bit files need `color_space: linear`.
+//
+// What is lost where the map is steep is as with bump_map; where texture coordinates have no
+// derivative nothing is tilted.
+//
+//     type: normal_map
+//     texture: { type: bitmap, file: bricks_normal.png, color_space: linear }
+//     bsdf: { type: diffuse, reflectance: [0.5, 0.2, 0.1] }
+#include "normal_map.h"
+
+#include <pharos/config/registry.h>
+
+namespace pharos {
+
+void NormalMap::Settings::describe(Schema<Settings>& s) {
+  s.field("bsdf", &Settings::bsdf, "Material that is tilted").otherwise("{ type: diffuse }");
+  s.field("texture", &Settings::texture, "Normals, linear")
+      .required()
+      .check("at most 1 everywhere",
+             [](const Ref<Texture>& t) { return max_component(t->maximum()) <= 1; });
+  s.example("{ texture: [0.6, 0.35, 0.9] }");
+  s.example(
+      "{ texture: { type: bitmap, file: example.png, color_space: linear }, "
+      "bsdf: { type: rough_plastic, alpha: 0.3 } }");
+  s.example("{ texture: [0.4, 0.7, 1], bsdf: { type: rough_dielectric, alpha: 0.3 } }");
+  s.example(
+      "{ texture: [0.4, 0.45, 1], bsdf: { type: normal_map, texture: [0.5, 0.6, 1], "
+      "bsdf: { type: two_sided, bsdf: { type: plastic } } } }");
+}
+
+Vec3 NormalMap::normal(const SurfacePoint& point) const {
+  if (point.tangents.du == Vec3{}) return {0, 0, 1};
+  const Rgb c = texture_->evaluate(point);
+  const bool mirrored = dot(point.tangents.dv, point.shading.t) < 0;
+  const float along_v = 2 * c.g - 1;
+  return {2 * c.r - 1, mirrored ? -along_v : along_v, 2 * c.b - 1};
+}
+
+}  // namespace pharos
