@@ -31,6 +31,12 @@ class BlackBsdf : public Bsdf {
   Rgb albedo(const SurfacePoint&) const override { return {}; }
 };
 
+/// Asks for tangents, as brushed metal does.
+class BrushedBsdf : public BlackBsdf {
+ public:
+  bool needs_tangents() const override { return true; }
+};
+
 class MeshShape : public Shape {
  public:
   explicit MeshShape(TriangleMesh triangles) : mesh_(std::move(triangles)) {}

@@ -22,6 +22,7 @@
 #include "ward.h"
 
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -117,7 +118,7 @@ std::optional<ScatterSample> Ward::sample(const SurfacePoint& point, Vec3 wo, fl
   const Vec3 wi = both.choice.takes_first(u_choice) ? sample_glossy(wo, u)
                                                     : warp::cosine_hemisphere_from_square(u);
   const ScatterValue value = scattered(both, wo, wi);
-  if (value.pdf == 0) return {};
+  if (value.pdf < std::numeric_limits<float>::min()) return {};  // its inverse may be infinite
   return ScatterSample{wi, Event::smooth_reflect, value.value / value.pdf, value.pdf};
 }
 

@@ -116,7 +116,9 @@ UvTangents Lathe::uv_tangents(const SurfacePoint& point) const {
   UvTangents tangents = TriangleShape::uv_tangents(point);
   if (!smooth_) return tangents;
   const Point3 local = to_world_.inverse_point(point.position);
-  tangents.du = 2 * kPi * to_world_.vector({-local.y, local.x, 0});
+  const Vec3 around = to_world_.vector({-local.y, local.x, 0});
+  const float size = length(around);
+  if (size > 0) tangents.du = length(tangents.du) / size * around;
   return tangents;
 }
 

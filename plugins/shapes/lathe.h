@@ -35,7 +35,7 @@ class Lathe : public TriangleShape {
   /// Throws InputError for profiles that enclose no surface.
   explicit Lathe(const Settings& settings);
 
-  /// Of smooth ones, du follows the circle instead of the facet, as the normals do.
+  /// Of smooth ones, du has the direction of the circle instead of the facet's, as normals do.
   UvTangents uv_tangents(const SurfacePoint& point) const override;
 
  private:
