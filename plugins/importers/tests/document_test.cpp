@@ -124,6 +124,12 @@ TEST_CASE("variables: the caller's values before the first default") {
   CHECK(value<std::string>(*read_text(text, {{"a", "7"}}).scene, "s") == "7 2 7-2 $a $[x] 2c");
 }
 
+TEST_CASE("variables that only the caller gives") {
+  const std::string text = "<scene version=\"2.1.0\"><string name=\"s\" value=\"$a\"/></scene>";
+  CHECK(value<std::string>(*read_text(text, {{"a", "7"}}).scene, "s") == "7");
+  CHECK(refusal(text) == "scene.xml:1:48: error: unknown variable '$a'");
+}
+
 TEST_CASE("included scenes give their children, included objects themselves") {
   const test::TemporaryFolder folder;
   std::filesystem::create_directories(folder / "parts/deep");

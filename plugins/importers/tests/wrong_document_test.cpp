@@ -218,6 +218,11 @@ TEST_CASE("a million elements") {
   CHECK(wrong(text) == "4000020: error: expected at most a million elements");
 }
 
+TEST_CASE("eight million attributes") {
+  CHECK(wrong("<x " + std::string(8'000'000, '=')) ==
+        "8000026: error: expected at most eight million attributes");
+}
+
 TEST_CASE("includes") {
   const test::TemporaryFolder folder;
   const auto file = folder.write("scene.xml",
