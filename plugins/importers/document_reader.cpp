@@ -152,7 +152,7 @@ Property::Value DocumentReader::value_of(const Element& element, const Object& p
                                          Dialect dialect) {
   const std::string_view tag = element.tag();
   if (tag == "rgb" || tag == "srgb" || tag == "spectrum" || tag == "blackbody") {
-    return read_spectrum(element, parent.tag == "emitter", folders_);
+    return read_spectrum(element, parent.tag == "emitter", folders_, budget_);
   }
   if (tag == "point" || tag == "vector") {
     element.expect({"name"}, {"x", "y", "z", "value"});

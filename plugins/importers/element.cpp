@@ -5,11 +5,23 @@
 #include <fmt/format.h>
 
 namespace pharos::mitsuba {
+namespace {
+
+constexpr std::size_t kMostAttributes = 32;
+constexpr std::size_t kMostBytes = std::size_t{1} << 20;
+
+}  // namespace
 
 Element::Element(const XmlFile& file, pugi::xml_node node, Variables& variables)
     : file_(file), node_(node) {
   for (const pugi::xml_attribute attribute : node.attributes()) {
     const std::string_view name = attribute.name();
+    if (attributes_.size() == kMostAttributes) {
+      fail(name, fmt::format("expected at most {} attributes", kMostAttributes));
+    }
+    if (std::string_view(attribute.value()).size() > kMostBytes) {
+      fail(name, "expected at most 1 MiB of text in an attribute");
+    }
     if (has(name)) fail(fmt::format("the attribute '{}' is there twice", one_line(name, 60)));
     try {
       attributes_.emplace_back(name, variables.replace_in(attribute.value()));

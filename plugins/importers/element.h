@@ -16,7 +16,8 @@ namespace pharos::mitsuba {
 /// An element of a scene file with its variables replaced.
 class Element {
  public:
-  /// Throws InputError for an attribute that is there twice and for unknown variables.
+  /// Throws InputError for an attribute that is there twice, more than 32, values of more than
+  /// 1 MiB, and unknown variables.
   Element(const XmlFile& file, pugi::xml_node node, Variables& variables);
 
   std::string_view tag() const { return node_.name(); }

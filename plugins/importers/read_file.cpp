@@ -7,8 +7,7 @@
 
 namespace pharos::mitsuba {
 
-std::string read_file(const std::filesystem::path& path, std::size_t most_bytes,
-                      const std::string& too_long) {
+std::string read_file(const std::filesystem::path& path, ReadingBudget& budget) {
   const Location where{path.string()};
   std::ifstream in(path, std::ios::binary);
   if (!in) throw InputError(where, "the file cannot be opened");
@@ -17,9 +16,12 @@ std::string read_file(const std::filesystem::path& path, std::size_t most_bytes,
   while (in) {
     in.read(chunk.data(), chunk.size());
     text.append(chunk.data(), static_cast<std::size_t>(in.gcount()));
-    if (text.size() > most_bytes) throw InputError(where, too_long);
+    if (text.size() > budget.bytes) {
+      throw InputError(where, "the files of a scene may have 256 MiB together");
+    }
   }
   if (in.bad()) throw InputError(where, "the file cannot be read");
+  budget.bytes -= text.size();
   return text;
 }
 

@@ -12,6 +12,8 @@ namespace {
 
 /// Aliases may name aliases.
 constexpr int kMostAliases = 64;
+/// Of the ids that somebody may have typed. To find the nearest one takes the square of its length.
+constexpr std::size_t kLongestTyped = 60;
 
 }  // namespace
 
@@ -56,11 +58,12 @@ std::shared_ptr<Object> References::find(const Reference& reference) const {
 }
 
 void References::fail_unknown(const std::string& id, const Location& where) const {
+  const std::string message = fmt::format("nothing has the id '{}'", one_line(id, kLongestTyped));
+  if (id.size() > kLongestTyped) throw InputError(where, message);
   std::vector<std::string> known;
   for (const auto& [name, named] : named_) known.push_back(name);
   std::sort(known.begin(), known.end());
-  throw InputError(
-      where, fmt::format("nothing has the id '{}'{}", one_line(id, 60), suggestion(id, known)));
+  throw InputError(where, message + suggestion(id, known));
 }
 
 void References::resolve(const Object& scene) {

@@ -99,14 +99,15 @@ Spectrum read_values(const Element& element, bool of_emitter) {
   element.fail_value("value", "one or three numbers, or pairs wavelength:value");
 }
 
-Spectrum read_spectrum_tag(const Element& element, bool of_emitter, const Folders& folders) {
+Spectrum read_spectrum_tag(const Element& element, bool of_emitter, const Folders& folders,
+                           ReadingBudget& budget) {
   element.expect({"name"}, {"value", "filename", "intent"});
   check_intent(element);
   if (element.has("value") == element.has("filename")) {
     element.fail("<spectrum> needs either 'value' or 'filename'");
   }
   if (element.has("value")) return read_values(element, of_emitter);
-  const WavelengthList list = read_spectrum_file(folders.file(element, "filename"));
+  const WavelengthList list = read_spectrum_file(folders.file(element, "filename"), budget);
   return read_list(element, list, of_emitter);
 }
 
@@ -124,8 +125,9 @@ Spectrum read_black_body(const Element& element) {
 
 }  // namespace
 
-Spectrum read_spectrum(const Element& element, bool of_emitter, const Folders& folders) {
-  if (element.tag() == "spectrum") return read_spectrum_tag(element, of_emitter, folders);
+Spectrum read_spectrum(const Element& element, bool of_emitter, const Folders& folders,
+                       ReadingBudget& budget) {
+  if (element.tag() == "spectrum") return read_spectrum_tag(element, of_emitter, folders, budget);
   if (element.tag() == "blackbody") return read_black_body(element);
   element.expect({"name", "value"}, {"intent"});
   check_intent(element);

@@ -11,7 +11,8 @@ namespace pharos::mitsuba {
 ///
 /// `rgb` is linear, also as `#rrggbb`; `srgb` is not. A `spectrum` is one number, three (linear
 /// RGB), pairs `wavelength:value` [nm] with rising wavelengths, 0 outside them, or a text file of
-/// such pairs, one a line.
-Spectrum read_spectrum(const Element& element, bool of_emitter, const Folders& folders);
+/// such pairs, one a line, which takes from the budget.
+Spectrum read_spectrum(const Element& element, bool of_emitter, const Folders& folders,
+                       ReadingBudget& budget);
 
 }  // namespace pharos::mitsuba

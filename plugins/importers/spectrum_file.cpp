@@ -8,13 +8,12 @@
 
 #include <pharos/core/error.h>
 
-#include "read_file.h"
 #include "values.h"
 
 namespace pharos::mitsuba {
 namespace {
 
-constexpr std::size_t kMostBytes = std::size_t{16} << 20;
+constexpr std::size_t kMostPairs = 100'000;
 
 void add_line(WavelengthList& list, std::string_view line, const Location& where) {
   const std::vector<std::string_view> pair = words(line);
@@ -32,6 +31,7 @@ void add_line(WavelengthList& list, std::string_view line, const Location& where
 }  // namespace
 
 std::string WavelengthList::add(double wavelength, double value) {
+  if (size() == kMostPairs) return fmt::format("expected at most {} wavelengths", kMostPairs);
   if (!wavelengths_.empty() && !(wavelength > wavelengths_.back())) {
     return fmt::format("expected rising wavelengths, found {} after {}", wavelength,
                        wavelengths_.back());
@@ -50,8 +50,8 @@ double WavelengthList::at(double wavelength) const {
   return (1 - t) * values_[i - 1] + t * values_[i];
 }
 
-WavelengthList read_spectrum_file(const std::filesystem::path& path) {
-  const std::string text = read_file(path, kMostBytes, "a spectrum may have 16 MiB");
+WavelengthList read_spectrum_file(const std::filesystem::path& path, ReadingBudget& budget) {
+  const std::string text = read_file(path, budget);
   WavelengthList list;
   int line = 0;
   for (std::size_t begin = 0, end = 0; begin < text.size(); begin = end + 1) {

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "read_file.h"
+
 namespace pharos::mitsuba {
 
 /// Values at rising wavelengths [nm]: linear between them, 0 outside.
@@ -20,8 +22,8 @@ class WavelengthList {
 };
 
 /// The pairs of a file with a wavelength and a value in each line; lines that begin with `#` are
-/// comments. `path` must be a file that can be read. Throws InputError with line and column for
-/// everything else, and for files above 16 MiB.
-WavelengthList read_spectrum_file(const std::filesystem::path& path);
+/// comments. `path` must be a file that can be read, which takes from the budget. Throws InputError
+/// with line and column for everything else.
+WavelengthList read_spectrum_file(const std::filesystem::path& path, ReadingBudget& budget);
 
 }  // namespace pharos::mitsuba

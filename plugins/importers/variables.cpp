@@ -14,6 +14,8 @@ namespace {
 constexpr std::size_t kMostBytesInText = std::size_t{1} << 20;
 constexpr std::size_t kMostBytesReplaced = std::size_t{64} << 20;
 
+/// What looking a name up costs, so that empty values are counted too.
+constexpr std::size_t kBytesPerReplacement = 64;
 constexpr std::size_t kLongestName = 100;
 constexpr std::string_view kNameLetters =
     "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_";
@@ -65,7 +67,7 @@ std::string Variables::replace_in(std::string_view text) {
 
 void Variables::append(std::string& to, const std::string& value) {
   to += value;
-  replaced_bytes_ += value.size();
+  replaced_bytes_ += value.size() + kBytesPerReplacement;
   if (to.size() > kMostBytesInText || replaced_bytes_ > kMostBytesReplaced) {
     throw InputError(
         "expected at most 1 MiB of text in an attribute and 64 MiB in all that "

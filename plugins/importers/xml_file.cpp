@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "read_file.h"
 #include "utf8.h"
 
 namespace pharos::mitsuba {
@@ -45,9 +44,7 @@ std::size_t behind(std::string_view text, std::size_t from, std::string_view end
 }  // namespace
 
 XmlFile::XmlFile(const std::filesystem::path& path, ReadingBudget& budget)
-    : path_(path),
-      text_(read_file(path, budget.bytes, "the files of a scene may have 256 MiB together")) {
-  budget.bytes -= text_.size();
+    : path_(path), text_(read_file(path, budget)) {
   check_encoding();
   find_lines();
   count_parts(budget);

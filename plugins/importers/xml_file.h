@@ -9,14 +9,9 @@
 
 #include <pharos/core/error.h>
 
-namespace pharos::mitsuba {
+#include "read_file.h"
 
-/// What the files of one scene may cost together; each takes its share.
-struct ReadingBudget {
-  std::size_t bytes = std::size_t{256} << 20;
-  std::size_t elements = 1'000'000;
-  std::size_t attributes = 8'000'000;
-};
+namespace pharos::mitsuba {
 
 /// A file of well-formed XML with one outermost element, that knows where everything stands.
 /// Columns count bytes.

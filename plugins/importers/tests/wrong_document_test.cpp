@@ -218,6 +218,17 @@ TEST_CASE("a million elements") {
   CHECK(wrong(text) == "4000020: error: expected at most a million elements");
 }
 
+TEST_CASE("attributes without end") {
+  std::string many;
+  for (int i = 0; i < 33; ++i) many += " a" + std::to_string(i) + "=\"\"";
+  CHECK(wrong("<float" + many + "/>") == "250: error: expected at most 32 attributes");
+  CHECK(wrong("<rgb value=\"" + std::string((1 << 20) + 1, '1') + "\"/>") ==
+        "36: error: expected at most 1 MiB of text in an attribute");
+  CHECK(wrong("<bsdf type=\"b\" id=\"" + std::string(500'000, 'a') + "\"/><ref id=\"" +
+              std::string(500'000, 'b') + "\"/>")
+            .find(": error: nothing has the id 'bbbbbb") != std::string::npos);
+}
+
 TEST_CASE("eight million attributes") {
   CHECK(wrong("<x " + std::string(8'000'000, '=')) ==
         "8000026: error: expected at most eight million attributes");
