@@ -23,6 +23,10 @@
 /// dialect 0.x, which read in lower case, as Mitsuba 0.x takes them.
 namespace pharos::mitsuba {
 
+/// The language of a scene file: 0.x writes names of properties in camelCase, 2 and 3 in
+/// snake_case.
+enum class Dialect { mitsuba_0, mitsuba_2 };
+
 struct Object;
 
 /// A colour, and how it was written: by `rgb`, `srgb`, `spectrum` or `blackbody`.
@@ -72,6 +76,7 @@ struct Document {
   /// Further folders to look for them in, before `folder`, the first one first: those of `path`
   /// tags.
   std::vector<std::filesystem::path> resource_folders;
+  Dialect dialect = Dialect::mitsuba_2;  ///< of the outermost file
   /// What is read in another way than the file says: animations, tags that other programs added.
   std::vector<ImportNote> notes;
 };

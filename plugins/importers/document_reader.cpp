@@ -76,14 +76,15 @@ Document DocumentReader::read() {
   }
   root.expect({"version"}, {"id", "name", "type"});
   Parent scene{std::make_shared<Object>(Object{"scene", "", root.text("id"), root.where(), {}})};
-  read_children(file, file.root(), scene, {read_version(root), 1});
+  const Dialect dialect = read_version(root);
+  read_children(file, file.root(), scene, {dialect, 1});
   references_.resolve(*scene.object);
   try {
     variables_.check_use();
   } catch (const InputError& e) {
     throw InputError(whole, e.what());
   }
-  return {scene.object, folders_.outermost(), folders_.resources(), notes_};
+  return {scene.object, folders_.outermost(), folders_.resources(), dialect, notes_};
 }
 
 void DocumentReader::read_children(const XmlFile& file, pugi::xml_node node, Parent& parent,

@@ -1,5 +1,7 @@
 #include <pharos/config/module.h>
 
+#include "mitsuba_importer.h"
+
 PHAROS_MODULE(registry) {
-  static_cast<void>(registry);
+  registry.add<pharos::MitsubaImporter>("xml", "Scenes of Mitsuba 0.x, 2 and 3");
 }

@@ -4,11 +4,9 @@
 #include <string>
 #include <string_view>
 
-namespace pharos::mitsuba {
+#include "document.h"
 
-/// The language of a scene file: 0.x writes names of properties in camelCase, 2 and 3 in
-/// snake_case.
-enum class Dialect { mitsuba_0, mitsuba_2 };
+namespace pharos::mitsuba {
 
 /// The dialect that a version such as "0.6.0" or "3.5.2" belongs to. Throws InputError (not
 /// located) for what is no version or one that is not known.

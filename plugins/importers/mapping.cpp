@@ -1,0 +1,95 @@
+// How Mitsuba's world compares with that of Pharos: both are right-handed, with cameras that look
+// along local +z and have +x on the left of the picture; light shines from the side of the normal,
+// and materials that reflect are black behind; depth counts segments. Units are the same.
+#include "mapping.h"
+
+#include "emitters.h"
+#include "integrators.h"
+#include "sensors.h"
+#include "shapes.h"
+
+namespace pharos::mitsuba {
+namespace {
+
+ConfigNode list_of_shapes(Part& part) {
+  ConfigNode list = ConfigNode::sequence(part.where());
+  for (const Object* shape : part.children("shape")) {
+    map_shape(part.map(), *shape, list.items());
+  }
+  return list;
+}
+
+ConfigNode list_of_emitters(Part& part) {
+  ConfigNode list = ConfigNode::sequence(part.where());
+  for (const Object* emitter : part.children("emitter")) {
+    map_emitter(part.map(), *emitter, list.items());
+  }
+  return list;
+}
+
+/// Those of the scene that no shape refers to make no difference.
+void skip_definitions(Part& part) {
+  for (const char* tag : {"bsdf", "texture", "medium", "phase", "rfilter", "film", "sampler"}) {
+    part.children(tag);
+  }
+}
+
+void set_if_any(ConfigNode& scene, const char* key, ConfigNode part) {
+  if (part.items().empty() && part.entries().empty()) return;
+  scene.set(key, std::move(part), scene.where());
+}
+
+ConfigNode assembled(SceneMap& map, ConfigNode shapes, ConfigNode emitters, ConfigNode sensor,
+                     const Location& where) {
+  ConfigNode scene = ConfigNode::mapping(where);
+  set_if_any(scene, "textures", std::move(map.textures().entries));
+  set_if_any(scene, "materials", std::move(map.materials().entries));
+  set_if_any(scene, "media", std::move(map.media().entries));
+  set_if_any(scene, "groups", std::move(map.groups().entries));
+  set_if_any(scene, "shapes", std::move(shapes));
+  set_if_any(scene, "emitters", std::move(emitters));
+  set_if_any(scene, "sensor", std::move(sensor));
+  return scene;
+}
+
+/// The parts of the config that the camera holds.
+Camera read_camera(Part& part) {
+  const Object* sensor = part.child("sensor");
+  if (sensor != nullptr) return map_sensor(part.map(), *sensor);
+  part.note("the scene has no sensor");
+  Camera camera;
+  camera.sensor = ConfigNode::mapping();
+  return camera;
+}
+
+}  // namespace
+
+Import map_document(const Document& document) {
+  SceneMap map(document);
+  const Object& root = *document.scene;
+  Part part(map, root);
+  const Object* integrator = part.child("integrator");
+  ConfigNode method = integrator != nullptr ? map_integrator(map, *integrator)
+                                            : default_integrator(map, root.where);
+  Camera camera = read_camera(part);
+  ConfigNode shapes = list_of_shapes(part);
+  ConfigNode emitters = list_of_emitters(part);
+  skip_definitions(part);
+  part.finish();
+
+  ConfigNode config = ConfigNode::mapping(root.where);
+  config.set(
+      "scene",
+      assembled(map, std::move(shapes), std::move(emitters), std::move(camera.sensor), root.where),
+      root.where);
+  if (!camera.film.film.is_null()) config.set("film", std::move(camera.film.film), root.where);
+  if (!camera.sampler.is_null()) config.set("sampler", std::move(camera.sampler), root.where);
+  config.set("integrator", std::move(method), root.where);
+  if (!camera.budget.is_null()) config.set("budget", std::move(camera.budget), root.where);
+  if (!camera.film.output.is_null())
+    config.set("output", std::move(camera.film.output), root.where);
+  map.result().config = std::move(config);
+  return std::move(map.result());
+}
+
+}  // namespace pharos::mitsuba

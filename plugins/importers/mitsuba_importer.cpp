@@ -1,0 +1,13 @@
+// xml: scenes of Mitsuba, of its versions 0.x, 2 and 3. document.h reads the file, mapping.h says
+// what stands for each object; docs/mitsuba.md lists what is supported, approximated and refused.
+#include "mitsuba_importer.h"
+
+#include "mapping.h"
+
+namespace pharos {
+
+Import MitsubaImporter::import(const std::filesystem::path& file) const {
+  return mitsuba::map_document(mitsuba::read_document(file));
+}
+
+}  // namespace pharos

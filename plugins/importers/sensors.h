@@ -1,0 +1,19 @@
+#pragma once
+
+#include "film.h"
+#include "part.h"
+
+namespace pharos::mitsuba {
+
+/// What stands for a sensor and what it holds.
+struct Camera {
+  ConfigNode sensor;
+  FilmParts film;
+  ConfigNode sampler;
+  ConfigNode budget;
+};
+
+/// Throws InputError for sensors that have no counterpart.
+Camera map_sensor(SceneMap& scene, const Object& sensor);
+
+}  // namespace pharos::mitsuba

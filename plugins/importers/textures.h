@@ -1,0 +1,16 @@
+#pragma once
+
+#include <optional>
+
+#include "scene_map.h"
+
+namespace pharos::mitsuba {
+
+/// The node that stands for a texture: its name if it has an id, else the texture in place.
+ConfigNode map_texture(SceneMap& scene, const Object& texture, UvSense sense,
+                       const Location& where);
+
+/// The average colour of a texture of stated colours; none for images.
+std::optional<Rgb> texture_average(const Object& texture);
+
+}  // namespace pharos::mitsuba
