@@ -5,6 +5,7 @@
 #include "constant.h"
 #include "grid.h"
 #include "scale.h"
+#include "uv_map.h"
 
 PHAROS_MODULE(registry) {
   registry.add<pharos::ConstantTexture>("constant", "The same colour everywhere");
@@ -12,5 +13,6 @@ PHAROS_MODULE(registry) {
   registry.add<pharos::GridTexture>("grid", "Lines on a ground");
   registry.add<pharos::ScaleTexture>("scale", "The product of two textures");
   registry.add<pharos::Bitmap>("bitmap", "An image file");
+  registry.add<pharos::UvMapTexture>("uv_map", "A texture moved, turned or stretched");
   registry.set_shorthand<pharos::Texture>("constant", "value");
 }
