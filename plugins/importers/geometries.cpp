@@ -4,6 +4,7 @@
 
 #include <fmt/core.h>
 
+#include "mesh_normals.h"
 #include "shapes.h"
 
 namespace pharos::mitsuba {
@@ -40,6 +41,18 @@ ConfigNode mesh_of(Part& part) {
   part.copy_transform(node, "to_world");
   part.copy_flag(node, "flip_normals");
   part.copy_flag(node, "face_normals");
+  return node;
+}
+
+/// The same, of files whose normals Mitsuba makes up where they have none.
+ConfigNode smoothed_mesh_of(Part& part) {
+  ConfigNode node = mesh_of(part);
+  const ConfigNode& file = *node.find("file");
+  const auto folder = std::filesystem::path(file.where().file).parent_path();
+  if (node.find("face_normals") == nullptr && !has_vertex_normals(folder / file.text())) {
+    part.note(fmt::format("shape {}: a mesh without normals is shaded flat; Mitsuba smooths it",
+                          part.object().type));
+  }
   return node;
 }
 
@@ -97,14 +110,14 @@ Geometry map_cylinder(Part& part, bool) {
 
 Geometry map_obj(Part& part, bool) {
   part.ignore({"collapse", "load_materials"});
-  Geometry mesh{{mesh_of(part)}};
+  Geometry mesh{{smoothed_mesh_of(part)}};
   mesh.sense = flipped_if(part.flag("flip_tex_coords", true));
   return mesh;
 }
 
 Geometry map_ply(Part& part, bool) {
   part.ignore({"srgb"});
-  Geometry mesh{{mesh_of(part)}};
+  Geometry mesh{{smoothed_mesh_of(part)}};
   mesh.sense = flipped_if(part.flag("flip_tex_coords", false));
   return mesh;
 }

@@ -59,7 +59,7 @@ ConfigNode map_principled(Part& part) {
   if (part.has("eta")) {
     node.set("ior", part.number_or("eta", kIorOfPrincipled), part.where());
   } else {
-    node.set("specular", part.number_or("specular", 0.5), part.where());
+    node.set("specular", number_node(part.average("specular", 0.5), part.where()), part.where());
   }
   node.set("masking", text_node("separable", part.where()), part.where());
   part.ignore({"main_specular_sampling_rate", "clearcoat_sampling_rate",

@@ -94,6 +94,24 @@ TEST_CASE("shapes: media are checked, and left out with a note") {
   CHECK_THROWS_AS(with({nested(object("phase", "hh"))}), InputError);
 }
 
+TEST_CASE("shapes: a textured cube is six squares around the middle, facing outwards") {
+  const ObjectRef tiles = bsdf("diffuse", {nested(texture("checkerboard"), "reflectance")});
+  for (const bool flip : {false, true}) {
+    const LoadedConfig config =
+        built(import_of({shape("cube", {nested(tiles), value("flip_normals", flip)})}));
+    REQUIRE(config.config.scene.objects.size() == 6);
+    Vec3 sum, absolute;
+    for (const SceneObject& face : config.config.scene.objects) {
+      const SurfacePoint middle = face.shape->sample({0.5f, 0.5f}).point;
+      CHECK(dot(middle.normal, Vec3(middle.position)) == doctest::Approx(flip ? -1 : 1));
+      sum += middle.position;
+      for (int i = 0; i < 3; ++i) absolute[i] += std::abs(middle.position[i]);
+    }
+    CHECK(length(sum) == doctest::Approx(0));
+    CHECK(length(absolute - Vec3{2, 2, 2}) == doctest::Approx(0));
+  }
+}
+
 TEST_CASE("shapes: groups and instances") {
   const ObjectRef group =
       object("shape", "shapegroup", {nested(shape("cube")), nested(shape("sphere"))}, "Tree");

@@ -230,4 +230,21 @@ TEST_CASE("textures: one that is shared is named, once for each way that v runs"
   CHECK(part(import, "scene.textures.Tiles_2.uv_scale") == "[1, -1]");
 }
 
+TEST_CASE("textures: meshes without normals are noted, as Mitsuba smooths them") {
+  const Folder folder;
+  const auto noted = [&](const char* type, const std::string& file, bool face_normals = false) {
+    return notes(import_of(
+                     {shape(type, {value("filename", file), value("face_normals", face_normals)})}))
+               .size() == 2;
+  };
+  const std::string obj = folder.write("square.obj", kSquareObj);
+  const std::string ply = folder.write("square.ply", kSquarePly);
+  CHECK(noted("obj", obj));
+  CHECK(noted("ply", ply));
+  CHECK_FALSE(noted("obj", obj, true));
+  CHECK_FALSE(noted("obj", folder.write("b.obj", "v 0 0 0\nvn 0 0 1\n")));
+  CHECK_FALSE(noted("ply", folder.write("b.ply", "ply\nproperty float nx\nend_header\n")));
+  CHECK_FALSE(noted("ply", folder.file("missing.ply")));
+}
+
 }  // namespace pharos::mitsuba::test
