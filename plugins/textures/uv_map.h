@@ -19,7 +19,7 @@ class UvMapTexture final : public Texture {
   explicit UvMapTexture(Settings settings);
 
   Rgb evaluate(const SurfacePoint& point) const override;
-  float maximum() const override { return settings_.texture->maximum(); }
+  Rgb maximum() const override { return settings_.texture->maximum(); }
   Rgb average() const override { return settings_.texture->average(); }
 
  private:
