@@ -135,11 +135,12 @@ FilmParts map_film(SceneMap& scene, const Object* film, const Location& where) {
                                                       {"tiledhdrfilm", true}};
   mapper_of(known, stated);
   if (stated.type == "specfilm") scene.note(where, "film specfilm: replaced by a film of RGB");
-  SceneMap::Entry entry(scene, stated);
+  std::optional<SceneMap::Entry> entry;
+  if (film != nullptr) entry.emplace(scene, stated);
   Part part(scene, stated);
   map_properties(part, parts);
   part.finish();
-  entry.done("film");
+  if (entry) entry->done("film");
   return parts;
 }
 

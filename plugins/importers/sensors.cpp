@@ -154,12 +154,13 @@ void map_sampler(SceneMap& scene, const Object* sampler, Camera& camera, const L
   const Object standard{.tag = "sampler", .type = "independent", .where = where};
   const Object& stated = sampler != nullptr ? *sampler : standard;
   const char* name = sampler_here(scene, stated);
-  SceneMap::Entry entry(scene, stated);
+  std::optional<SceneMap::Entry> entry;
+  if (sampler != nullptr) entry.emplace(scene, stated);
   Part part(scene, stated);
   part.ignore({"seed", "dimension", "scramble", "jitter", "strength", "wavefront_size"});
   const std::int64_t samples = part.integer("sample_count").value_or(4);
   part.finish();
-  entry.done(std::string("sampler ") + name);
+  if (entry) entry->done(std::string("sampler ") + name);
   camera.sampler = text_node(name, stated.where);
   camera.budget = ConfigNode::mapping(stated.where);
   camera.budget.set("spp", text_node(fmt::format("{}", samples), stated.where), stated.where);

@@ -130,6 +130,17 @@ TEST_CASE("views: film and filters") {
   CHECK(part(bright, "output.exposure") == "1.5");
 }
 
+TEST_CASE("views: the list of objects has those that the file states") {
+  CHECK(view({}).objects.size() == 1);
+  const Import import = view({nested(film(8, 8)), nested(object("sampler", "halton"))});
+  REQUIRE(import.objects.size() == 3);
+  CHECK(import.objects[0].what + " -> " + import.objects[0].stands ==
+        "sensor perspective -> sensor perspective");
+  CHECK(import.objects[1].what + " -> " + import.objects[1].stands == "film hdrfilm -> film");
+  CHECK(import.objects[2].what + " -> " + import.objects[2].stands ==
+        "sampler halton -> sampler sobol");
+}
+
 TEST_CASE("views: samplers and samples") {
   const auto with = [](const char* type) {
     return view({nested(object("sampler", type, {value("sample_count", std::int64_t{64})}))});
