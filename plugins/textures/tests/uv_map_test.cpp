@@ -13,7 +13,7 @@ class Coordinates final : public Texture {
   Rgb evaluate(const SurfacePoint& point) const override {
     return {point.uv.x, point.uv.y, point.position.z};
   }
-  float maximum() const override { return 7; }
+  Rgb maximum() const override { return Rgb(7); }
   Rgb average() const override { return {1, 2, 3}; }
 };
 
@@ -30,7 +30,7 @@ TEST_CASE("uv_map: rows of the matrix give u and v, all else stays") {
   const UvMapTexture texture(
       {.texture = std::make_shared<const Coordinates>(), .matrix = {1, 2, 3, 4, 5, 6}});
   CHECK(at(texture, 10, 100) == Rgb(213, 546, 5));
-  CHECK(texture.maximum() == 7);
+  CHECK(texture.maximum() == Rgb(7));
   CHECK(texture.average() == Rgb(1, 2, 3));
 }
 
