@@ -24,7 +24,7 @@ class Ramp final : public Texture {
   Rgb evaluate(const SurfacePoint& point) const override {
     return Rgb(4 + slope_.x * point.uv.x + slope_.y * point.uv.y);
   }
-  float maximum() const override { return 8; }
+  Rgb maximum() const override { return Rgb(8); }
   Rgb average() const override { return Rgb(4); }
 
  private:
