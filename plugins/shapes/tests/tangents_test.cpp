@@ -23,7 +23,7 @@ class Hills final : public Texture {
   Rgb evaluate(const SurfacePoint& point) const override {
     return Rgb(1 + 0.5f * std::sin(5 * point.uv.x) * std::cos(4 * point.uv.y));
   }
-  float maximum() const override { return 1.5f; }
+  Rgb maximum() const override { return Rgb(1.5f); }
   Rgb average() const override { return Rgb(1); }
 };
 
