@@ -63,7 +63,8 @@ std::vector<ImportNote> expand_import(ConfigNode& config, const Registry& regist
     if (config.find(key) == nullptr && !stated.is_null()) config.set(key, std::move(stated));
   }
   if (ConfigNode film = import.config.take("film"); film.is_mapping()) {
-    config.set("film", merged(std::move(film), config.take("film")));
+    const ConfigNode* stated = config.find("film");
+    config.set("film", stated == nullptr ? std::move(film) : merged(std::move(film), *stated));
   }
   return std::move(import.notes);
 }

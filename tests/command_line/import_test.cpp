@@ -115,7 +115,7 @@ TEST_CASE("import reports what stands for every object, and how it approximates"
   write_scene(folder);
   const Outcome outcome = run_pharos("import scene.xml --report", folder.path());
   REQUIRE_MESSAGE(outcome.exit_code == 0, outcome.err);
-  for (const char* line : {"scene.xml:8:", "'glass'", "sphere", "scene.xml:13:"}) {
+  for (const char* line : {"scene.xml:9:", "'glass'", "sphere", "scene.xml:14:"}) {
     CHECK_MESSAGE(outcome.out.find(line) != std::string::npos, line);
   }
   std::string xml = scene_xml(false);
