@@ -21,7 +21,7 @@ TEST_CASE("every config loads and renders something") {
   int configs = 0;
   for (const auto& entry : std::filesystem::directory_iterator(kConfigs)) {
     const std::filesystem::path& path = entry.path();
-    if (entry.is_directory()) continue;  // experiments
+    if (entry.is_directory()) continue;                        // experiments
     if (read_config(path).find("scene") == nullptr) continue;  // a base of others
     CAPTURE(path.string());
     const RenderResult result =
