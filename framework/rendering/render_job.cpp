@@ -88,13 +88,15 @@ class PassSizes {
   PassSizes(const Iteration& iteration, std::uint32_t granule)
       : iteration_(iteration), limit_(largest(iteration, granule)), size_(granule) {}
 
-  /// The next pass after `done` samples with `seconds_left`; 0: the iteration is over. Timed
-  /// iterations double only while a pass takes less than 1/128 of the time, and end where that is
-  /// nearer to the deadline than another pass.
-  std::uint32_t next(std::uint32_t done, double seconds_left, double last_pass) {
+  /// The next pass after `done` samples in `seconds_spent`, with `seconds_left`; 0: the iteration
+  /// is over. Timed iterations double only while a pass takes less than 1/128 of the time, and end
+  /// where that is nearer to the deadline than another pass. What a pass takes is told by all so
+  /// far: a single one may have been held up.
+  std::uint32_t next(std::uint32_t done, double seconds_spent, double seconds_left) {
     const bool timed = iteration_.samples == 0;
-    if (timed && done > 0 && seconds_left < last_pass / 2) return 0;
-    if (!timed || last_pass * 128 < iteration_.seconds) size_ = std::clamp(done, size_, limit_);
+    const double pass = done > 0 ? seconds_spent * size_ / done : 0;
+    if (timed && done > 0 && seconds_left < pass / 2) return 0;
+    if (!timed || pass * 128 < iteration_.seconds) size_ = std::clamp(done, size_, limit_);
     return timed ? size_ : std::min(size_, iteration_.samples - done);
   }
 
@@ -189,13 +191,12 @@ class RenderJob::Implementation {
     Film film = make_film();
     PassSizes sizes(iteration, config_.sampler->preferred_samples());
     std::uint32_t done = 0;
-    double last_pass = 0;
     const double deadline = work_up_to(index + 1);
-    while (const std::uint32_t size = sizes.next(done, deadline - watch_.seconds(), last_pass)) {
-      const double pass_start = watch_.seconds();
-      if (!run_pass(index, done, size, film)) break;
+    while (true) {
+      const double now = watch_.seconds();
+      const std::uint32_t size = sizes.next(done, now - start, deadline - now);
+      if (size == 0 || !run_pass(index, done, size, film)) break;
       done += size;
-      last_pass = watch_.seconds() - pass_start;
       if (control_.on_pass) watch_.pause([&] { show(index, film); });
     }
     (iteration.training ? result_.times.training : result_.times.rendering) +=
