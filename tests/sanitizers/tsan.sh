@@ -18,5 +18,6 @@ if [ ! -e "$tbb/lib/libtbb.so.12" ]; then
   cmake --build "$tbb/build" --target tbb
 fi
 export LD_LIBRARY_PATH=$tbb/lib${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
-export TSAN_OPTIONS=suppressions=$root/tests/sanitizers/tsan.supp
+# A long history, so that both sides of a report have their stacks.
+export TSAN_OPTIONS="suppressions=$root/tests/sanitizers/tsan.supp history_size=7"
 exec ctest --test-dir "$build" --output-on-failure "$@"
