@@ -77,15 +77,19 @@ void check_options(const CompareOptions& options) {
   }
 }
 
-void warn_of_invalid_pixels(const Comparison& comparison) {
+/// Whether an image has pixels without a value; tells of each that has.
+bool has_invalid_pixels(const Comparison& comparison) {
+  bool found = false;
   for (const MeasuredImage& image : comparison.images) {
     if (image.errors.invalid_pixels == 0) continue;
+    found = true;
     log_warning(fmt::format(
         "{}: {} of {} pixels are NaN or infinite, here or in the reference, and are "
         "left out of every metric",
         image.source.file.string(), image.errors.invalid_pixels,
         static_cast<std::size_t>(image.source.image.width()) * image.source.image.height()));
   }
+  return found;
 }
 
 void write_outputs(const Comparison& comparison, const CompareOptions& options) {
@@ -122,10 +126,11 @@ bool too_different(const Comparison& comparison, double max_relmse) {
 int compare(const CompareOptions& options) {
   check_options(options);
   const Comparison comparison = compare_files(options.images, options.reference);
-  warn_of_invalid_pixels(comparison);
+  const bool is_bad = has_invalid_pixels(comparison);
   write_outputs(comparison, options);
-  if (!options.max_relmse || !too_different(comparison, *options.max_relmse)) return kDone;
-  return kTooDifferent;
+  if (options.max_relmse && too_different(comparison, *options.max_relmse)) return kTooDifferent;
+  // What is known of the other pixels has been told; the input is wrong all the same.
+  return is_bad ? kBadInput : kDone;
 }
 
 }  // namespace

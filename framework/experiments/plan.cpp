@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -74,6 +75,11 @@ Image read_reference(const fs::path& file, int width, int height) {
     throw InputError(
         fmt::format("{}: error: expected {} x {} pixels like the renders, found {} x {}",
                     file.string(), width, height, image.width(), image.height()));
+  }
+  const std::vector<float>& values = image.values();
+  if (!std::all_of(values.begin(), values.end(), [](float v) { return std::isfinite(v); })) {
+    throw InputError(
+        fmt::format("{}: error: a reference must not have NaN or infinite pixels", file.string()));
   }
   return image;
 }

@@ -36,7 +36,7 @@ struct ExperimentPlan {
 ExperimentPlan plan_experiment(const ExperimentConfig& config, const Registry& registry);
 
 /// Channels R, G and B of an image file that is to be of this size. Throws InputError for a file
-/// that cannot be read, is of another size or has other channels.
+/// that cannot be read, is of another size, has other channels or values that are not finite.
 Image read_reference(const std::filesystem::path& file, int width, int height);
 
 /// A config with a seed, to be rendered.

@@ -1,6 +1,10 @@
 // Experiment files that cannot be run.
 
+#include <limits>
+
 #include <doctest/doctest.h>
+
+#include <pharos/core/image.h>
 
 #include "refusal.h"
 
@@ -77,6 +81,22 @@ TEST_CASE("experiments: references") {
   check_refused(experiment(7, "reference: { spp: 8, settings: { integrator: { max_dept: 3 } } }"),
                 {"bad.yaml:7:", "'max_depth'"});
   check_refused(experiment(7, "reference: { image: render.yaml }"), {"render.yaml"});
+}
+
+TEST_CASE("experiments: images that cannot be a reference") {
+  const auto with_image = [](int edge, float value) {
+    Mistake mistake = experiment(7, "reference: { image: given.exr }");
+    mistake.prepare = [edge, value, prepare = mistake.prepare](const ScratchFolder& folder) {
+      prepare(folder);
+      Image image(edge, edge, {"R", "G", "B"});
+      image.set_rgb(0, 0, Rgb(value));
+      write_exr(image, folder.path() / "given.exr");
+    };
+    return mistake;
+  };
+  check_refused(with_image(9, 1), {"given.exr: error: ", "8 x 8", "9 x 9"});
+  check_refused(with_image(8, std::numeric_limits<float>::quiet_NaN()),
+                {"given.exr: error: ", "NaN or infinite"});
 }
 
 TEST_CASE("experiments: the command") {
