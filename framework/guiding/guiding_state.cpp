@@ -42,7 +42,8 @@ GuidingState::GuidingState(const GuidingSettings& settings, const LearningContex
     : mixing_(settings.mixing->begin()) {
   std::uint64_t index = 0;
   for (GuidingMethod& method : settings.resolved_methods()) {
-    const LearningContext own{context.region, hash_combine(context.seed, index++)};
+    const LearningContext own{context.region, hash_combine(context.seed, index++),
+                              context.iterations};
     Method& added = methods_.emplace_back();
     added.settings = std::move(method);
     added.state = added.settings.learner->begin(own);

@@ -16,8 +16,9 @@ namespace pharos {
 
 /// Where and with which random numbers a learner works.
 struct LearningContext {
-  Bounds3 region;          ///< bounds of geometry and sensor [scene units]
-  std::uint64_t seed = 0;  ///< random numbers are keyed by (seed, iteration, cell)
+  Bounds3 region;                ///< bounds of geometry and sensor [scene units]
+  std::uint64_t seed = 0;        ///< random numbers are keyed by (seed, iteration, cell)
+  std::uint32_t iterations = 1;  ///< of training that are planned, each ended by update()
 };
 
 /// What is learned during one render. absorb() and update() are called by one thread at a time;

@@ -6,9 +6,14 @@
 #include <string>
 #include <vector>
 
-#include <pharos/core/vec.h>
+#include <pharos/core/bounds.h>
 
 namespace pharos {
+
+/// One line about a model, such as {"leaves", "1,234"}.
+struct ModelFact {
+  std::string name, value;
+};
 
 /// What a learner has learned: immutable, thread-safe. A new one is made for each iteration.
 class GuidingModel {
@@ -28,6 +33,11 @@ class GuidingModel {
   /// For each region the region of the previous iteration's model that it came from. Empty: the
   /// regions are the same as before.
   virtual std::vector<std::uint32_t> region_origins() const { return {}; }
+
+  /// Where density(point) may be positive [scene units]; empty: not limited.
+  virtual Bounds3 bounds() const { return {}; }
+  /// What a reader of its pictures wants to know: depth, leaves, components.
+  virtual std::vector<ModelFact> facts() const { return {}; }
 
   /// How much the model expects around a point, up to a constant factor; for pictures.
   virtual double density(Point3 point) const = 0;

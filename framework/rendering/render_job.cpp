@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -173,10 +174,14 @@ class RenderJob::Implementation {
     has_image_ = false;
     last_image_ = make_film().layers();
     const GuidingSettings* settings = config_.integrator->guiding();
-    guiding_ = settings == nullptr ? nullptr
-                                   : std::make_unique<GuidingState>(
-                                         *settings, LearningContext{scene_.bounds(), config_.seed});
+    const LearningContext learning{scene_.bounds(), config_.seed, training_iterations()};
+    guiding_ = settings == nullptr ? nullptr : std::make_unique<GuidingState>(*settings, learning);
     frame_ = guiding_ == nullptr ? nullptr : guiding_->frame();
+  }
+
+  std::uint32_t training_iterations() const {
+    return static_cast<std::uint32_t>(std::count_if(iterations_.begin(), iterations_.end(),
+                                                    [](const Iteration& i) { return i.training; }));
   }
 
   bool stopped() const { return control_.stop != nullptr && control_.stop->load(); }
