@@ -1,0 +1,28 @@
+#include "focal_density.h"
+
+#include <cmath>
+
+namespace pharos::focal {
+
+double FocalDensity::directional_density(Point3 from, Vec3 direction) const {
+  const Line line(from, direction);
+  return converging.directional_density(line, 0, kInfinity) +
+         diverging.directional_density(line, -kInfinity, 0);
+}
+
+std::optional<Vec3> FocalDensity::sample_direction(Point3 from, float sign, Vec2 u, float v) const {
+  const bool away = sign * (converging.mass() + diverging.mass()) >= converging.mass();
+  const Double3 point = (away ? diverging : converging).sample({u.x, u.y, v});
+  Double3 offset;
+  double squared = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    offset[axis] = point[axis] - from[axis];
+    squared += offset[axis] * offset[axis];
+  }
+  if (!(squared > 0)) return std::nullopt;
+  const double scale = (away ? -1 : 1) / std::sqrt(squared);
+  return Vec3{static_cast<float>(scale * offset[0]), static_cast<float>(scale * offset[1]),
+              static_cast<float>(scale * offset[2])};
+}
+
+}  // namespace pharos::focal

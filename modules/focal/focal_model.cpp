@@ -1,0 +1,44 @@
+#include "focal_model.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "octree_file.h"
+
+namespace pharos::focal {
+namespace {
+
+ModelFact depth_fact(const char* name, const Octree& octree) {
+  return {fmt::format("{} octree", name),
+          fmt::format("{} leaves, {} levels", octree.leaf_count(), octree.depth())};
+}
+
+Vec3 to_float(const Double3& v) {
+  return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
+}
+
+}  // namespace
+
+FocalModel::FocalModel(std::istream& in) {
+  density_.converging = read_octree(in);
+  density_.diverging = read_octree(in);
+}
+
+void FocalModel::save(std::ostream& out) const {
+  write_octree(density_.converging, out);
+  write_octree(density_.diverging, out);
+}
+
+Bounds3 FocalModel::bounds() const {
+  const Box& box = density_.converging.box();
+  return {to_float(box.low), to_float(box.low) + to_float(box.size)};
+}
+
+std::vector<ModelFact> FocalModel::facts() const {
+  return {depth_fact("converging", density_.converging),
+          depth_fact("diverging", density_.diverging),
+          {"share of diverging points", fmt::format("{:.4f}", density_.diverging.mass())}};
+}
+
+}  // namespace pharos::focal

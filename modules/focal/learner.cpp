@@ -1,0 +1,58 @@
+#include "learner.h"
+
+#include "focal_model.h"
+#include "learning_state.h"
+
+namespace pharos::focal {
+
+void FocalSettings::describe(Schema<FocalSettings>& s) {
+  using S = FocalSettings;
+  s.field("split_threshold", &S::split_threshold,
+          "Share of all mass above which a cell is divided (gamma)")
+      .at_least(1e-6)
+      .at_most(1);
+  s.field("max_depth", &S::max_depth, "Depth of the finest cells: edges are 2^-(depth + 1)")
+      .at_least(0)
+      .at_most(Octree::kMostLevels - 1);
+  s.field("narrowing_iterations", &S::narrowing_iterations,
+          "How many of the last training iterations narrow the density to true focal points")
+      .at_least(0);
+  s.field("splat_extent", &S::splat_extent,
+          "What a path meets: all of each segment's line (paper), or the segment alone unless its "
+          "end is nearly specular (authors' code)");
+  s.field("glossy_roughness", &S::glossy_roughness,
+          "Roughness below which an end is nearly specular, for `roughness_gated`")
+      .at_least(0)
+      .at_most(1);
+  s.field("splat_weight", &S::splat_weight,
+          "What a cell gets before narrowing: by the length within it (paper), or by its share of "
+          "the segment (authors' code)");
+  s.field("decay", &S::decay,
+          "Share of earlier iterations' masses that is kept: 0 (paper), 0.5 (authors' code)")
+      .at_least(0)
+      .below(1);
+  s.field("narrowing_decay", &S::narrowing_decay,
+          "The same once narrowing has begun: 0 (paper), 0.25 (authors' code)")
+      .at_least(0)
+      .below(1);
+  s.field("mis_compensation", &S::mis_compensation,
+          "Leave to the BSDF what it samples well, while narrowing");
+  s.field("prune_ratio", &S::prune_ratio,
+          "After training, nodes in which no leaf is denser than this many times their mean become "
+          "leaves; 0 keeps all")
+      .at_least(0);
+}
+
+LearnerTraits FocalLearner::traits() const {
+  return {kFocalModel, {.light_samples = true}};
+}
+
+std::unique_ptr<LearningState> FocalLearner::begin(const LearningContext& context) const {
+  return std::make_unique<FocalState>(settings_, context);
+}
+
+std::shared_ptr<const GuidingModel> FocalLearner::load_model(std::istream& in) const {
+  return std::make_shared<FocalModel>(in);
+}
+
+}  // namespace pharos::focal

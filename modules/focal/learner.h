@@ -1,0 +1,54 @@
+#pragma once
+
+#include <pharos/config/schema.h>
+#include <pharos/guiding/learner.h>
+
+#include "splat.h"
+
+namespace pharos {
+
+template <>
+struct EnumNames<focal::SplatExtent> {
+  static constexpr std::array<std::pair<std::string_view, focal::SplatExtent>, 2> names{
+      {{"line", focal::SplatExtent::line},
+       {"roughness_gated", focal::SplatExtent::roughness_gated}}};
+};
+template <>
+struct EnumNames<focal::SplatWeight> {
+  static constexpr std::array<std::pair<std::string_view, focal::SplatWeight>, 2> names{
+      {{"length", focal::SplatWeight::length}, {"share", focal::SplatWeight::share}}};
+};
+
+namespace focal {
+
+/// Parameters of the method; the defaults are the paper's.
+struct FocalSettings {
+  float split_threshold = 1e-3f;
+  int max_depth = 14;
+  int narrowing_iterations = 5;
+  SplatExtent splat_extent = SplatExtent::line;
+  float glossy_roughness = 0.3f;
+  SplatWeight splat_weight = SplatWeight::length;
+  float decay = 0, narrowing_decay = 0;
+  bool mis_compensation = true;
+  float prune_ratio = 2;
+
+  static void describe(Schema<FocalSettings>& schema);
+};
+
+/// Learns where light meets in space from the lines that carry it (Rath et al. 2023).
+class FocalLearner final : public Learner {
+ public:
+  using Settings = FocalSettings;
+  explicit FocalLearner(const Settings& settings) : settings_(settings) {}
+
+  LearnerTraits traits() const override;
+  std::unique_ptr<LearningState> begin(const LearningContext& context) const override;
+  std::shared_ptr<const GuidingModel> load_model(std::istream& in) const override;
+
+ private:
+  Settings settings_;
+};
+
+}  // namespace focal
+}  // namespace pharos

@@ -1,0 +1,183 @@
+#include "learning_state.h"
+
+#include <algorithm>
+#include <cmath>
+#include <istream>
+#include <ostream>
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <pharos/core/error.h>
+
+#include "focal_model.h"
+#include "octree_file.h"
+
+namespace pharos::focal {
+namespace {
+
+/// Segments are splatted in groups of this size, each into sums of its own, this many at a time.
+constexpr std::size_t kGroup = 4096, kGroups = 16;
+
+/// The region as a box with a volume: a flat one gets a thousandth of its diagonal as thickness.
+Box region_box(const Bounds3& region) {
+  Box box{{-0.5, -0.5, -0.5}, {1, 1, 1}};
+  if (region.empty()) return box;
+  const double least = region.diagonal() > 0 ? 1e-3 * region.diagonal() : 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double extent = double{region.high[axis]} - region.low[axis];
+    box.size[axis] = std::max(extent, least);
+    box.low[axis] = region.low[axis] - 0.5 * (box.size[axis] - extent);
+  }
+  return box;
+}
+
+double diagonal(const Box& box) {
+  double squared = 0;
+  for (const double size : box.size) squared += size * size;
+  return std::sqrt(squared);
+}
+
+/// The old masses, of which `decay` is kept, and the new ones for each path.
+void fold(std::vector<double>& masses, const std::vector<double>& sums, double decay,
+          double paths) {
+  for (std::size_t i = 0; i < masses.size(); ++i) {
+    masses[i] = decay * masses[i] + sums[i] / paths;
+  }
+}
+
+void save_octree(const LearningOctree& learned, std::ostream& out) {
+  write_octree(learned.octree, out);
+  write_numbers(learned.masses, out);
+}
+
+LearningOctree load_octree(std::istream& in) {
+  Octree octree = read_octree(in);
+  const std::size_t slots = 8 * octree.nodes().size();
+  return {std::move(octree), read_numbers(in, slots)};
+}
+
+}  // namespace
+
+FocalState::FocalState(const FocalSettings& settings, const LearningContext& context)
+    : settings_(settings),
+      first_narrowing_(
+          context.iterations -
+          std::min(context.iterations, static_cast<std::uint32_t>(settings.narrowing_iterations))),
+      sums_(density_) {
+  const Box box = region_box(context.region);
+  diagonal_ = diagonal(box);
+  // Learning starts from the even density, divided by the rule of splits.
+  converging_ = diverging_ = refined(
+      uniform_octree(box, 0.5),
+      {.threshold = settings.split_threshold, .max_depth = settings.max_depth, .total_mass = 0.5});
+  refine(1);
+  narrowing_ = narrows(0);
+}
+
+bool FocalState::narrows(std::uint32_t iteration) const {
+  return iteration >= first_narrowing_;
+}
+
+void FocalState::absorb(const PathLog& log) {
+  const ExtentRule rule{settings_.splat_extent, settings_.glossy_roughness};
+  for (std::size_t i = 0; i < log.size(); ++i) {
+    if (log[i].transport != Transport::radiance) continue;
+    ++paths_;
+    extract_segments(log[i], rule, incident_, waiting_);
+    if (waiting_.size() >= kGroup * kGroups) splat_waiting();
+  }
+}
+
+void FocalState::splat_waiting() {
+  const std::size_t count = (waiting_.size() + kGroup - 1) / kGroup;
+  groups_.assign(count, FocalSums(density_));
+  // Isolated: the thread that waits here must not take up rendering instead.
+  tbb::this_task_arena::isolate([&] {
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t g) {
+      const std::size_t begin = g * kGroup;
+      const std::size_t size = std::min(kGroup, waiting_.size() - begin);
+      splat(std::span(waiting_).subspan(begin, size), groups_[g]);
+    });
+  });
+  for (const FocalSums& group : groups_) sums_.add(group);
+  waiting_.clear();
+}
+
+void FocalState::splat(std::span<const Segment> segments, FocalSums& sums) const {
+  if (narrowing_) {
+    splat_narrowed(segments, density_, settings_.mis_compensation, sums);
+  } else {
+    const double unit = settings_.splat_weight == SplatWeight::length ? diagonal_ : 0.0;
+    splat_lengths(segments, density_, unit, sums);
+  }
+}
+
+std::shared_ptr<const GuidingModel> FocalState::update(std::uint32_t iteration, bool last) {
+  splat_waiting();
+  // An iteration that found no light is no reason to forget what earlier ones did.
+  if (sums_.total() > 0) {
+    const double decay = narrows(iteration) ? settings_.narrowing_decay : settings_.decay;
+    const double kept = knows_something_ ? decay : 0;
+    fold(converging_.masses, sums_.converging, kept, static_cast<double>(paths_));
+    fold(diverging_.masses, sums_.diverging, kept, static_cast<double>(paths_));
+    refine(converging_.mass() + diverging_.mass());
+    knows_something_ = true;
+  }
+  narrowing_ = narrows(iteration + 1);
+  paths_ = 0;
+  return knows_something_ ? model(last) : nullptr;
+}
+
+void FocalState::refine(double total_mass) {
+  const SplitRule rule{settings_.split_threshold, settings_.max_depth, total_mass};
+  converging_ = refined(converging_, rule);
+  diverging_ = refined(diverging_, rule);
+  density_ = {converging_.octree, diverging_.octree};
+  sums_ = FocalSums(density_);
+}
+
+std::shared_ptr<const GuidingModel> FocalState::model(bool last) const {
+  if (!last || settings_.prune_ratio == 0) return std::make_shared<FocalModel>(density_);
+  return std::make_shared<FocalModel>(
+      FocalDensity{pruned(density_.converging, settings_.prune_ratio),
+                   pruned(density_.diverging, settings_.prune_ratio)});
+}
+
+void FocalState::save(std::ostream& out) const {
+  save_octree(converging_, out);
+  save_octree(diverging_, out);
+  write_numbers({static_cast<double>(knows_something_), static_cast<double>(narrowing_),
+                 static_cast<double>(paths_), static_cast<double>(waiting_.size())},
+                out);
+  write_numbers(sums_.converging, out);
+  write_numbers(sums_.diverging, out);
+  out.write(reinterpret_cast<const char*>(waiting_.data()),
+            static_cast<std::streamsize>(waiting_.size() * sizeof(Segment)));
+}
+
+void FocalState::load(std::istream& in) {
+  converging_ = load_octree(in);
+  diverging_ = load_octree(in);
+  density_ = {converging_.octree, diverging_.octree};
+  const std::vector<double> counts = read_numbers(in, 4);
+  knows_something_ = counts[0] != 0;
+  narrowing_ = counts[1] != 0;
+  paths_ = static_cast<std::uint64_t>(counts[2]);
+  sums_.converging = read_numbers(in, converging_.masses.size());
+  sums_.diverging = read_numbers(in, diverging_.masses.size());
+  if (counts[3] >= kGroup * kGroups) throw InputError("the focal model is damaged");
+  waiting_.resize(static_cast<std::size_t>(counts[3]));
+  in.read(reinterpret_cast<char*>(waiting_.data()),
+          static_cast<std::streamsize>(waiting_.size() * sizeof(Segment)));
+  if (!in) throw InputError("the focal model is cut off");
+}
+
+void FocalState::merge(const LearningState& other) {
+  const auto& theirs = dynamic_cast<const FocalState&>(other);
+  sums_.add(theirs.sums_);
+  waiting_.insert(waiting_.end(), theirs.waiting_.begin(), theirs.waiting_.end());
+  paths_ += theirs.paths_;
+}
+
+}  // namespace pharos::focal

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <pharos/guiding/learner.h>
+
+#include "learner.h"
+#include "octree_refinement.h"
+#include "splat.h"
+
+namespace pharos::focal {
+
+/// What is learned during one render: two octrees that become finer where mass collects.
+class FocalState final : public LearningState {
+ public:
+  FocalState(const FocalSettings& settings, const LearningContext& context);
+
+  void absorb(const PathLog& log) override;
+  std::shared_ptr<const GuidingModel> update(std::uint32_t iteration, bool last) override;
+  void save(std::ostream& out) const override;
+  void load(std::istream& in) override;
+  void merge(const LearningState& other) override;
+
+ private:
+  bool narrows(std::uint32_t iteration) const;
+  /// Splats the segments that wait, many at a time and always in the same groups.
+  void splat_waiting();
+  void splat(std::span<const Segment> segments, FocalSums& sums) const;
+  void refine(double total_mass);
+  std::shared_ptr<const GuidingModel> model(bool last) const;
+
+  FocalSettings settings_;
+  std::uint32_t first_narrowing_;  ///< iteration
+  double diagonal_;                ///< of the region [scene units]
+  LearningOctree converging_, diverging_;
+  FocalDensity density_;  ///< in force in this iteration
+  bool knows_something_ = false;
+  bool narrowing_ = false;
+
+  // Of this iteration.
+  FocalSums sums_;
+  std::uint64_t paths_ = 0;
+  std::vector<Segment> waiting_;
+  std::vector<Rgb> incident_;      ///< scratch
+  std::vector<FocalSums> groups_;  ///< scratch
+};
+
+}  // namespace pharos::focal

@@ -1,0 +1,130 @@
+#include "octree.h"
+
+#include <cmath>
+
+namespace pharos::focal {
+namespace {
+
+constexpr double kBelowOne = 1 - 0x1p-53;
+
+double ratio(double part, double rest) {
+  return part + rest > 0 ? part / (part + rest) : 0.5;
+}
+
+}  // namespace
+
+Box Box::child(unsigned c) const {
+  Box cell;
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    cell.size[axis] = 0.5 * size[axis];
+    cell.low[axis] = low[axis] + ((c >> axis & 1) != 0 ? cell.size[axis] : 0);
+  }
+  return cell;
+}
+
+bool Box::contains(Point3 p) const {
+  for (int axis = 0; axis < 3; ++axis) {
+    const double offset = p[axis] - low[axis];
+    if (!(offset >= 0 && offset <= size[axis])) return false;
+  }
+  return true;
+}
+
+Line::Line(Point3 from, Vec3 direction) {
+  // Along a zero component the line meets planes at no distance that matters. Where it lies within
+  // a plane between cells, what is ahead of the origin counts to the upper cell and what is behind
+  // to the lower one: never to both.
+  constexpr double kParallel = 1e60;
+  for (int axis = 0; axis < 3; ++axis) {
+    origin[axis] = from[axis];
+    reciprocal[axis] = direction[axis] != 0 ? 1.0 / direction[axis] : kParallel;
+  }
+}
+
+Octree::Octree(const Box& box, std::vector<Node> nodes)
+    : box_(box), nodes_(std::move(nodes)), warps_(nodes_.size()) {
+  // Masses of whole nodes relative to the cell of their parent: children stand after parents.
+  std::vector<double> masses(nodes_.size());
+  for (std::size_t i = nodes_.size(); i-- > 0;) {
+    const Node& node = nodes_[i];
+    double m[8];
+    for (unsigned c = 0; c < 8; ++c) {
+      m[c] = 0.125 * (node.is_leaf(c) ? node.density(c) : masses[node.index(c)]);
+    }
+    Warp& warp = warps_[i];
+    double column[4], slice[2];
+    for (unsigned k = 0; k < 4; ++k) {
+      warp.z[k] = static_cast<float>(ratio(m[k], m[k + 4]));
+      column[k] = m[k] + m[k + 4];
+    }
+    for (unsigned k = 0; k < 2; ++k) {
+      warp.y[k] = static_cast<float>(ratio(column[k], column[k + 2]));
+      slice[k] = column[k] + column[k + 2];
+    }
+    warp.x = static_cast<float>(ratio(slice[0], slice[1]));
+    masses[i] = slice[0] + slice[1];
+  }
+  mass_ = masses[0] * box_.volume();
+}
+
+int Octree::depth() const {
+  std::vector<int> levels(nodes_.size(), 1);
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    for (unsigned c = 0; c < 8; ++c) {
+      if (!nodes_[i].is_leaf(c)) levels[nodes_[i].index(c)] = levels[i] + 1;
+    }
+  }
+  return levels.back();
+}
+
+double Octree::density(Point3 p) const {
+  if (!box_.contains(p)) return 0;
+  Box cell = box_;
+  for (std::uint32_t i = 0;;) {
+    unsigned c = 0;
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      const double middle = cell.low[axis] + 0.5 * cell.size[axis];
+      c |= static_cast<unsigned>(p[static_cast<int>(axis)] >= middle) << axis;
+    }
+    if (nodes_[i].is_leaf(c)) return nodes_[i].density(c);
+    cell = cell.child(c);
+    i = nodes_[i].index(c);
+  }
+}
+
+double Octree::directional_density(const Line& line, double begin, double end) const {
+  Lanes sums{};
+  traverse(line, begin, end, [&](std::uint32_t i, const Spans& spans) {
+    const Lanes &t0 = spans.begin, &t1 = spans.end;
+    const Lanes length = t0 < t1 ? t1 - t0 : Lanes{};
+    // t1^3 - t0^3, without its cancellation.
+    sums += nodes_[i].density_lanes() * length * (t1 * t1 + t1 * t0 + t0 * t0);
+  });
+  double sum = 0;
+  for (int c = 0; c < 8; ++c) sum += sums[c];
+  return sum / 3;
+}
+
+Double3 Octree::sample(const Double3& u) const {
+  Double3 rest = u;
+  // Takes the lower half of an axis with probability p, and makes of the number a new one.
+  const auto choose = [](double& number, double p) -> unsigned {
+    const bool upper = number >= p;
+    number = std::min(upper ? (number - p) / (1 - p) : number / p, kBelowOne);
+    return upper ? 1 : 0;
+  };
+  Box cell = box_;
+  for (std::uint32_t i = 0;;) {
+    const Warp& warp = warps_[i];
+    const unsigned x = choose(rest[0], warp.x);
+    const unsigned y = choose(rest[1], warp.y[x]);
+    const unsigned c = x | y << 1 | choose(rest[2], warp.z[x | y << 1]) << 2;
+    cell = cell.child(c);
+    if (nodes_[i].is_leaf(c)) break;
+    i = nodes_[i].index(c);
+  }
+  for (int axis = 0; axis < 3; ++axis) rest[axis] = cell.low[axis] + rest[axis] * cell.size[axis];
+  return rest;
+}
+
+}  // namespace pharos::focal

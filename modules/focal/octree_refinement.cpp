@@ -1,0 +1,132 @@
+#include "octree_refinement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+namespace pharos::focal {
+namespace {
+
+using Node = Octree::Node;
+
+/// Folds values of leaves into values of nodes: `fold(child values)` of every node, `leaf(i, c)`
+/// being the value of a leaf.
+template <class Leaf, class Fold>
+std::vector<double> fold_up(const std::vector<Node>& nodes, Leaf&& leaf, Fold&& fold) {
+  std::vector<double> folded(nodes.size());
+  for (std::size_t i = nodes.size(); i-- > 0;) {
+    std::array<double, 8> children;
+    for (unsigned c = 0; c < 8; ++c) {
+      children[c] = nodes[i].is_leaf(c) ? leaf(i, c) : folded[nodes[i].index(c)];
+    }
+    folded[i] = fold(children);
+  }
+  return folded;
+}
+
+double sum_of(const std::array<double, 8>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+/// What a new node is made of: a node of the old octree, or an even spread of mass.
+struct Source {
+  std::optional<std::uint32_t> node;
+  double mass = 0;
+  int depth = 0;  ///< of its children
+};
+
+/// Makes the nodes of a refined octree, breadth-first.
+class Refinement {
+ public:
+  Refinement(const LearningOctree& old, const SplitRule& rule)
+      : old_(old),
+        rule_(rule),
+        sums_(fold_up(
+            old.octree.nodes(), [&](std::size_t i, unsigned c) { return old.masses[8 * i + c]; },
+            sum_of)) {}
+
+  LearningOctree run() {
+    sources_ = {{0u, sums_[0], 0}};
+    for (std::size_t i = 0; i < sources_.size(); ++i) add_node(sources_[i]);
+    return {Octree(old_.octree.box(), std::move(nodes_)), std::move(masses_)};
+  }
+
+ private:
+  void add_node(const Source source) {
+    Node& node = nodes_.emplace_back();
+    const double volume = std::ldexp(old_.octree.box().volume(), -3 * (source.depth + 1));
+    for (unsigned c = 0; c < 8; ++c) {
+      const Source child = child_of(source, c);
+      const bool splits =
+          source.depth < rule_.max_depth && child.mass > rule_.threshold * rule_.total_mass;
+      masses_.push_back(splits ? 0 : child.mass);
+      if (splits) {
+        node.set_index(c, static_cast<std::uint32_t>(sources_.size()));
+        sources_.push_back(child);
+      } else {
+        node.set_density(c, static_cast<float>(child.mass / (volume * rule_.total_mass)));
+      }
+    }
+  }
+
+  Source child_of(const Source& source, unsigned c) const {
+    if (!source.node) return {std::nullopt, source.mass / 8, source.depth + 1};
+    const std::size_t i = *source.node;
+    const Node& old = old_.octree.nodes()[i];
+    if (old.is_leaf(c)) return {std::nullopt, old_.masses[8 * i + c], source.depth + 1};
+    return {old.index(c), sums_[old.index(c)], source.depth + 1};
+  }
+
+  const LearningOctree& old_;
+  const SplitRule& rule_;
+  std::vector<double> sums_;
+  std::vector<Source> sources_;
+  std::vector<Node> nodes_;
+  std::vector<double> masses_;
+};
+
+}  // namespace
+
+double LearningOctree::mass() const {
+  return std::accumulate(masses.begin(), masses.end(), 0.0);
+}
+
+LearningOctree uniform_octree(const Box& box, double mass) {
+  Node root;
+  for (unsigned c = 0; c < 8; ++c) root.set_density(c, static_cast<float>(mass / box.volume()));
+  return {Octree(box, {root}), std::vector<double>(8, mass / 8)};
+}
+
+LearningOctree refined(const LearningOctree& learned, const SplitRule& rule) {
+  return Refinement(learned, rule).run();
+}
+
+Octree pruned(const Octree& octree, double ratio) {
+  const std::vector<Node>& old = octree.nodes();
+  const auto density = [&](std::size_t i, unsigned c) { return double{old[i].density(c)}; };
+  const std::vector<double> means =
+      fold_up(old, density, [](const std::array<double, 8>& values) { return sum_of(values) / 8; });
+  const std::vector<double> peaks = fold_up(old, density, [](const std::array<double, 8>& values) {
+    return *std::max_element(values.begin(), values.end());
+  });
+  std::vector<std::uint32_t> kept{0};
+  std::vector<Node> nodes;
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    Node node = old[kept[i]];
+    for (unsigned c = 0; c < 8; ++c) {
+      if (node.is_leaf(c)) continue;
+      const std::uint32_t child = node.index(c);
+      if (peaks[child] <= ratio * means[child]) {
+        node.set_density(c, static_cast<float>(means[child]));
+      } else {
+        node.set_index(c, static_cast<std::uint32_t>(kept.size()));
+        kept.push_back(child);
+      }
+    }
+    nodes.push_back(node);
+  }
+  return {octree.box(), std::move(nodes)};
+}
+
+}  // namespace pharos::focal

@@ -1,0 +1,123 @@
+#include "splat.h"
+
+#include <cmath>
+#include <numeric>
+
+namespace pharos::focal {
+namespace {
+
+/// Distances along a segment's line that count, ahead of the origin and behind it.
+struct Reach {
+  explicit Reach(const Segment& s)
+      : ahead(s.whole_line ? kInfinity : s.length), behind(s.whole_line ? -kInfinity : 0.0f) {}
+  double ahead, behind;
+};
+
+/// Adds `amount(node, c, t0, t1)` to every leaf that the line crosses within (begin, end).
+template <class Amount>
+void add_to_leaves(const Octree& octree, const Line& line, double begin, double end,
+                   std::vector<double>& sums, Amount&& amount) {
+  if (!(begin < end)) return;
+  octree.traverse(line, begin, end, [&](std::uint32_t i, const Spans& spans) {
+    const Octree::Node& node = octree.nodes()[i];
+    for (unsigned c = 0; c < 8; ++c) {
+      const bool crossed = node.is_leaf(c) && spans.begin[c] < spans.end[c];
+      if (crossed) sums[8 * std::size_t{i} + c] += amount(node, c, spans.begin[c], spans.end[c]);
+    }
+  });
+}
+
+/// Length of the line within the box between two distances.
+double length_within(const Box& box, const Line& line, double begin, double end) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const double a = (box.low[axis] - line.origin[axis]) * line.reciprocal[axis];
+    const double b = a + box.size[axis] * line.reciprocal[axis];
+    begin = std::max(begin, std::min(a, b));
+    end = std::min(end, std::max(a, b));
+  }
+  return std::max(end - begin, 0.0);
+}
+
+void splat_length(const Segment& segment, const FocalDensity& density, double unit,
+                  FocalSums& sums) {
+  const Line line(segment.origin, segment.direction);
+  const Reach reach(segment);
+  if (unit == 0) unit = length_within(density.converging.box(), line, 0, segment.length);
+  if (!(unit > 0)) return;
+  const double scale = segment.contribution / unit;
+  const auto amount = [&](const Octree::Node&, unsigned, double t0, double t1) {
+    return scale * (t1 - t0);
+  };
+  add_to_leaves(density.converging, line, 0, reach.ahead, sums.converging, amount);
+  add_to_leaves(density.diverging, line, reach.behind, 0, sums.diverging, amount);
+}
+
+void splat_narrowed(const Segment& segment, const FocalDensity& density, bool mis_compensation,
+                    FocalSums& sums) {
+  const float unguided = mis_compensation ? segment.unguided_fraction : 0.0f;
+  const double guided = density.directional_density(segment.origin, segment.direction);
+  const double pdf = unguided * double{segment.unguided_pdf} + (1 - unguided) * guided;
+  if (!(guided > 0) || !(pdf > 0)) return;
+  const double scale = (1 - unguided) * double{segment.contribution} / pdf;
+  const Line line(segment.origin, segment.direction);
+  const Reach reach(segment);
+  const auto amount = [&](const Octree::Node& node, unsigned c, double t0, double t1) {
+    return scale * node.density(c) * (t1 - t0) * (t1 * t1 + t1 * t0 + t0 * t0) / 3;
+  };
+  add_to_leaves(density.converging, line, 0, reach.ahead, sums.converging, amount);
+  add_to_leaves(density.diverging, line, reach.behind, 0, sums.diverging, amount);
+}
+
+bool meets_whole_line(const RecordedVertex& end, const ExtentRule& rule) {
+  if (rule.extent == SplatExtent::line) return true;
+  return end.kind == VertexKind::surface && end.roughness < rule.roughness;
+}
+
+}  // namespace
+
+void extract_segments(const PathView& path, const ExtentRule& rule, std::vector<Rgb>& incident,
+                      std::vector<Segment>& segments) {
+  estimate_incident_radiance(path, incident);
+  for (std::size_t i = 1; i < path.vertices.size(); ++i) {
+    const RecordedVertex& end = path.vertices[i];
+    if (end.parent == kNoVertex || end.parent == 0) continue;
+    const RecordedVertex& vertex = path.vertices[end.parent];
+    if (!vertex.guidable || is_discrete(vertex.event)) continue;
+    const float contribution = mean(vertex.throughput * vertex.local_weight * incident[end.parent]);
+    if (!(contribution > 0) || !std::isfinite(contribution)) continue;
+    const bool escapes = end.kind == VertexKind::environment;
+    // In a medium the density is over distances too: what of it is the direction's is not known.
+    const bool directional = vertex.measure == Measure::solid_angle;
+    segments.push_back({.origin = vertex.position,
+                        .direction = vertex.direction,
+                        .length = escapes ? kInfinity : length(end.position - vertex.position),
+                        .contribution = contribution,
+                        .unguided_pdf = directional ? vertex.unguided_pdf : 0.0f,
+                        .unguided_fraction = vertex.unguided_fraction,
+                        .whole_line = meets_whole_line(end, rule)});
+  }
+}
+
+void FocalSums::add(const FocalSums& other) {
+  for (std::size_t i = 0; i < converging.size(); ++i) converging[i] += other.converging[i];
+  for (std::size_t i = 0; i < diverging.size(); ++i) diverging[i] += other.diverging[i];
+}
+
+double FocalSums::total() const {
+  return std::accumulate(converging.begin(), converging.end(), 0.0) +
+         std::accumulate(diverging.begin(), diverging.end(), 0.0);
+}
+
+void splat_lengths(std::span<const Segment> segments, const FocalDensity& density, double unit,
+                   FocalSums& sums) {
+  for (const Segment& segment : segments) splat_length(segment, density, unit, sums);
+}
+
+void splat_narrowed(std::span<const Segment> segments, const FocalDensity& density,
+                    bool mis_compensation, FocalSums& sums) {
+  for (const Segment& segment : segments) {
+    splat_narrowed(segment, density, mis_compensation, sums);
+  }
+}
+
+}  // namespace pharos::focal

@@ -1,0 +1,138 @@
+#include "../octree.h"
+
+#include <cmath>
+
+#include <doctest/doctest.h>
+
+#include <pharos/core/warp.h>
+
+#include "test_trees.h"
+
+namespace pharos::focal {
+namespace {
+
+using namespace testing;
+
+/// The integral of density t^2 over the line, leaf by leaf without any traversal.
+double summed_over_leaves(const Octree& octree, std::uint32_t node, const Box& box,
+                          const Line& line, double begin, double end) {
+  double sum = 0;
+  for (unsigned c = 0; c < 8; ++c) {
+    const Box cell = box.child(c);
+    if (!octree.nodes()[node].is_leaf(c)) {
+      sum += summed_over_leaves(octree, octree.nodes()[node].index(c), cell, line, begin, end);
+      continue;
+    }
+    double t0 = begin, t1 = end;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double a = (cell.low[axis] - line.origin[axis]) * line.reciprocal[axis];
+      const double b =
+          (cell.low[axis] + cell.size[axis] - line.origin[axis]) * line.reciprocal[axis];
+      t0 = std::max(t0, std::min(a, b));
+      t1 = std::min(t1, std::max(a, b));
+    }
+    if (t0 < t1) sum += octree.nodes()[node].density(c) * (t1 * t1 * t1 - t0 * t0 * t0) / 3;
+  }
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("octree: the traversal equals the sum over all leaves") {
+  const std::vector<std::pair<const char*, Octree>> trees = {{"even", even_tree()},
+                                                             {"random", random_tree(1)},
+                                                             {"random too", random_tree(2)},
+                                                             {"pinhole", pinhole_tree()},
+                                                             {"one hot", one_hot_tree()}};
+  RandomStream random(7);
+  for (const auto& [name, octree] : trees) {
+    CAPTURE(name);
+    double worst = 0;
+    for (int i = 0; i < 200'000; ++i) {
+      const Point3 from = point_in_box(random, {{-3, -1, 0}, {6, 5, 8}});
+      const Vec3 direction = i % 2 == 0
+                                 ? warp::sphere_from_square(random.next_2d())
+                                 : normalize(point_near(random, {0.1f, 1.3f, 3.7f}, 0.03f) - from);
+      const Line line(from, direction);
+      for (const auto& [begin, end] : {std::pair{0.0, 1e30}, {-1e30, 0.0}}) {
+        const double walked = octree.directional_density(line, begin, end);
+        const double summed = summed_over_leaves(octree, 0, octree.box(), line, begin, end);
+        worst = std::max(worst, std::abs(walked - summed) / std::max(summed, 1e-20));
+      }
+    }
+    CHECK(worst < 1e-5);
+  }
+}
+
+TEST_CASE("octree: lines within planes between cells count once") {
+  const Octree octree = even_tree();
+  const Box& box = octree.box();
+  const auto at = [&](float x, float y, float z) {
+    return Point3{static_cast<float>(box.low[0] + x * box.size[0]),
+                  static_cast<float>(box.low[1] + y * box.size[1]),
+                  static_cast<float>(box.low[2] + z * box.size[2])};
+  };
+  const double density = 1 / box.volume();
+  // From the middle of the box along an axis: the line lies in planes between eight cells.
+  for (int axis = 0; axis < 3; ++axis) {
+    Vec3 direction;
+    direction[axis] = 1;
+    const double reach = 0.5 * box.size[axis];
+    const double expected = density * reach * reach * reach / 3;
+    for (const float sign : {1.0f, -1.0f}) {
+      const Line line(at(0.5f, 0.5f, 0.5f), sign * direction);
+      CHECK(octree.directional_density(line, 0, kInfinity) == doctest::Approx(expected));
+      CHECK(octree.directional_density(line, -kInfinity, 0) == doctest::Approx(expected));
+    }
+  }
+  // From a face straight inwards, and straight away.
+  const Line inwards(at(0, 0.3f, 0.3f), {1, 0, 0});
+  CHECK(octree.directional_density(inwards, 0, kInfinity) ==
+        doctest::Approx(density * std::pow(box.size[0], 3) / 3));
+  CHECK(octree.directional_density(inwards, -kInfinity, 0) == doctest::Approx(0));
+  CHECK(octree.directional_density(Line(at(-1, 0.3f, 0.3f), {-1, 0, 0}), 0, kInfinity) == 0);
+}
+
+TEST_CASE("octree: points are drawn by density") {
+  RandomStream random(5);
+  for (const NamedDensity& named : test_densities()) {
+    CAPTURE(named.name);
+    const Octree& octree = named.density.converging;
+    CHECK(named.density.converging.mass() + named.density.diverging.mass() ==
+          doctest::Approx(1).epsilon(1e-5));
+    // The mean of mass/density over draws is the volume of the cells that have mass: of the box.
+    // (In a cell as small as the hot one, points that are rounded to floats may leave it.)
+    if (named.name == "one hot cell") continue;
+    double volume = 0;
+    constexpr int kDraws = 100'000;
+    int outside = 0;
+    for (int i = 0; i < kDraws; ++i) {
+      const Vec2 u = random.next_2d();
+      const Double3 p = octree.sample({u.x, u.y, random.next_1d()});
+      const Point3 point{static_cast<float>(p[0]), static_cast<float>(p[1]),
+                         static_cast<float>(p[2])};
+      const double density = octree.density(point);
+      if (density > 0) volume += octree.mass() / density / kDraws;
+      outside += density > 0 ? 0 : 1;
+    }
+    CHECK(outside == 0);
+    CHECK(volume == doctest::Approx(octree.box().volume()).epsilon(0.1));
+  }
+}
+
+TEST_CASE("octree: a node without mass is drawn from evenly, and numbers near one stay inside") {
+  const Octree empty(test_box(), {Octree::Node{}});
+  CHECK(empty.mass() == 0);
+  const double most = 1 - 0x1p-24;
+  for (const Octree& octree : {empty, pinhole_tree(), one_hot_tree()}) {
+    for (const Double3& u : {Double3{0, 0, 0}, Double3{most, most, most}, Double3{0, most, 0}}) {
+      const Double3 p = octree.sample(u);
+      for (int axis = 0; axis < 3; ++axis) {
+        CHECK(p[axis] >= octree.box().low[axis]);
+        CHECK(p[axis] <= octree.box().low[axis] + octree.box().size[axis]);
+      }
+    }
+  }
+}
+
+}  // namespace pharos::focal

@@ -1,0 +1,96 @@
+#include <cmath>
+
+#include <doctest/doctest.h>
+
+#include "test_trees.h"
+
+namespace pharos::focal {
+namespace {
+
+using namespace testing;
+
+/// Index of the node in whose child `c` the path of child numbers ends.
+std::uint32_t node_at(const Octree& octree, std::initializer_list<unsigned> path) {
+  std::uint32_t node = 0;
+  for (const unsigned c : path) {
+    REQUIRE(!octree.nodes()[node].is_leaf(c));
+    node = octree.nodes()[node].index(c);
+  }
+  return node;
+}
+
+}  // namespace
+
+TEST_CASE("refinement: even mass gives a grid of 16 cells an edge at the paper's threshold") {
+  const LearningOctree even = refined(uniform_octree(test_box(), 1), {.threshold = 1e-3});
+  CHECK(even.octree.nodes().size() == 1 + 8 + 64 + 512);
+  CHECK(even.octree.depth() == 4);
+  CHECK(even.mass() == doctest::Approx(1));
+  CHECK(even.octree.mass() == doctest::Approx(1));
+  CHECK(even.octree.density({0, 1, 3}) == doctest::Approx(1 / test_box().volume()));
+}
+
+TEST_CASE("refinement: a heavy leaf is divided over several levels at once") {
+  LearningOctree learned = uniform_octree(test_box(), 1);
+  learned.masses = {0.9, 0, 0, 0, 0, 0, 0, 0.1};
+  const LearningOctree finer = refined(learned, {.threshold = 0.05});
+  const Octree& octree = finer.octree;
+  // 0.9 and 0.9 / 8 exceed 0.05, 0.9 / 64 does not; and 0.1 / 8 does not.
+  const std::uint32_t inner = node_at(octree, {0, 5});
+  for (unsigned c = 0; c < 8; ++c) {
+    CHECK(octree.nodes()[inner].is_leaf(c));
+    CHECK(finer.masses[8 * inner + c] == doctest::Approx(0.9 / 64));
+  }
+  CHECK(octree.nodes()[node_at(octree, {7})].is_leaf(0));
+  CHECK(octree.nodes()[0].is_leaf(3));
+  CHECK(finer.mass() == doctest::Approx(1));
+}
+
+TEST_CASE("refinement: no cell is finer than the greatest depth") {
+  LearningOctree learned = uniform_octree(test_box(), 1);
+  learned.masses = {1, 0, 0, 0, 0, 0, 0, 0};
+  CHECK(refined(learned, {.threshold = 1e-6, .max_depth = 0}).octree.depth() == 1);
+  CHECK(refined(learned, {.threshold = 1e-6, .max_depth = 2}).octree.depth() == 3);
+}
+
+TEST_CASE("refinement: light nodes become leaves with all of their mass, over several levels") {
+  LearningOctree learned = refined(uniform_octree(test_box(), 1), {.threshold = 1e-2});
+  REQUIRE(learned.octree.depth() > 1);
+  // Nearly all mass moves into one corner.
+  for (double& mass : learned.masses) mass *= 1e-4;
+  learned.masses[8 * node_at(learned.octree, {0, 0}) + 0] = 1;
+  const double before = learned.mass();
+  const LearningOctree coarser =
+      refined(learned, {.threshold = 1e-2, .max_depth = 4, .total_mass = before});
+  CHECK(coarser.octree.nodes()[0].is_leaf(7));
+  CHECK(coarser.masses[7] == doctest::Approx(1e-4 / 8));
+  CHECK(coarser.mass() == doctest::Approx(before).epsilon(1e-12));
+  CHECK(coarser.octree.mass() == doctest::Approx(1).epsilon(1e-6));
+}
+
+TEST_CASE("pruning: even nodes vanish, uneven ones stay, mass is kept") {
+  const Octree even = even_tree();
+  CHECK(pruned(even, 2).nodes().size() == 1);
+  CHECK(pruned(even, 2).mass() == doctest::Approx(1).epsilon(1e-6));
+  CHECK(pruned(even, 0.5).nodes() == even.nodes());
+
+  LearningOctree learned = refined(uniform_octree(test_box(), 1), {.threshold = 0.1});
+  REQUIRE(learned.octree.depth() == 2);
+  // Child 0: one leaf twice as dense as the mean of its node stays within the ratio; child 1: a
+  // little denser does not.
+  for (unsigned k = 0; k < 2; ++k) {
+    const std::size_t node = node_at(learned.octree, {k});
+    const double peak = k == 0 ? 2 : 2.01;
+    for (unsigned c = 0; c < 8; ++c) {
+      learned.masses[8 * node + c] = c == 0 ? peak : (8 - peak) / 7;
+    }
+  }
+  const Octree octree =
+      refined(learned, {.threshold = 0.05, .max_depth = 1, .total_mass = learned.mass()}).octree;
+  const Octree cut = pruned(octree, 2 + 1e-6);
+  CHECK(cut.nodes()[0].is_leaf(0));
+  CHECK(!cut.nodes()[0].is_leaf(1));
+  CHECK(cut.mass() == doctest::Approx(octree.mass()).epsilon(1e-6));
+}
+
+}  // namespace pharos::focal
