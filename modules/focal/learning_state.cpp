@@ -46,6 +46,15 @@ void fold(std::vector<double>& masses, const std::vector<double>& sums, double d
   }
 }
 
+/// Masses: finite and not negative.
+std::vector<double> read_masses(std::istream& in, std::size_t count) {
+  std::vector<double> masses = read_numbers<double>(in, count);
+  for (const double mass : masses) {
+    if (!std::isfinite(mass) || mass < 0) throw InputError("the focal model is damaged");
+  }
+  return masses;
+}
+
 void save_octree(const LearningOctree& learned, std::ostream& out) {
   write_octree(learned.octree, out);
   write_numbers(learned.masses, out);
@@ -54,7 +63,34 @@ void save_octree(const LearningOctree& learned, std::ostream& out) {
 LearningOctree load_octree(std::istream& in) {
   Octree octree = read_octree(in);
   const std::size_t slots = 8 * octree.nodes().size();
-  return {std::move(octree), read_numbers(in, slots)};
+  return {std::move(octree), read_masses(in, slots)};
+}
+
+/// Segments as numbers, as structures have gaps of unknown content between their members.
+constexpr std::size_t kNumbers = 11;
+
+void write_segments(const std::vector<Segment>& segments, std::ostream& out) {
+  for (const Segment& s : segments) {
+    write_numbers<float>(
+        {s.origin.x, s.origin.y, s.origin.z, s.direction.x, s.direction.y, s.direction.z, s.length,
+         s.contribution, s.unguided_pdf, s.unguided_fraction, s.whole_line ? 1.0f : 0.0f},
+        out);
+  }
+}
+
+std::vector<Segment> read_segments(std::istream& in, std::size_t count) {
+  std::vector<Segment> segments(count);
+  for (Segment& s : segments) {
+    const std::vector<float> v = read_numbers<float>(in, kNumbers);
+    s = {.origin = {v[0], v[1], v[2]},
+         .direction = {v[3], v[4], v[5]},
+         .length = v[6],
+         .contribution = v[7],
+         .unguided_pdf = v[8],
+         .unguided_fraction = v[9],
+         .whole_line = v[10] != 0};
+  }
+  return segments;
 }
 
 }  // namespace
@@ -147,30 +183,26 @@ std::shared_ptr<const GuidingModel> FocalState::model(bool last) const {
 void FocalState::save(std::ostream& out) const {
   save_octree(converging_, out);
   save_octree(diverging_, out);
-  write_numbers({static_cast<double>(knows_something_), static_cast<double>(narrowing_),
-                 static_cast<double>(paths_), static_cast<double>(waiting_.size())},
-                out);
+  write_numbers<double>({static_cast<double>(knows_something_), static_cast<double>(narrowing_),
+                         static_cast<double>(paths_), static_cast<double>(waiting_.size())},
+                        out);
   write_numbers(sums_.converging, out);
   write_numbers(sums_.diverging, out);
-  out.write(reinterpret_cast<const char*>(waiting_.data()),
-            static_cast<std::streamsize>(waiting_.size() * sizeof(Segment)));
+  write_segments(waiting_, out);
 }
 
 void FocalState::load(std::istream& in) {
   converging_ = load_octree(in);
   diverging_ = load_octree(in);
   density_ = {converging_.octree, diverging_.octree};
-  const std::vector<double> counts = read_numbers(in, 4);
+  const std::vector<double> counts = read_masses(in, 4);
   knows_something_ = counts[0] != 0;
   narrowing_ = counts[1] != 0;
   paths_ = static_cast<std::uint64_t>(counts[2]);
-  sums_.converging = read_numbers(in, converging_.masses.size());
-  sums_.diverging = read_numbers(in, diverging_.masses.size());
+  sums_.converging = read_masses(in, converging_.masses.size());
+  sums_.diverging = read_masses(in, diverging_.masses.size());
   if (counts[3] >= kGroup * kGroups) throw InputError("the focal model is damaged");
-  waiting_.resize(static_cast<std::size_t>(counts[3]));
-  in.read(reinterpret_cast<char*>(waiting_.data()),
-          static_cast<std::streamsize>(waiting_.size() * sizeof(Segment)));
-  if (!in) throw InputError("the focal model is cut off");
+  waiting_ = read_segments(in, static_cast<std::size_t>(counts[3]));
 }
 
 void FocalState::merge(const LearningState& other) {

@@ -81,16 +81,19 @@ Octree read_octree(std::istream& in) {
   return {box, std::move(nodes)};
 }
 
-void write_numbers(const std::vector<double>& numbers, std::ostream& out) {
-  for (const double number : numbers) write(out, number);
+template <class Number>
+void write_numbers(const std::vector<Number>& numbers, std::ostream& out) {
+  for (const Number number : numbers) write(out, number);
 }
 
-std::vector<double> read_numbers(std::istream& in, std::size_t count) {
-  std::vector<double> numbers = read_array<double>(in, count);
-  for (const double number : numbers) {
-    if (!std::isfinite(number) || number < 0) throw InputError("the focal model is damaged");
-  }
-  return numbers;
+template <class Number>
+std::vector<Number> read_numbers(std::istream& in, std::size_t count) {
+  return read_array<Number>(in, count);
 }
+
+template void write_numbers(const std::vector<float>&, std::ostream&);
+template void write_numbers(const std::vector<double>&, std::ostream&);
+template std::vector<float> read_numbers(std::istream&, std::size_t);
+template std::vector<double> read_numbers(std::istream&, std::size_t);
 
 }  // namespace pharos::focal
