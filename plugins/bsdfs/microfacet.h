@@ -47,37 +47,31 @@ inline float beta_function(float a, float b) {
   return (sum - 2) * (sum - 1) / (a * b) * std::exp(log_beta);
 }
 
-/// The GGX distribution of microfacet normals with Smith masking (Walter et al. 2007, "Microfacet
-/// Models for Refraction through Rough Surfaces"; Heitz 2014, "Understanding the Masking-Shadowing
-/// Function"), stretched along x or y where these have roughnesses of their own. All directions are
-/// unit vectors with z > 0 but where said otherwise; nothing divides by a cosine that may vanish.
-class GgxDistribution {
+/// A surface of microfacets with Smith masking (Walter et al. 2007, "Microfacet Models for
+/// Refraction through Rough Surfaces"; Heitz 2014, "Understanding the Masking-Shadowing Function").
+/// All directions are unit vectors with z > 0 but where said otherwise; nothing divides by a cosine
+/// that may vanish. `Distribution` says how facets are tilted:
+///
+/// - density(m): density D of facets with normal `m` over projected solid angle [1/sr];
+/// - visible_area(w): cos(w) (1 + Lambda(w)), the area of the facets that are seen from `w` as it
+///   appears from there, per area of the surface [1];
+/// - sample_visible_normal(wo, u): a normal visible from `wo`, of density visible_normal_pdf(); u.x
+///   and 1 - u.x mirror each other in the plane of incidence, and u.y near one draws the facets
+///   that turn away from view.
+template <class Distribution>
+class Microfacets {
  public:
-  /// `alpha` in (0, 1].
-  explicit GgxDistribution(float alpha) : GgxDistribution(alpha, alpha) {}
-  /// Roughness along x and along y, in (0, 1].
-  GgxDistribution(float alpha_x, float alpha_y)
-      : alpha_x_(alpha_x),
-        alpha_y_(alpha_y),
-        y_over_x_(alpha_y / alpha_x),
-        x_over_y_(alpha_x / alpha_y) {}
+  explicit Microfacets(const Distribution& distribution) : distribution_(distribution) {}
 
-  /// Density of facets with normal `m` over projected solid angle [1/sr].
-  float density(Vec3 m) const {
-    const float product = alpha_x_ * alpha_y_;
-    // The form in x and y keeps its digits for smooth surfaces, where m.z is nearly one.
-    const float x = y_over_x_ * m.x, y = x_over_y_ * m.y;
-    const float t = x * m.x + y * m.y + product * m.z * m.z;
-    return product / (kPi * t * t);
-  }
+  float density(Vec3 m) const { return distribution_.density(m); }
 
-  /// The share G1(w) of facets' area that is visible from `w` [1] (Walter et al. 2007, eq. 34).
-  float masking(Vec3 w) const { return 2 * w.z / (w.z + stretched_length(w)); }
+  /// The share G1(w) of facets' area that is visible from `w` [1].
+  float masking(Vec3 w) const { return w.z / distribution_.visible_area(w); }
   /// The share of the light leaving facets visible from `wo` that is not shadowed towards `wi`,
   /// G2(o, i) / G1(o) [1], with heights correlated (Heitz 2014, eq. 99). Uncorrelated it is G1(i).
   float correlated_shadowing(Vec3 wo, Vec3 wi) const {
-    const float o = stretched_length(wo), i = stretched_length(wi);
-    return (wo.z + o) / (o + i * (wo.z / wi.z));
+    const float o = distribution_.visible_area(wo), i = distribution_.visible_area(wi);
+    return o / (o + (i - wi.z) * (wo.z / wi.z));
   }
   /// The same for light that leaves downwards, `wi.z` < 0. At a height below which the share c of
   /// all facets lies, c^Lambda(o) are unmasked from above and (1 - c)^Lambda(i) unshadowed from
@@ -101,35 +95,21 @@ class GgxDistribution {
 
   /// Density of the mirror direction about a visible normal `m`: G1(o) D(m) / (4 cos(o)) [1/sr].
   float visible_reflection_pdf(Vec3 wo, Vec3 m) const {
-    return 0.5f * density(m) / (wo.z + stretched_length(wo));
+    return 0.25f * density(m) / distribution_.visible_area(wo);
   }
 
-  /// A normal visible from `wo`, of density visible_normal_pdf(): spherical caps (Dupuy and Benyoub
-  /// 2023, "Sampling Visible GGX Normals with Spherical Caps").
   Vec3 sample_visible_normal(Vec3 wo, Vec2 u) const {
-    const Vec3 o = normalize(Vec3{alpha_x_ * wo.x, alpha_y_ * wo.y, wo.z});
-    const float z = 1 - u.y * (1 + o.z);
-    const float sine = safe_sqrt((1 - z) * (1 + z));
-    const float phi = 2 * kPi * u.x;
-    const Vec3 m = Vec3{sine * std::cos(phi), sine * std::sin(phi), z} + o;
-    return normalize(Vec3{alpha_x_ * m.x, alpha_y_ * m.y, std::max(0.0f, m.z)});
+    return distribution_.sample_visible_normal(wo, u);
   }
 
  private:
-  /// Smith's Lambda, 1 / G1 - 1 (Heitz 2014, eq. 72), cut off where float arithmetic would overflow
-  /// and G2 has long vanished.
+  /// Smith's Lambda, 1 / G1 - 1, cut off where float arithmetic would overflow and G2 has long
+  /// vanished.
   float lambda(Vec3 w) const {
-    return std::clamp(0.5f * (stretched_length(w) / w.z - 1), 0.0f, 1e17f);
-  }
-  /// Length of `w` in the space where the surface has roughness one: cos(w) sqrt(1 + alpha^2
-  /// tan^2), with the alpha of its azimuth (Heitz 2014, eq. 80).
-  float stretched_length(Vec3 w) const {
-    const float y = y_over_x_ * w.y;
-    return std::sqrt(alpha_x_ * alpha_x_ * (w.x * w.x + y * y) + w.z * w.z);
+    return std::clamp(distribution_.visible_area(w) / w.z - 1, 0.0f, 1e17f);
   }
 
-  float alpha_x_, alpha_y_;
-  float y_over_x_, x_over_y_;  ///< ratios of the two, exactly one where they are the same
+  Distribution distribution_;
 };
 
 }  // namespace pharos

@@ -24,9 +24,10 @@ PHAROS_MODULE(registry) {
   registry.add<pharos::Diffuse>("diffuse", "Lambert's cosine law on the outer side");
   registry.add<pharos::RoughDiffuse>("rough_diffuse", "Oren and Nayar's grooves of matt facets");
   registry.add<pharos::Conductor>("conductor", "Mirror of a polished metal");
-  registry.add<pharos::RoughConductor>("rough_conductor", "GGX microfacets of a metal");
+  registry.add<pharos::RoughConductor>("rough_conductor", "GGX or Beckmann microfacets of a metal");
   registry.add<pharos::Dielectric>("dielectric", "Smooth glass: mirror reflection and refraction");
-  registry.add<pharos::RoughDielectric>("rough_dielectric", "GGX microfacets of a clear medium");
+  registry.add<pharos::RoughDielectric>("rough_dielectric",
+                                        "GGX or Beckmann microfacets of a clear medium");
   registry.add<pharos::ThinDielectric>("thin_dielectric", "Clear pane without thickness");
   registry.add<pharos::Plastic>("plastic", "A matt base under a smooth clear coat");
   registry.add<pharos::RoughPlastic>("rough_plastic", "A matt base under a rough clear coat");

@@ -40,15 +40,23 @@ void describe_share(Schema<Settings>& s, std::string key, Ref<Texture> Settings:
              [](const Ref<Texture>& t) { return max_component(t->maximum()) <= 1; });
 }
 
-/// Declares `alpha` and `alpha_v`, the roughness of a surface that may be brushed.
+/// Declares `distribution` and `masking` of microfacets.
 template <class Settings>
-void describe_roughness(Schema<Settings>& s) {
-  s.field("alpha", &Settings::alpha, "GGX roughness; along u, where alpha_v is given")
+void describe_facets(Schema<Settings>& s) {
+  s.field("distribution", &Settings::distribution, "How facets are tilted: GGX has longer tails");
+  s.field("masking", &Settings::masking, "How masking and shadowing are combined");
+}
+
+/// Declares the microfacets of a surface that may be brushed, `alpha` and `alpha_v` among them.
+template <class Settings>
+void describe_brushed_facets(Schema<Settings>& s) {
+  s.field("alpha", &Settings::alpha, "Roughness; along u, where alpha_v is given")
       .at_least(1e-4)
       .at_most(1);
-  s.field("alpha_v", &Settings::alpha_v, "GGX roughness along v; without it as along u")
+  s.field("alpha_v", &Settings::alpha_v, "Roughness along v; without it as along u")
       .at_least(1e-4)
       .at_most(1);
+  describe_facets(s);
 }
 
 /// Declares a texture that scales what is reflected or transmitted: 1 unless stated.

@@ -45,6 +45,7 @@
 #include <pharos/config/registry.h>
 #include <pharos/core/warp.h>
 
+#include "ggx.h"
 #include "lobe_choice.h"
 #include "parameters.h"
 #include "rough_interface.h"
@@ -67,7 +68,7 @@ class View {
         transmits_(contains(options.events, Event::smooth_transmit)),
         scale_(options.transport == Transport::radiance ? 1 / (eta_ * eta_) : 1),
         masking_(masking),
-        facets_(surface.alpha),
+        facets_(GgxDistribution(surface.alpha, surface.alpha)),
         coat_or_matt_(has_base() ? surface.coat_albedo(wo_) : 0,
                       has_base() ? surface.matt_albedo() : 0),
         interface_or_base_(interface_albedo(), base_albedo()) {}
@@ -160,7 +161,7 @@ class View {
   bool reflects_, transmits_;
   float scale_;  ///< of refracted radiance
   Masking masking_;
-  GgxDistribution facets_;
+  Microfacets<GgxDistribution> facets_;
   LobeChoice coat_or_matt_, interface_or_base_;
 };
 

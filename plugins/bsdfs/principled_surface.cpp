@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "fresnel.h"
+#include "ggx.h"
 #include "microfacet.h"
 
 namespace pharos {
@@ -93,7 +94,8 @@ float PrincipledSurface::matt_albedo() const {
 
 float PrincipledSurface::coat(Vec3 wo, Vec3 wi, Vec3 m) const {
   if (clearcoat == 0) return 0;
-  const GgxDistribution shadows(0.25f);
+  constexpr float kAlpha = 0.25f;  // Burley 2012
+  const Microfacets shadows(GgxDistribution(kAlpha, kAlpha));
   return 0.25f * clearcoat * coat_fresnel(dot(wo, m)) * coat_facets().density(m) *
          shadows.masking(wo) * shadows.masking(wi) * wi.z;
 }

@@ -4,8 +4,8 @@
 
 namespace pharos {
 
-RoughCoat::RoughCoat(float alpha, float ior, Masking masking)
-    : facets_(alpha), ior_(ior), masking_(masking) {
+RoughCoat::RoughCoat(FacetDistribution distribution, float alpha, float ior, Masking masking)
+    : facets_(distribution, alpha, alpha), ior_(ior), masking_(masking) {
   for (std::size_t i = 0; i <= kIntervals; ++i) {
     const float x = static_cast<float>(i) / kIntervals;
     transmittance_[i] = std::max(0.0f, 1 - reflectance(square(square(x))));
@@ -22,7 +22,8 @@ RoughCoat::Reflection RoughCoat::reflect(Vec3 wo, Vec3 wi) const {
   const std::optional<Vec3> m = half_vector(wo, wi);
   if (!m) return {};
   const float fresnel = dielectric_fresnel(std::min(1.0f, dot(wo, *m)), ior_).reflectance;
-  return {fresnel * facets_.shadowing(wo, wi, masking_), facets_.visible_reflection_pdf(wo, *m)};
+  const auto [shadowing, pdf] = facets_.mirrored(wo, wi, *m, masking_);
+  return {fresnel * shadowing, pdf};
 }
 
 Vec3 RoughCoat::sample(Vec3 wo, Vec2 u) const {
@@ -31,17 +32,19 @@ Vec3 RoughCoat::sample(Vec3 wo, Vec2 u) const {
 }
 
 /// The mean of F G2 / G1 over visible normals, by the midpoint rule over their primary numbers.
-/// Half of the azimuths suffice, and points crowd where facets turn away from view.
+/// Half of u.x suffices, and points crowd at both ends of u.y, where facets turn away from view or
+/// are the steepest.
 float RoughCoat::reflectance(float cosine) const {
-  constexpr int kPoints = 32;
+  constexpr int kPoints = 40;
   const Vec3 wo{safe_sqrt((1 - cosine) * (1 + cosine)), 0, cosine};
   double sum = 0;
   for (int i = 0; i < kPoints; ++i) {
-    const float rest = 1 - (static_cast<float>(i) + 0.5f) / kPoints;
+    const float t = (static_cast<float>(i) + 0.5f) / kPoints;
+    const float y = t * t * (3 - 2 * t), spacing = 6 * t * (1 - t);
     for (int j = 0; j < kPoints; ++j) {
-      const float half_turn = 0.5f * (static_cast<float>(j) + 0.5f) / kPoints;
-      const Vec3 wi = sample(wo, {half_turn, 1 - rest * rest});
-      if (wi.z > 0) sum += 2 * double{rest} * double{reflect(wo, wi).weight};
+      const float half_x = 0.5f * (static_cast<float>(j) + 0.5f) / kPoints;
+      const Vec3 wi = sample(wo, {half_x, y});
+      if (wi.z > 0) sum += double{spacing} * double{reflect(wo, wi).weight};
     }
   }
   return static_cast<float>(sum / (kPoints * kPoints));

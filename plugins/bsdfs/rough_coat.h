@@ -5,19 +5,21 @@
 
 #include <pharos/core/vec.h>
 
-#include "microfacet.h"
+#include "facets.h"
 
 namespace pharos {
 
-/// A clear coat whose surface are GGX microfacets, seen from outside: what it mirrors, and how much
+/// A clear coat whose surface are microfacets, seen from outside: what it mirrors, and how much
 /// it lets in. The transmittance is one minus the reflectance of single reflections, so that no
 /// light is lost: what facets reflect onto each other mostly enters after all. It is tabulated, as
 /// it has no closed form; errors are below 0.001 for alpha >= 0.001, and below 0.003 for smoother
 /// coats at grazing angles.
 class RoughCoat {
  public:
-  /// `alpha` in (0, 1], `ior` of the coat over outside, at least 1. Takes some milliseconds.
-  RoughCoat(float alpha, float ior, Masking masking = Masking::height_correlated);
+  /// `alpha` in (0, 1], `ior` of the coat over outside, at least 1. Takes some milliseconds,
+  /// with Beckmann's distribution some tens.
+  RoughCoat(FacetDistribution distribution, float alpha, float ior,
+            Masking masking = Masking::height_correlated);
 
   /// Share [1] of light from direction `wo` that enters.
   float transmittance(float cosine) const;
@@ -38,7 +40,7 @@ class RoughCoat {
   /// Nodes lie at cosine = x^4, evenly in x: details at grazing angles are as narrow as alpha.
   static constexpr std::size_t kIntervals = 128;
 
-  GgxDistribution facets_;
+  Facets facets_;
   float ior_;
   Masking masking_;
   std::array<float, kIntervals + 1> transmittance_;

@@ -1,4 +1,4 @@
-// rough_conductor: a metal of GGX microfacets,
+// rough_conductor: a metal of microfacets,
 //
 //     f = F(o.m) D(m) G2(o, i) / (4 cos(o) cos(i)),  m the unit half vector,
 //
@@ -6,9 +6,14 @@
 // `material` names a measured metal (metals.cpp says where its numbers come from) or `ideal`, which
 // reflects everything; any other metal is given by `eta` and `k` instead.
 // Light is scattered on the side of the shading normal only, once: what bounces between facets is
-// lost, as usual. `masking: separable` is the product G1(o) G1(i) of
-// renderers before Heitz 2014, Mitsuba 0.6 among them. Single precision resolves alpha down to
-// about 0.001; below, lobes become grainy, so less than 0.0001 is refused.
+// lost, as usual.
+//
+// `distribution` is `ggx` or `beckmann`, the D of Walter et al. 2007, "Microfacet Models for
+// Refraction through Rough Surfaces", eqs. 33 and 25, each with the exact masking that Smith
+// derives from it. At the same alpha Beckmann's highlight is about as wide, but ends where that of
+// GGX has a haze. `masking: separable` is the product G1(o) G1(i) of renderers before Heitz 2014,
+// Mitsuba 0.6 among them. Single precision resolves alpha down to about 0.001; below, lobes become
+// grainy, so less than 0.0001 is refused.
 //
 // With `alpha_v` facets are tilted by different amounts along u and v of the texture coordinates.
 // Metal brushed along u is smooth along u and rough along v: `alpha` is less than `alpha_v`.
@@ -24,22 +29,22 @@
 namespace pharos {
 
 void RoughConductor::Settings::describe(Schema<Settings>& s) {
-  describe_roughness(s);
+  describe_brushed_facets(s);
   describe_metal(s);
-  s.field("masking", &Settings::masking, "How masking and shadowing are combined");
   describe_factor(s, "specular_reflectance", &Settings::specular_reflectance,
                   "Factor on what is reflected");
   s.example("{ alpha: 0.02, material: Au }");
   s.example(
       "{ alpha: 0.4, material: Al, masking: separable, specular_reflectance: [0.9, 0.5, 0.2] }");
   s.example("{ alpha: 0.5, alpha_v: 0.1, material: Cu }");
+  s.example("{ alpha: 0.1, alpha_v: 0.6, distribution: beckmann, material: Al }");
   s.example("{ alpha: 1, eta: [1.66, 0.88, 0.52], k: [9.2, 6.27, 4.84] }");
 }
 
 RoughConductor::RoughConductor(const Settings& settings)
     : settings_(settings),
       ior_(stated_ior(settings.material, settings.eta, settings.k)),
-      facets_(alpha_u(), alpha_v()),
+      facets_(settings.distribution, alpha_u(), alpha_v()),
       average_fresnel_(average_conductor_fresnel(ior_)) {}
 
 ScatterValue RoughConductor::evaluate(const SurfacePoint& point, Vec3 wo, Vec3 wi,
@@ -64,10 +69,9 @@ RoughConductor::Reflection RoughConductor::reflect(const SurfacePoint& point, Ve
                                                    Vec3 wi) const {
   const std::optional<Vec3> m = half_vector(wo, wi);
   if (!m) return {};
-  const float shadowing = facets_.shadowing(wo, wi, settings_.masking);
+  const auto [shadowing, pdf] = facets_.mirrored(wo, wi, *m, settings_.masking);
   const Rgb fresnel = conductor_fresnel(std::min(1.0f, dot(wo, *m)), ior_.eta, ior_.k);
-  return {shadowing * fresnel * settings_.specular_reflectance->evaluate(point),
-          facets_.visible_reflection_pdf(wo, *m)};
+  return {shadowing * fresnel * settings_.specular_reflectance->evaluate(point), pdf};
 }
 
 Rgb RoughConductor::albedo(const SurfacePoint& point) const {

@@ -4,8 +4,8 @@
 #include <pharos/scene/bsdf.h>
 #include <pharos/scene/texture.h>
 
+#include "facets.h"
 #include "metals.h"
-#include "microfacet.h"
 
 namespace pharos {
 
@@ -15,6 +15,7 @@ class RoughConductor final : public Bsdf {
   struct Settings {
     float alpha = 0.1f;
     std::optional<float> alpha_v;
+    FacetDistribution distribution = FacetDistribution::ggx;
     std::optional<Metal> material;
     std::optional<Rgb> eta, k;
     Masking masking = Masking::height_correlated;
@@ -44,7 +45,7 @@ class RoughConductor final : public Bsdf {
 
   Settings settings_;
   ComplexIor ior_;
-  GgxDistribution facets_;
+  Facets facets_;
   Rgb average_fresnel_;  ///< over the hemisphere, approximately [1]
 };
 

@@ -1,4 +1,4 @@
-// rough_dielectric: frosted glass, the interface of a clear medium made of GGX microfacets (Walter
+// rough_dielectric: frosted glass, the interface of a clear medium made of microfacets (Walter
 // et al. 2007, eqs. 20 and 21),
 //
 //     reflected   f = F(o.m) D(m) G2(o, i) / (4 cos(o) cos(i)),      m ~ o + i,
@@ -11,7 +11,7 @@
 // What bounces between facets is lost, as usual. `masking: separable` is the product G1(o) G1(i) of
 // Walter et al., Mitsuba 0.6 among the renderers that have it.
 //
-// `alpha_v` is as in rough_conductor.
+// `alpha_v` and `distribution` are as in rough_conductor.
 //
 // The nearer `ior` comes to one, the narrower is the refracted lobe, and at one it is a single
 // direction: alpha |ior - 1| of less than 3e-5, where single precision no longer resolves it, is
@@ -44,9 +44,8 @@ float refract_probability(float fresnel, EventMask allowed) {
 }  // namespace
 
 void RoughDielectric::Settings::describe(Schema<Settings>& s) {
-  describe_roughness(s);
+  describe_brushed_facets(s);
   describe_ior(s, "Refractive index inside over outside");
-  s.field("masking", &Settings::masking, "How masking and shadowing are combined");
   describe_both_factors(s, "refracted");
   s.example("{ alpha: 0.02, ior: 1.33 }");
   s.example("{ alpha: 0.3, ior: 0.66, masking: separable }");
@@ -54,11 +53,12 @@ void RoughDielectric::Settings::describe(Schema<Settings>& s) {
       "{ alpha: 1, ior: 2.4, specular_reflectance: 0.8, specular_transmittance: [0.2, 0.7, 1] }");
   s.example("{ alpha: 0.2, ior: 1.02 }");
   s.example("{ alpha: 0.05, alpha_v: 0.4 }");
+  s.example("{ alpha: 0.7, alpha_v: 0.1, distribution: beckmann, ior: 0.7 }");
 }
 
 RoughDielectric::RoughDielectric(const Settings& settings)
     : settings_(settings),
-      facets_(alpha_u(), alpha_v()),
+      facets_(settings.distribution, alpha_u(), alpha_v()),
       average_fresnel_(average_dielectric_fresnel(settings.ior)) {
   constexpr float kNarrowest = 3e-5f;
   const float width = std::min(alpha_u(), alpha_v()) * std::abs(settings.ior - 1);
@@ -109,9 +109,9 @@ RoughDielectric::Scattering RoughDielectric::reflect(const SurfacePoint& point, 
   const float fresnel = dielectric_fresnel(std::min(1.0f, dot(wo, *m)), eta).reflectance;
   const float probability = reflect_probability(fresnel, events);
   if (probability == 0) return {};
-  const float share = fresnel / probability * facets_.shadowing(wo, wi, settings_.masking);
-  return {share * settings_.specular_reflectance->evaluate(point),
-          probability * facets_.visible_reflection_pdf(wo, *m)};
+  const auto [shadowing, pdf] = facets_.mirrored(wo, wi, *m, settings_.masking);
+  const float share = fresnel / probability * shadowing;
+  return {share * settings_.specular_reflectance->evaluate(point), probability * pdf};
 }
 
 RoughDielectric::Scattering RoughDielectric::refract(const SurfacePoint& point, Vec3 wo, Vec3 wi,
@@ -121,10 +121,10 @@ RoughDielectric::Scattering RoughDielectric::refract(const SurfacePoint& point, 
   const float probability = refract_probability(facet->fresnel, options.events);
   if (probability == 0) return {};
   const float scale = options.transport == Transport::radiance ? 1 / (eta * eta) : 1;
-  const float share =
-      (1 - facet->fresnel) / probability * facets_.shadowing(wo, wi, settings_.masking);
+  const auto [shadowing, pdf] = facets_.by_normal(wo, wi, facet->normal, settings_.masking);
+  const float share = (1 - facet->fresnel) / probability * shadowing;
   return {scale * share * settings_.specular_transmittance->evaluate(point),
-          probability * facets_.visible_normal_pdf(wo, facet->normal) * facet->jacobian};
+          probability * pdf * facet->jacobian};
 }
 
 Rgb RoughDielectric::albedo(const SurfacePoint& point) const {

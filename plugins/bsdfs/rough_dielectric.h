@@ -4,7 +4,7 @@
 #include <pharos/scene/bsdf.h>
 #include <pharos/scene/texture.h>
 
-#include "microfacet.h"
+#include "facets.h"
 
 namespace pharos {
 
@@ -14,6 +14,7 @@ class RoughDielectric final : public Bsdf {
   struct Settings {
     float alpha = 0.1f;
     std::optional<float> alpha_v;
+    FacetDistribution distribution = FacetDistribution::ggx;
     float ior = 1.5f;
     Masking masking = Masking::height_correlated;
     Ref<Texture> specular_reflectance, specular_transmittance;
@@ -53,7 +54,7 @@ class RoughDielectric final : public Bsdf {
   float eta_beyond(Vec3 wo) const { return wo.z > 0 ? settings_.ior : 1 / settings_.ior; }
 
   Settings settings_;
-  GgxDistribution facets_;
+  Facets facets_;
   float average_fresnel_;  ///< over the outer hemisphere [1]
 };
 

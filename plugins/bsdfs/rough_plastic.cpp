@@ -1,4 +1,4 @@
-// rough_plastic: `plastic` whose coat is rough, a sum of GGX microfacets and a matt base,
+// rough_plastic: `plastic` whose coat is rough, a sum of microfacets and a matt base,
 //
 //     f = F(o.m) D(m) G2(o, i) / (4 cos(o) cos(i))  +  T(o) T(i) / (pi eta^2)  a / (1 - a F'),
 //
@@ -6,8 +6,8 @@
 // reflectance of its inner side (see diffuse_base.h). T is what the first term does not reflect
 // (rough_coat.h), so that a white base reflects all light up to the error of a table, which is
 // below 0.001 for alpha >= 0.001. sample() chooses coat and base in proportion to the mean of the
-// channels of what they reflect. `masking` is as in rough_conductor. Light is scattered on the side
-// of the normal only.
+// channels of what they reflect. `distribution` and `masking` are as in rough_conductor. Light is
+// scattered on the side of the normal only.
 //
 //     { type: rough_plastic, alpha: 0.15, reflectance: [0.1, 0.3, 0.7], nonlinear: true }
 #include "rough_plastic.h"
@@ -21,22 +21,24 @@
 namespace pharos {
 
 void RoughPlastic::Settings::describe(Schema<Settings>& s) {
-  s.field("alpha", &Settings::alpha, "GGX roughness of the coat").at_least(1e-4).at_most(1);
+  s.field("alpha", &Settings::alpha, "Roughness of the coat").at_least(1e-4).at_most(1);
+  describe_facets(s);
   describe_coat_ior(s);
   describe_share(s, "reflectance", &Settings::reflectance, "Share of light that the base reflects",
                  "0.5");
   describe_factor(s, "specular_reflectance", &Settings::specular_reflectance,
                   "Factor on what the coat reflects");
-  s.field("masking", &Settings::masking, "How masking and shadowing are combined");
   s.field("nonlinear", &Settings::nonlinear, "Whether repeated reflection deepens the colour");
   s.example("{ alpha: 0.02, reflectance: 1, nonlinear: true }");
-  s.example("{ alpha: 0.4, ior: 1.9, reflectance: [0.8, 0.4, 0.05], nonlinear: true }");
+  s.example(
+      "{ alpha: 0.4, distribution: beckmann, ior: 1.9, reflectance: [0.8, 0.4, 0.05], nonlinear: "
+      "true }");
   s.example("{ alpha: 1, ior: 1.3, reflectance: [0.1, 0.2, 0.9], specular_reflectance: 0.5 }");
 }
 
 RoughPlastic::RoughPlastic(const Settings& settings)
     : settings_(settings),
-      coat_(settings.alpha, settings.ior, settings.masking),
+      coat_(settings.distribution, settings.alpha, settings.ior, settings.masking),
       base_(hemisphere_mean([this](float cosine) { return coat_.transmittance(cosine); }),
             settings.ior, settings.nonlinear) {}
 

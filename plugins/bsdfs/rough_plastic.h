@@ -15,6 +15,7 @@ class RoughPlastic final : public Bsdf {
  public:
   struct Settings {
     float alpha = 0.1f;
+    FacetDistribution distribution = FacetDistribution::ggx;
     float ior = 1.5f;
     Ref<Texture> reflectance;
     Ref<Texture> specular_reflectance;

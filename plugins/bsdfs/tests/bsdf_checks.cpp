@@ -18,7 +18,7 @@ void check_close(Rgb a, Rgb b) {
 }
 
 double tangent_squared(Vec3 v) {
-  return (1 - double{v.z} * v.z) / (double{v.z} * v.z);
+  return (double{v.x} * v.x + double{v.y} * v.y) / (double{v.z} * v.z);
 }
 
 }  // namespace
@@ -60,6 +60,16 @@ double ggx(Vec3 m, double alpha) {
 
 double smith_lambda(Vec3 w, double alpha) {
   return 0.5 * (std::sqrt(1 + alpha * alpha * tangent_squared(w)) - 1);
+}
+
+double beckmann(Vec3 m, double alpha) {
+  const double c2 = double{m.z} * m.z;
+  return std::exp(-tangent_squared(m) / (alpha * alpha)) / (M_PI * alpha * alpha * c2 * c2);
+}
+
+double beckmann_lambda(Vec3 w, double alpha) {
+  const double a = 1 / (alpha * std::sqrt(tangent_squared(w)));
+  return 0.5 * (std::exp(-a * a) / (a * std::sqrt(M_PI)) - std::erfc(a));
 }
 
 statistics::DensityFit fit_smooth(const Bsdf& bsdf, Vec3 wo, ScatterOptions options,

@@ -43,6 +43,10 @@ Vec3 direction(double theta, double phi);
 double ggx(Vec3 m, double alpha);
 double smith_lambda(Vec3 w, double alpha);
 
+/// The same of Beckmann's distribution, in the forms of Walter et al. 2007, eqs. 25 and 26.
+double beckmann(Vec3 m, double alpha);
+double beckmann_lambda(Vec3 w, double alpha);
+
 /// Fits sample() to evaluate().pdf.
 statistics::DensityFit fit_smooth(const Bsdf& bsdf, Vec3 wo, ScatterOptions options,
                                   std::uint64_t seed);

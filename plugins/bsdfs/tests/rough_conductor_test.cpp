@@ -10,8 +10,11 @@
 namespace pharos {
 namespace {
 
-RoughConductor mirror_metal(float alpha, Masking masking) {
+constexpr auto kGgx = FacetDistribution::ggx, kBeckmann = FacetDistribution::beckmann;
+
+RoughConductor mirror_metal(float alpha, Masking masking, FacetDistribution distribution = kGgx) {
   return RoughConductor({.alpha = alpha,
+                         .distribution = distribution,
                          .material = Metal::ideal,
                          .masking = masking,
                          .specular_reflectance = test::uniform(Rgb(1))});
@@ -25,33 +28,43 @@ TEST_CASE("rough conductor: the textbook formula") {
   const Vec3 m = normalize(wo + wi);
   const ComplexIor copper = metal_ior(Metal::Cu);  // nothing else is stated
   for (const float alpha : {0.1f, 0.5f, 1.0f}) {
-    const RoughConductor::Settings defaults{.alpha = alpha,
-                                            .specular_reflectance = test::uniform(Rgb(0.9f))};
-    RoughConductor::Settings separable = defaults;
-    separable.masking = Masking::separable;
-    const double lo = test::smith_lambda(wo, alpha), li = test::smith_lambda(wi, alpha);
     const double fresnel = conductor_fresnel(dot(wo, m), copper.eta.g, copper.k.g);
-    const double common = 0.9 * fresnel * test::ggx(m, alpha) / (4 * wo.z);
-    CHECK(RoughConductor(defaults).evaluate(point, wo, wi, {}).value.g ==
-          doctest::Approx(common / (1 + lo + li)).epsilon(1e-4));
-    CHECK(RoughConductor(separable).evaluate(point, wo, wi, {}).value.g ==
-          doctest::Approx(common / ((1 + lo) * (1 + li))).epsilon(1e-4));
+    const auto check = [&](FacetDistribution distribution, double d, double lo, double li) {
+      const RoughConductor::Settings correlated{.alpha = alpha,
+                                                .distribution = distribution,
+                                                .specular_reflectance = test::uniform(Rgb(0.9f))};
+      RoughConductor::Settings separable = correlated;
+      separable.masking = Masking::separable;
+      const double common = 0.9 * fresnel * d / (4 * wo.z);
+      CHECK(RoughConductor(correlated).evaluate(point, wo, wi, {}).value.g ==
+            doctest::Approx(common / (1 + lo + li)).epsilon(1e-4));
+      CHECK(RoughConductor(separable).evaluate(point, wo, wi, {}).value.g ==
+            doctest::Approx(common / ((1 + lo) * (1 + li))).epsilon(1e-4));
+    };
+    check(kGgx, test::ggx(m, alpha), test::smith_lambda(wo, alpha), test::smith_lambda(wi, alpha));
+    check(kBeckmann, test::beckmann(m, alpha), test::beckmann_lambda(wo, alpha),
+          test::beckmann_lambda(wi, alpha));
+    CHECK(RoughConductor::Settings().distribution == kGgx);
   }
 }
 
 TEST_CASE("rough conductor: reflects no more than it gets, and more when masking is correlated") {
-  for (const float alpha : {0.1f, 0.4f, 1.0f}) {
-    for (const double theta : {0.0, 45.0, 80.0}) {
-      const Vec3 wo = test::direction(theta, 30);
-      const double correlated =
-          test::smooth_albedo(mirror_metal(alpha, Masking::height_correlated), wo);
-      const double separable = test::smooth_albedo(mirror_metal(alpha, Masking::separable), wo);
-      CAPTURE(alpha);
-      CAPTURE(theta);
-      CHECK(correlated <= 1.0001);
-      CHECK(separable <= correlated + 1e-4);
-      CHECK(separable > 0.3);
-      if (alpha == 0.1f && theta == 0) CHECK(correlated > 0.98);
+  for (const FacetDistribution distribution : {kGgx, kBeckmann}) {
+    for (const float alpha : {0.1f, 0.4f, 1.0f}) {
+      for (const double theta : {0.0, 45.0, 80.0}) {
+        const Vec3 wo = test::direction(theta, 30);
+        const auto albedo = [&](Masking masking) {
+          return test::smooth_albedo(mirror_metal(alpha, masking, distribution), wo);
+        };
+        const double correlated = albedo(Masking::height_correlated);
+        const double separable = albedo(Masking::separable);
+        CAPTURE(alpha);
+        CAPTURE(theta);
+        CHECK(correlated <= 1.0001);
+        CHECK(separable <= correlated + 1e-4);
+        CHECK(separable > 0.3);
+        if (alpha == 0.1f && theta == 0) CHECK(correlated > 0.98);
+      }
     }
   }
 }
@@ -71,14 +84,16 @@ TEST_CASE("rough conductor: samples carry the albedo") {
 }
 
 TEST_CASE("rough conductor: nearly smooth metal reflects as a mirror does") {
-  const RoughConductor bsdf = mirror_metal(1e-4f, Masking::height_correlated);
   const Vec3 wo = test::direction(50, 70), mirrored{-wo.x, -wo.y, wo.z};
   RandomStream random(4);
-  for (int i = 0; i < 100; ++i) {
-    const auto s = bsdf.sample({}, wo, 0, 0.98f * random.next_2d(), {});
-    REQUIRE(s);
-    CHECK(length(s->direction - mirrored) < 5e-3f);
-    CHECK(s->weight.r == doctest::Approx(1).epsilon(1e-3));
+  for (const FacetDistribution distribution : {kGgx, kBeckmann}) {
+    const RoughConductor bsdf = mirror_metal(1e-4f, Masking::height_correlated, distribution);
+    for (int i = 0; i < 100; ++i) {
+      const auto s = bsdf.sample({}, wo, 0, 0.98f * random.next_2d(), {});
+      REQUIRE(s);
+      CHECK(length(s->direction - mirrored) < 5e-3f);
+      CHECK(s->weight.r == doctest::Approx(1).epsilon(1e-3));
+    }
   }
 }
 

@@ -20,8 +20,10 @@ namespace {
 
 constexpr EventMask kReflect = EventMask::reflect, kTransmit = EventMask::transmit;
 
-RoughDielectric frosted(float alpha, float ior, Masking masking = Masking::height_correlated) {
+RoughDielectric frosted(float alpha, float ior, Masking masking = Masking::height_correlated,
+                        FacetDistribution distribution = FacetDistribution::ggx) {
   return RoughDielectric({.alpha = alpha,
+                          .distribution = distribution,
                           .ior = ior,
                           .masking = masking,
                           .specular_reflectance = test::uniform(Rgb(1)),
@@ -29,9 +31,15 @@ RoughDielectric frosted(float alpha, float ior, Masking masking = Masking::heigh
 }
 
 /// Glass and gaps in glass, from nearly smooth to rough, of high and of hardly any contrast.
-std::array<RoughDielectric, 5> subjects() {
-  return {frosted(0.05f, 1.5f), frosted(0.3f, 1 / 1.5f), frosted(1, 1.5f),
-          frosted(0.5f, 2.4f, Masking::separable), frosted(0.2f, 1.02f)};
+std::array<RoughDielectric, 7> subjects() {
+  constexpr auto kBeckmann = FacetDistribution::beckmann;
+  return {frosted(0.05f, 1.5f),
+          frosted(0.3f, 1 / 1.5f),
+          frosted(1, 1.5f),
+          frosted(0.5f, 2.4f, Masking::separable),
+          frosted(0.2f, 1.02f),
+          frosted(0.6f, 1.5f, Masking::height_correlated, kBeckmann),
+          frosted(0.1f, 1 / 1.8f, Masking::separable, kBeckmann)};
 }
 
 /// Directions outside and inside, beyond the critical angle of glass too.
@@ -50,7 +58,7 @@ double total(const RoughDielectric& bsdf, Vec3 wo) {
 }  // namespace
 
 TEST_CASE("rough dielectric: refraction by the textbook") {
-  // Walter et al. 2007, eq. 21, with D of eq. 33 and G1 of eq. 34 or the beta function.
+  // Walter et al. 2007, eq. 21, with G1 of eq. 23 or the beta function.
   struct Vector {
     double x, y, z;
   };
@@ -60,26 +68,29 @@ TEST_CASE("rough dielectric: refraction by the textbook") {
   const double norm = std::sqrt(h.x * h.x + h.y * h.y + h.z * h.z);
   const double o_m = (h.x * wo.x + h.y * wo.y + h.z * wo.z) / norm;
   const double i_m = (h.x * wi.x + h.y * wi.y + h.z * wi.z) / norm;
-  const auto tan_squared = [](double z) { return (1 - z * z) / (z * z); };
-  const double m_z = h.z / norm, spread = alpha * alpha + tan_squared(m_z);
-  const double d = alpha * alpha / (M_PI * std::pow(m_z, 4) * spread * spread);
-  const auto lambda = [&](double z) {
-    return 0.5 * (std::sqrt(1 + alpha * alpha * tan_squared(z)) - 1);
-  };
-  const double lo = 1 + lambda(wo.z), li = 1 + lambda(wi.z);
-  const double correlated = std::exp(std::lgamma(lo) + std::lgamma(li) - std::lgamma(lo + li));
+  const Vec3 m{static_cast<float>(h.x / norm), static_cast<float>(h.y / norm),
+               static_cast<float>(h.z / norm)};
   const double fresnel = dielectric_fresnel(static_cast<float>(o_m), 1.5f).reflectance;
   const double denominator = std::pow(o_m + eta * i_m, 2);
-  const double unmasked = -o_m * i_m / wo.z * (1 - fresnel) * d / denominator;
-  const auto value = [&](Masking masking, Transport transport) {
-    return frosted(0.4f, 1.5f, masking).evaluate({}, wo, wi, {.transport = transport}).value.g;
+  const auto check = [&](FacetDistribution distribution, double d, double lo, double li) {
+    const double correlated = std::exp(std::lgamma(lo) + std::lgamma(li) - std::lgamma(lo + li));
+    const double unmasked = -o_m * i_m / wo.z * (1 - fresnel) * d / denominator;
+    const auto value = [&](Masking masking, Transport transport) {
+      return frosted(0.4f, 1.5f, masking, distribution)
+          .evaluate({}, wo, wi, {.transport = transport})
+          .value.g;
+    };
+    CHECK(value(Masking::separable, Transport::radiance) ==
+          doctest::Approx(unmasked / (lo * li)).epsilon(1e-4));
+    CHECK(value(Masking::separable, Transport::importance) ==
+          doctest::Approx(unmasked / (lo * li) * eta * eta).epsilon(1e-4));
+    CHECK(value(Masking::height_correlated, Transport::radiance) ==
+          doctest::Approx(unmasked * correlated).epsilon(1e-4));
   };
-  CHECK(value(Masking::separable, Transport::radiance) ==
-        doctest::Approx(unmasked / (lo * li)).epsilon(1e-4));
-  CHECK(value(Masking::separable, Transport::importance) ==
-        doctest::Approx(unmasked / (lo * li) * eta * eta).epsilon(1e-4));
-  CHECK(value(Masking::height_correlated, Transport::radiance) ==
-        doctest::Approx(unmasked * correlated).epsilon(1e-4));
+  check(FacetDistribution::ggx, test::ggx(m, alpha), 1 + test::smith_lambda(wo, alpha),
+        1 + test::smith_lambda(-wi, alpha));
+  check(FacetDistribution::beckmann, test::beckmann(m, alpha), 1 + test::beckmann_lambda(wo, alpha),
+        1 + test::beckmann_lambda(-wi, alpha));
 }
 
 TEST_CASE("rough dielectric: samples follow their density") {
@@ -219,8 +230,11 @@ TEST_CASE("rough dielectric: no light leaves by facets of total reflection") {
 
 TEST_CASE("rough dielectric: grazing and degenerate directions give finite values") {
   for (const float ior : {0.1f, 0.66f, 0.999f, 1.001f, 1.5f, 10.0f}) {
-    for (const float alpha : {0.04f, 0.3f, 1.0f}) {
-      const RoughDielectric bsdf = frosted(alpha, ior);
+    for (const auto& [alpha, distribution] :
+         {std::pair(0.04f, FacetDistribution::ggx), std::pair(0.3f, FacetDistribution::ggx),
+          std::pair(1.0f, FacetDistribution::ggx), std::pair(0.04f, FacetDistribution::beckmann),
+          std::pair(1.0f, FacetDistribution::beckmann)}) {
+      const RoughDielectric bsdf = frosted(alpha, ior, Masking::height_correlated, distribution);
       CAPTURE(ior);
       CAPTURE(alpha);
       for (const float z : {1e-3f, -1e-3f, 1e-6f, -1e-12f, 1e-30f, -1e-42f}) {
