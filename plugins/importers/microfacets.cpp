@@ -12,9 +12,8 @@ namespace {
 
 constexpr double kSmoothest = 1e-4, kRoughest = 1;
 
-void note_distribution(Part& part) {
+void set_distribution(Part& part, ConfigNode& node) {
   const std::string distribution = part.text("distribution", "beckmann");
-  if (distribution == "ggx") return;
   static const std::vector<std::string> known{"as", "beckmann", "ggx", "phong"};
   if (std::find(known.begin(), known.end(), distribution) == known.end()) {
     throw InputError(
@@ -22,8 +21,16 @@ void note_distribution(Part& part) {
         fmt::format("unknown distribution '{}'{}; known: {}", one_line(distribution, 60),
                     suggestion(distribution, known), quoted_list(known)));
   }
-  part.note(fmt::format("bsdf {}: distribution '{}' is replaced by GGX of the same alpha",
-                        part.object().type, distribution));
+  const bool is_known_here = distribution == "ggx" || distribution == "beckmann";
+  // Of Phong's distribution, which is also called `as` for Ashikhmin and Shirley, the exponent is
+  // 2 / alpha^2 - 2, at which it is close to Beckmann's (Walter et al. 2007, section 5.2).
+  if (!is_known_here) {
+    part.note(fmt::format("bsdf {}: distribution '{}' is replaced by Beckmann's of the same alpha",
+                          part.object().type, distribution));
+  }
+  const Property* stated = part.object().find("distribution");
+  const Location& there = stated != nullptr ? stated->where : part.where();
+  node.set("distribution", text_node(is_known_here ? distribution : "beckmann", there), there);
 }
 
 double in_range(Part& part, double alpha) {
@@ -37,7 +44,6 @@ struct Roughness {
 };
 
 Roughness read_roughness(Part& part) {
-  note_distribution(part);
   const double alpha = part.average("alpha", 0.1);
   return {in_range(part, part.average("alpha_u", alpha)),
           in_range(part, part.average("alpha_v", alpha))};
@@ -50,7 +56,9 @@ void set_number(Part& part, ConfigNode& node, const char* key, const char* name,
   node.set(key, number_node(value, there), there);
 }
 
-void set_masking(Part& part, ConfigNode& node) {
+/// What does not depend on roughness.
+void set_facets(Part& part, ConfigNode& node) {
+  set_distribution(part, node);
   node.set("masking", text_node("separable", part.where()), part.where());
 }
 
@@ -64,14 +72,14 @@ void set_isotropic_roughness(Part& part, ConfigNode& node) {
   }
   const double both = alpha.u == alpha.v ? alpha.u : std::sqrt(alpha.u * alpha.v);
   set_number(part, node, "alpha", "alpha", both);
-  set_masking(part, node);
+  set_facets(part, node);
 }
 
 void set_roughness(Part& part, ConfigNode& node) {
   const Roughness alpha = read_roughness(part);
   set_number(part, node, "alpha", part.has("alpha_u") ? "alpha_u" : "alpha", alpha.u);
   if (alpha.u != alpha.v) set_number(part, node, "alpha_v", "alpha_v", alpha.v);
-  set_masking(part, node);
+  set_facets(part, node);
 }
 
 }  // namespace pharos::mitsuba

@@ -4,8 +4,8 @@
 
 namespace pharos::mitsuba {
 
-/// Sets `alpha` and `masking` as Mitsuba has them, of a material whose lobe is round here. Other
-/// distributions than GGX are approximated, with a note.
+/// Sets `alpha`, `distribution` and `masking` as Mitsuba has them, of a material whose lobe is
+/// round here. Other distributions than GGX and Beckmann's are approximated, with a note.
 void set_isotropic_roughness(Part& part, ConfigNode& node);
 
 /// The same for materials that may be brushed: `alpha_v` where it differs along v.

@@ -24,7 +24,10 @@ TEST_CASE("bsdfs: defaults are Mitsuba's") {
   is("diffuse", "{ type: diffuse, reflectance: 0.5 }");
   is("difftrans", "{ type: diffuse_transmitter, transmittance: 0.5 }");
   is("conductor", "{ type: conductor, material: Cu }");
-  is("roughconductor", "{ type: rough_conductor, material: Cu, alpha: 0.1, masking: separable }");
+  is("roughconductor",
+     "{ type: rough_conductor, material: Cu, alpha: 0.1, distribution: beckmann, masking: "
+     "separable "
+     "}");
   is("phong",
      "{ type: phong, diffuse_reflectance: 0.5, specular_reflectance: 0.2, exponent: 30, "
      "rescale_to: 0.99 }");
@@ -93,17 +96,38 @@ TEST_CASE("bsdfs: roughness") {
   const Import ggx = rough({value("distribution", "ggx"), value("alpha", 0.3)});
   CHECK(notes(ggx).size() == 1);  // that there is no sensor
   CHECK(part(ggx, "scene.shapes.0.material.alpha") == "0.3");
-  CHECK(has_note(
-      rough({}),
-      "bsdf roughconductor: distribution 'beckmann' is replaced by GGX of the same alpha"));
-  CHECK_THROWS_AS(rough({value("distribution", "gxg")}), InputError);
+  CHECK(part(ggx, "scene.shapes.0.material.distribution") == "ggx");
   const Import brushed = rough({value("alpha_u", 0.05), value("alpha_v", 0.3)});
-  CHECK(
-      part(brushed, "scene.shapes.0.material") ==
-      "{ type: rough_conductor, material: ideal, alpha: 0.05, alpha_v: 0.3, masking: separable }");
+  CHECK(part(brushed, "scene.shapes.0.material") ==
+        "{ type: rough_conductor, material: ideal, alpha: 0.05, alpha_v: 0.3, distribution: "
+        "beckmann, "
+        "masking: separable }");
   CHECK(part(rough({value("alpha", 0.0)}), "scene.shapes.0.material.alpha") == "0.0001");
   CHECK(has_note(rough({value("alpha", 2.0)}),
                  "bsdf roughconductor: roughness above 1 is taken as 1"));
+}
+
+TEST_CASE("bsdfs: distributions of microfacets") {
+  const auto imported = [](const char* type, std::vector<Property> all) {
+    return import_of_bsdf(bsdf(type, std::move(all)));
+  };
+  for (const char* type : {"roughconductor", "roughdielectric", "roughplastic"}) {
+    CAPTURE(type);
+    for (const Import& beckmann :
+         {imported(type, {}), imported(type, {value("distribution", "beckmann")})}) {
+      CHECK(part(beckmann, "scene.shapes.0.material.distribution") == "beckmann");
+      CHECK(notes(beckmann).size() == 1);  // that there is no sensor
+    }
+    for (const std::string other : {"phong", "as"}) {
+      const Import near = imported(type, {value("distribution", other.c_str())});
+      CHECK(part(near, "scene.shapes.0.material.distribution") == "beckmann");
+      CHECK(has_note(near, "bsdf " + std::string(type) + ": distribution '" + other +
+                               "' is replaced by Beckmann's of the same alpha"));
+    }
+    CHECK_THROWS_WITH_AS(imported(type, {value("distribution", "gxg", 8)}),
+                         doctest::Contains("unknown distribution 'gxg' (did you mean 'ggx'?)"),
+                         InputError);
+  }
 }
 
 TEST_CASE("bsdfs: a texture of roughness is averaged, with a note") {
