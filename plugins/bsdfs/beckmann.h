@@ -24,7 +24,7 @@ class BeckmannDistribution {
 
   /// cos (1 + erf(a)) / 2 + alpha sin exp(-a^2) / (2 sqrt(pi)), where a = cot / alpha and alpha is
   /// that of the azimuth of `w` (Walter et al. 2007, eq. 26; Heitz 2014, eq. 80).
-  float visible_area(Vec3 w) const {
+  float facing_area(Vec3 w) const {
     const float level = std::sqrt(stretch_.level_squared(w));
     return area_above(-w.z / level, level, w.z);
   }
@@ -35,14 +35,14 @@ class BeckmannDistribution {
  private:
   /// On a surface of roughness one, seen along (sine, 0, cosine) or any multiple of it: the area of
   /// facets with normals along (s, t, 1), s > `x`, as it appears from there. `x` is no less than
-  /// -cosine / sine, where facets are out of sight. No term is negative: no digits are lost where
-  /// the area is small.
+  /// -cosine / sine, where facets turn away. No term is negative: no digits are lost where the area
+  /// is small.
   static float area_above(float x, float sine, float cosine) {
     constexpr float kInverseRootPi = 0.564189584f;
     return 0.5f * (cosine * std::erfc(x) + kInverseRootPi * sine * std::exp(-x * x));
   }
 
-  /// The slope x in that view that a share `above` in (0, 1] of the visible area exceeds.
+  /// The slope x in that view that a share `above` in (0, 1] of the area facing it exceeds.
   static float visible_slope(float above, float sine, float cosine);
 
   FacetStretch stretch_;

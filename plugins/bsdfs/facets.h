@@ -40,14 +40,14 @@ class Facets {
     float shadowing;  ///< G2(o, i) / G1(o) [1]
     float pdf;        ///< [1/sr]
   };
-  /// From `wo` to its mirror direction `wi` about `m`, of which the density is.
+  /// From `wo` to its mirror direction `wi` about `m`; the density is that of `wi`.
   Passage mirrored(Vec3 wo, Vec3 wi, Vec3 m, Masking masking) const {
     const auto way = [&](const auto& f) {
       return Passage{f.shadowing(wo, wi, masking), f.visible_reflection_pdf(wo, m)};
     };
     return std::visit(way, either_);
   }
-  /// From `wo` to `wi` by any event at `m`, o.m > 0, of which the density is.
+  /// From `wo` to `wi` by any event at `m`, o.m > 0; the density is that of `m`.
   Passage by_normal(Vec3 wo, Vec3 wi, Vec3 m, Masking masking) const {
     const auto way = [&](const auto& f) {
       return Passage{f.shadowing(wo, wi, masking), f.visible_normal_pdf(wo, m)};

@@ -23,7 +23,7 @@ class GgxDistribution {
 
   /// (cos + sqrt(cos^2 + alpha^2 sin^2)) / 2, with the alpha of the azimuth of `w` (Walter et al.
   /// 2007, eq. 34; Heitz 2014, eq. 80).
-  float visible_area(Vec3 w) const {
+  float facing_area(Vec3 w) const {
     return 0.5f * (w.z + std::sqrt(stretch_.level_squared(w) + w.z * w.z));
   }
 

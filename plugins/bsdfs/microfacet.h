@@ -53,11 +53,12 @@ inline float beta_function(float a, float b) {
 /// that may vanish. `Distribution` says how facets are tilted:
 ///
 /// - density(m): density D of facets with normal `m` over projected solid angle [1/sr];
-/// - visible_area(w): cos(w) (1 + Lambda(w)), the area of the facets that are seen from `w` as it
-///   appears from there, per area of the surface [1];
-/// - sample_visible_normal(wo, u): a normal visible from `wo`, of density visible_normal_pdf(); u.x
-///   and 1 - u.x mirror each other in the plane of incidence, and u.y near one draws the facets
-///   that turn away from view.
+/// - facing_area(w): cos(w) (1 + Lambda(w)), the area of all facets that face `w`, masked or not,
+///   as it appears from there and per area of the surface [1];
+/// - sample_visible_normal(wo, u): a normal visible from `wo`, of density visible_normal_pdf().
+/// Where
+///   wo.y is zero, u.x and 1 - u.x give mirror images; u.y near one draws the facets that turn away
+///   from view.
 template <class Distribution>
 class Microfacets {
  public:
@@ -66,11 +67,11 @@ class Microfacets {
   float density(Vec3 m) const { return distribution_.density(m); }
 
   /// The share G1(w) of facets' area that is visible from `w` [1].
-  float masking(Vec3 w) const { return w.z / distribution_.visible_area(w); }
+  float masking(Vec3 w) const { return w.z / distribution_.facing_area(w); }
   /// The share of the light leaving facets visible from `wo` that is not shadowed towards `wi`,
   /// G2(o, i) / G1(o) [1], with heights correlated (Heitz 2014, eq. 99). Uncorrelated it is G1(i).
   float correlated_shadowing(Vec3 wo, Vec3 wi) const {
-    const float o = distribution_.visible_area(wo), i = distribution_.visible_area(wi);
+    const float o = distribution_.facing_area(wo), i = distribution_.facing_area(wi);
     return o / (o + (i - wi.z) * (wo.z / wi.z));
   }
   /// The same for light that leaves downwards, `wi.z` < 0. At a height below which the share c of
@@ -95,7 +96,7 @@ class Microfacets {
 
   /// Density of the mirror direction about a visible normal `m`: G1(o) D(m) / (4 cos(o)) [1/sr].
   float visible_reflection_pdf(Vec3 wo, Vec3 m) const {
-    return 0.25f * density(m) / distribution_.visible_area(wo);
+    return 0.25f * density(m) / distribution_.facing_area(wo);
   }
 
   Vec3 sample_visible_normal(Vec3 wo, Vec2 u) const {
@@ -106,7 +107,7 @@ class Microfacets {
   /// Smith's Lambda, 1 / G1 - 1, cut off where float arithmetic would overflow and G2 has long
   /// vanished.
   float lambda(Vec3 w) const {
-    return std::clamp(distribution_.visible_area(w) / w.z - 1, 0.0f, 1e17f);
+    return std::clamp(distribution_.facing_area(w) / w.z - 1, 0.0f, 1e17f);
   }
 
   Distribution distribution_;

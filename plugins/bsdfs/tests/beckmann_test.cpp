@@ -11,8 +11,7 @@
 namespace pharos {
 namespace {
 
-/// Walter et al. 2007, eq. 26 solved for the visible area, over slopes from x to infinity of a view
-/// along (sine, 0, cosine), in double precision.
+/// The integral of (cosine + s sine) exp(-s^2) / sqrt(pi) over slopes s > x, in double precision.
 double area_above(double x, double sine, double cosine) {
   return 0.5 * cosine * std::erfc(x) + 0.5 * sine * std::exp(-x * x) / std::sqrt(M_PI);
 }
@@ -42,8 +41,8 @@ TEST_CASE("Beckmann: stretched surfaces have the roughness of the azimuth") {
   const BeckmannDistribution facets(0.2f, 0.7f), along_x(0.2f, 0.2f), along_y(0.7f, 0.7f);
   for (const double theta : {20.0, 70.0}) {
     const Vec3 x = test::direction(theta, 0), y = test::direction(theta, 90);
-    CHECK(facets.visible_area(x) == doctest::Approx(along_x.visible_area(x)).epsilon(1e-5));
-    CHECK(facets.visible_area(y) == doctest::Approx(along_y.visible_area(y)).epsilon(1e-5));
+    CHECK(facets.facing_area(x) == doctest::Approx(along_x.facing_area(x)).epsilon(1e-5));
+    CHECK(facets.facing_area(y) == doctest::Approx(along_y.facing_area(y)).epsilon(1e-5));
   }
   // D is the density of two independent Gaussian slopes.
   const Vec3 m = test::direction(30, 40);

@@ -58,18 +58,20 @@ TEST_CASE("beta function: large arguments") {
 
 TEST_CASE_TEMPLATE("microfacets: facets cover the surface once", D, GgxDistribution,
                    BeckmannDistribution) {
-  for (const auto [x, y] : kAlphas) {
+  for (const Alphas alpha : kAlphas) {
     // The integral of D(m) m.z over slopes of length r = t / (1 - t) times alpha.
-    const D facets(x, y);
+    const D facets(alpha.x, alpha.y);
     const auto covered = [&](double t, double phi) {
-      const double r = t / (1 - t), s = r * x * std::cos(phi), p = r * y * std::sin(phi);
+      const double r = t / (1 - t), s = r * alpha.x * std::cos(phi),
+                   p = r * alpha.y * std::sin(phi);
       const double cosine = 1 / std::sqrt(1 + s * s + p * p);
       const Vec3 m{static_cast<float>(s * cosine), static_cast<float>(p * cosine),
                    static_cast<float>(cosine)};
-      return double{facets.density(m)} * std::pow(cosine, 4) * x * y * r / ((1 - t) * (1 - t));
+      return double{facets.density(m)} * std::pow(cosine, 4) * alpha.x * alpha.y * r /
+             ((1 - t) * (1 - t));
     };
-    CAPTURE(x);
-    CAPTURE(y);
+    CAPTURE(alpha.x);
+    CAPTURE(alpha.y);
     const statistics::Rectangle all{.x0 = 0, .x1 = 1, .y0 = 0, .y1 = 2 * M_PI};
     CHECK(statistics::integrate(covered, all).value == doctest::Approx(1).epsilon(1e-4));
   }
@@ -112,8 +114,8 @@ TEST_CASE_TEMPLATE(
     "microfacets: visible normals cover the view once and are drawn by their density", D,
     GgxDistribution, BeckmannDistribution) {
   std::vector<double> p_values;
-  for (const auto [x, y] : kAlphas) {
-    const Microfacets facets(D(x, y));
+  for (const Alphas alpha : kAlphas) {
+    const Microfacets facets(D(alpha.x, alpha.y));
     for (const Vec3 wo : kViews) {
       const auto draw = [&](RandomStream& random) {
         return std::optional(facets.sample_visible_normal(wo, random.next_2d()));
@@ -124,8 +126,8 @@ TEST_CASE_TEMPLATE(
       };
       const auto fit =
           statistics::fit_direction_density(draw, density, {.seed = 20 + p_values.size()});
-      CAPTURE(x);
-      CAPTURE(y);
+      CAPTURE(alpha.x);
+      CAPTURE(alpha.y);
       CAPTURE(wo.z);
       CHECK(fit.is_density());
       CHECK(fit.integral == doctest::Approx(1).epsilon(1e-3));
