@@ -4,7 +4,6 @@
 
 #include <fmt/core.h>
 
-#include "mesh_normals.h"
 #include "shapes.h"
 
 namespace pharos::mitsuba {
@@ -34,25 +33,20 @@ Transform to_face(const CubeFace& face) {
   return Transform({{{x.x, y.x, z.x, z.x}, {x.y, y.y, z.y, z.y}, {x.z, y.z, z.z, z.z}}});
 }
 
+/// Files' shading normals, and smooth ones where they have none, unless faces are to be seen.
+void set_normals(Part& part, ConfigNode& node) {
+  const bool is_flat = part.flag("face_normals", false);
+  const Location& there = is_flat ? part.object().find("face_normals")->where : part.where();
+  node.set("normals", text_node(is_flat ? "flat" : "file_or_smooth", there), there);
+}
+
 /// What all meshes in files share.
 ConfigNode mesh_of(Part& part) {
   ConfigNode node = part.node("mesh");
   node.set("file", part.file("filename"), part.where());
   part.copy_transform(node, "to_world");
   part.copy_flag(node, "flip_normals");
-  part.copy_flag(node, "face_normals");
-  return node;
-}
-
-/// The same, of files whose normals Mitsuba makes up where they have none.
-ConfigNode smoothed_mesh_of(Part& part) {
-  ConfigNode node = mesh_of(part);
-  const ConfigNode& file = *node.find("file");
-  const auto folder = std::filesystem::path(file.where().file).parent_path();
-  if (node.find("face_normals") == nullptr && !has_vertex_normals(folder / file.text())) {
-    part.note(fmt::format("shape {}: a mesh without normals is shaded flat; Mitsuba smooths it",
-                          part.object().type));
-  }
+  set_normals(part, node);
   return node;
 }
 
@@ -110,14 +104,14 @@ Geometry map_cylinder(Part& part, bool) {
 
 Geometry map_obj(Part& part, bool) {
   part.ignore({"collapse", "load_materials"});
-  Geometry mesh{{smoothed_mesh_of(part)}};
+  Geometry mesh{{mesh_of(part)}};
   mesh.sense = flipped_if(part.flag("flip_tex_coords", true));
   return mesh;
 }
 
 Geometry map_ply(Part& part, bool) {
   part.ignore({"srgb"});
-  Geometry mesh{{smoothed_mesh_of(part)}};
+  Geometry mesh{{mesh_of(part)}};
   mesh.sense = flipped_if(part.flag("flip_tex_coords", false));
   return mesh;
 }

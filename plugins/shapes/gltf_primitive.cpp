@@ -6,6 +6,8 @@
 
 #include <pharos/core/error.h>
 
+#include "vertex_table.h"
+
 namespace pharos {
 namespace {
 
@@ -85,17 +87,20 @@ void GltfPrimitive::append_to(TriangleMesh& mesh, const NodeTransform& to_root,
                               VertexAttributes attributes) const {
   const bool all_vertices = takes_all_vertices();
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-  const auto append = [&](std::uint32_t vertex) {
-    append_vertex(mesh, vertex, to_root, attributes);
-    return static_cast<std::uint32_t>(mesh.positions.size() - 1);
-  };
-  for (std::uint32_t i = 0; all_vertices && i < positions_.size(); ++i) append(i);
+  VertexTable<1> named(all_vertices ? 0 : 3 * triangle_count());
   for (std::uint64_t i = 0; i < triangle_count(); ++i) {
     std::array<std::uint32_t, 3> vertices = corners(i);
-    for (std::uint32_t& vertex : vertices) vertex = all_vertices ? first + vertex : append(vertex);
+    for (std::uint32_t& vertex : vertices) {
+      vertex = first + (all_vertices ? vertex : named.number_of({vertex}));
+    }
     if (to_root.mirrors()) std::swap(vertices[1], vertices[2]);
     mesh.triangles.push_back(vertices);
   }
+  const auto append = [&](std::uint32_t vertex) {
+    append_vertex(mesh, vertex, to_root, attributes);
+  };
+  for (std::uint32_t i = 0; all_vertices && i < positions_.size(); ++i) append(i);
+  for (const auto& [vertex] : named.vertices()) append(vertex);
 }
 
 void GltfPrimitive::append_vertex(TriangleMesh& mesh, std::uint32_t vertex,

@@ -54,8 +54,8 @@ class GltfPrimitive {
   void check() const;
   std::uint64_t corner_count() const { return indices_ ? indices_->size() : positions_.size(); }
   std::uint64_t triangle_count() const;
-  /// All vertices but where many primitives share a long list and name few of it: those get a
-  /// vertex for every corner, so that there are never more than three a triangle.
+  /// All vertices but where many primitives share a long list and name few of it: those get the
+  /// ones they name, so that there are never more than three a triangle.
   bool takes_all_vertices() const { return positions_.size() <= 3 * triangle_count(); }
   /// The vertices of a triangle, known to exist.
   std::array<std::uint32_t, 3> corners(std::uint64_t triangle) const;

@@ -10,10 +10,22 @@
 // Meshes within the file are joined, with the transforms of its nodes applied, and polygons, which
 // are taken to be convex, cut into triangles that fan out from their first corner. `part` takes
 // only the mesh or node of that name, a node with all that lies below it, so that parts of one file
-// can have materials of their own. Shading normals are those of the file, if it has any, unless
-// `face_normals` is set (those of STL files, one a triangle, are not used); meshes without normals
-// or texture coordinates, where others of the part have them, get zeros. Materials, lines, points,
-// skins and animations in the file are not used. Triangles without area are left out.
+// can have materials of their own. Meshes without texture coordinates, where others of the part
+// have them, get zeros. Materials, lines, points, skins and animations in the file are not used.
+// Triangles without area are left out.
+//
+// Shading normals are those of the file (but for STL, which has one a triangle). What becomes of
+// vertices without a normal, `normals` says:
+//
+//   file_or_flat     the surface is shaded as flat as it is
+//   file_or_smooth   a vertex gets the mean of the triangles' normals around it, weighted by their
+//                    angles (Thuermer and Wuethrich 1998), as Mitsuba does it
+//   flat             flat everywhere: the file's normals are not used either
+//
+// Triangles are smoothed across the vertices that they share in the file. A vertex that stands
+// there twice keeps an edge, be it meant as one or a seam of the texture; in OBJ files, vertices
+// are pairs of a position and a texture coordinate. Triangles of STL files share where they agree
+// exactly.
 //
 // Texture coordinates have their origin at the lower left of the picture, as `bitmap` has. Those of
 // glTF and `serialized` files, where v runs from the top, are converted, so that pictures look as
@@ -45,14 +57,12 @@ void Mesh::Settings::describe(Schema<Settings>& s) {
       .at_least(0);
   s.field("to_world", &Settings::to_world, "From the file's space to world space");
   s.field("flip_normals", &Settings::flip_normals, "Exchange the outer and the inner side");
-  s.field("face_normals", &Settings::face_normals, "Ignore the file's shading normals");
-  s.example("{ file: example.ply, face_normals: true, to_world: { scale: [1, -2, 3] } }");
+  s.field("normals", &Settings::normals, "Shading normals: the file's, and those it lacks");
+  s.example("{ file: example.ply, normals: flat, to_world: { scale: [1, -2, 3] } }");
+  s.example("{ file: example.ply, normals: file_or_smooth }");
 }
 
 Mesh::Mesh(const Settings& settings)
-    : TriangleShape(transformed(read_mesh_file(settings.file, settings.part, settings.face_normals,
-                                               settings.shape_index),
-                                settings.to_world, settings.flip_normals),
-                    settings.file.string()) {}
+    : TriangleShape(read_mesh_file(settings), settings.file.string()) {}
 
 }  // namespace pharos

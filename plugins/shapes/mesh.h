@@ -10,6 +10,16 @@
 
 namespace pharos {
 
+/// Where a mesh has its shading normals from.
+enum class MeshNormals { file_or_flat, file_or_smooth, flat };
+template <>
+struct EnumNames<MeshNormals> {
+  static constexpr std::array<std::pair<std::string_view, MeshNormals>, 3> names{
+      {{"file_or_flat", MeshNormals::file_or_flat},
+       {"file_or_smooth", MeshNormals::file_or_smooth},
+       {"flat", MeshNormals::flat}}};
+};
+
 /// See mesh.cpp.
 class Mesh : public TriangleShape {
  public:
@@ -19,7 +29,7 @@ class Mesh : public TriangleShape {
     std::optional<int> shape_index = {};
     Transform to_world = {};
     bool flip_normals = false;
-    bool face_normals = false;
+    MeshNormals normals = MeshNormals::file_or_flat;
     static void describe(Schema<Settings>& s);
   };
 

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <new>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/core.h>
@@ -17,6 +18,8 @@
 #include "ply_file.h"
 #include "serialized_file.h"
 #include "stl_file.h"
+#include "triangle_shape.h"
+#include "vertex_normals.h"
 #include "weld.h"
 
 namespace pharos {
@@ -33,7 +36,8 @@ constexpr std::array<Format, 6> kFormats{
      {".obj", true, false, read_obj},
      {".ply", false, false, [](const MeshSource& source) { return read_ply(source.bytes); }},
      {".serialized", true, true, read_serialized},
-     {".stl", false, false, read_stl}}};
+     // Whose triangles have vertices of their own.
+     {".stl", false, false, [](const MeshSource& source) { return welded(read_stl(source)); }}}};
 
 const Format& format_of(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
@@ -47,8 +51,11 @@ const Format& format_of(const std::filesystem::path& path) {
                                suggestion(extension, known), quoted_list(known)));
 }
 
-TriangleMesh read_triangles(const std::filesystem::path& path, const std::string& part,
-                            std::optional<int> index) {
+/// With the vertices that the triangles share in the file.
+TriangleMesh read_triangles(const Mesh::Settings& settings) {
+  const std::filesystem::path& path = settings.file;
+  const std::string& part = settings.part;
+  const std::optional<int> index = settings.shape_index;
   const Format& format = format_of(path);
   if (!part.empty() && !format.has_parts) {
     throw InputError(fmt::format("{} files have no parts", format.extension));
@@ -63,17 +70,22 @@ TriangleMesh read_triangles(const std::filesystem::path& path, const std::string
   return mesh;
 }
 
+/// In world space, where the angles are those of the surface that is seen.
+TriangleMesh placed(TriangleMesh local, const Mesh::Settings& settings) {
+  if (settings.normals == MeshNormals::flat) local.normals.clear();
+  TriangleMesh mesh = transformed(std::move(local), settings.to_world, settings.flip_normals);
+  if (settings.normals == MeshNormals::file_or_smooth) add_vertex_normals(mesh);
+  return mesh;
+}
+
 }  // namespace
 
-TriangleMesh read_mesh_file(const std::filesystem::path& path, const std::string& part,
-                            bool face_normals, std::optional<int> index) {
+TriangleMesh read_mesh_file(const Mesh::Settings& settings) {
   const auto fail = [&](const std::string& reason) {
-    throw InputError("mesh '" + path.string() + "': " + one_line(reason, 1000));
+    throw InputError("mesh '" + settings.file.string() + "': " + one_line(reason, 1000));
   };
   try {
-    TriangleMesh mesh = read_triangles(path, part, index);
-    if (face_normals) mesh.normals.clear();
-    return welded(mesh);
+    return welded(placed(read_triangles(settings), settings));
   } catch (const InputError& e) {
     if (e.located()) throw;
     fail(e.what());

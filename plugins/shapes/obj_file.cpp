@@ -14,6 +14,7 @@
 
 #include "text_scanner.h"
 #include "triangle_shape.h"
+#include "vertex_table.h"
 
 namespace pharos {
 namespace {
@@ -43,7 +44,7 @@ class ObjReader {
       read_statement();
     } while (scanner_.next_line());
     check_part(part_, names_);
-    return has_uvs_ || has_normals_ ? with_vertex_per_corner() : with_positions_alone();
+    return has_uvs_ || has_normals_ ? with_combined_vertices() : with_positions_alone();
   }
 
  private:
@@ -163,17 +164,16 @@ class ObjReader {
     return mesh;
   }
 
-  TriangleMesh with_vertex_per_corner() const {
+  /// A vertex for every combination that corners name.
+  TriangleMesh with_combined_vertices() const {
     TriangleMesh mesh;
-    mesh.positions.reserve(3 * triangles_.size());
-    if (has_uvs_) mesh.uvs.reserve(3 * triangles_.size());
-    if (has_normals_) mesh.normals.reserve(3 * triangles_.size());
     mesh.triangles.reserve(triangles_.size());
-    for (const auto& corners : triangles_) {
-      const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-      mesh.triangles.push_back({first, first + 1, first + 2});
-      for (const Corner& corner : corners) append(corner, mesh);
+    VertexTable<3> table(3 * triangles_.size());
+    for (const auto& [a, b, c] : triangles_) {
+      const std::uint32_t first = table.number_of(a), second = table.number_of(b);
+      mesh.triangles.push_back({first, second, table.number_of(c)});
     }
+    for (const Corner& corner : table.vertices()) append(corner, mesh);
     return mesh;
   }
 

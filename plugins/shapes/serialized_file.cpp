@@ -52,6 +52,20 @@ T number_at(std::string_view bytes, std::size_t at) {
   return value;
 }
 
+/// The same triangles without normals. They share no vertices, so that nobody smooths them.
+TriangleMesh faceted(const TriangleMesh& mesh) {
+  TriangleMesh result;
+  for (const std::array<std::uint32_t, 3>& triangle : mesh.triangles) {
+    const auto first = static_cast<std::uint32_t>(result.positions.size());
+    result.triangles.push_back({first, first + 1, first + 2});
+    for (const std::uint32_t vertex : triangle) {
+      result.positions.push_back(mesh.positions[vertex]);
+      if (!mesh.uvs.empty()) result.uvs.push_back(mesh.uvs[vertex]);
+    }
+  }
+  return result;
+}
+
 /// Reads the fields of one mesh in their order.
 class MeshReader {
  public:
@@ -75,13 +89,12 @@ class MeshReader {
     TriangleMesh mesh;
     read_vectors(mesh.positions, vertices, "position");
     if (has(kHasNormals)) read_vectors(mesh.normals, vertices, "normal");
-    if (has(kFaceNormals)) mesh.normals.clear();
     if (has(kHasUvs)) read_uvs(mesh.uvs, vertices);
     if (has(kHasColors)) read_floats<3>(vertices, "colour", [](const auto&) {});
     read_triangles(mesh, triangles);
     char beyond;
     stream_.read(&beyond, 1);  // so that the stream's end is reached, where its checksum is
-    return mesh;
+    return has(kFaceNormals) ? faceted(mesh) : mesh;
   }
 
  private:

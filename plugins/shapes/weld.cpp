@@ -2,34 +2,25 @@
 
 #include <array>
 #include <bit>
-#include <cstddef>
 #include <utility>
 #include <vector>
 
 #include <pharos/core/error.h>
 
+#include "vertex_table.h"
+
 namespace pharos {
 namespace {
 
-constexpr std::uint32_t kNone = ~std::uint32_t{0};
-
 /// Position, normal and texture coordinates of a vertex; zeros where the mesh has none.
-using VertexBits = std::array<std::uint32_t, 8>;
+using Numbers = std::array<float, 8>;
+using Bits = VertexTable<8>::Words;
 
-VertexBits bits_of(const TriangleMesh& mesh, std::uint32_t vertex) {
+Bits bits_of(const TriangleMesh& mesh, std::uint32_t vertex) {
   const Point3 p = mesh.positions[vertex];
   const Vec3 n = mesh.normals.empty() ? Vec3{} : mesh.normals[vertex];
   const Vec2 uv = mesh.uvs.empty() ? Vec2{} : mesh.uvs[vertex];
-  return std::bit_cast<VertexBits>(std::array{p.x, p.y, p.z, n.x, n.y, n.z, uv.x, uv.y});
-}
-
-std::uint64_t hash(const VertexBits& bits) {
-  std::uint64_t h = 0;
-  for (const std::uint32_t word : bits) {
-    h = (h ^ word) * 0x9e3779b97f4a7c15u;
-    h ^= h >> 32;
-  }
-  return h;
+  return std::bit_cast<Bits>(Numbers{p.x, p.y, p.z, n.x, n.y, n.z, uv.x, uv.y});
 }
 
 void check_sizes(const TriangleMesh& mesh) {
@@ -41,58 +32,34 @@ void check_sizes(const TriangleMesh& mesh) {
   }
 }
 
-/// The vertices met so far, found by a hash of their bits.
-class Welder {
- public:
-  explicit Welder(const TriangleMesh& mesh)
-      : mesh_(mesh),
-        new_index_(mesh.positions.size(), kNone),
-        slots_(std::bit_ceil(2 * mesh.positions.size() + 1), kNone) {}
-
-  /// The vertex's index in the result, to which it is added if it is the first of its kind.
-  std::uint32_t weld(std::uint32_t vertex) {
-    std::uint32_t& index = new_index_[vertex];
-    if (index == kNone) index = find_or_add(vertex);
-    return index;
+/// A mesh of these vertices, with what `like` has of them.
+TriangleMesh mesh_of(const std::vector<Bits>& vertices, const TriangleMesh& like) {
+  TriangleMesh mesh;
+  for (const Bits& vertex : vertices) {
+    const auto v = std::bit_cast<Numbers>(vertex);
+    mesh.positions.push_back({v[0], v[1], v[2]});
+    if (!like.normals.empty()) mesh.normals.push_back({v[3], v[4], v[5]});
+    if (!like.uvs.empty()) mesh.uvs.push_back({v[6], v[7]});
   }
-
-  TriangleMesh take() { return std::move(result_); }
-
- private:
-  /// Linear probing; the table is at most half full.
-  std::uint32_t find_or_add(std::uint32_t vertex) {
-    const VertexBits bits = bits_of(mesh_, vertex);
-    std::size_t slot = hash(bits) & (slots_.size() - 1);
-    for (; slots_[slot] != kNone; slot = (slot + 1) & (slots_.size() - 1)) {
-      if (bits_of(result_, slots_[slot]) == bits) return slots_[slot];
-    }
-    return slots_[slot] = add(vertex);
-  }
-
-  std::uint32_t add(std::uint32_t vertex) {
-    result_.positions.push_back(mesh_.positions[vertex]);
-    if (!mesh_.normals.empty()) result_.normals.push_back(mesh_.normals[vertex]);
-    if (!mesh_.uvs.empty()) result_.uvs.push_back(mesh_.uvs[vertex]);
-    return static_cast<std::uint32_t>(result_.positions.size() - 1);
-  }
-
-  const TriangleMesh& mesh_;
-  std::vector<std::uint32_t> new_index_;  ///< by vertex
-  std::vector<std::uint32_t> slots_;      ///< indices into the result
-  TriangleMesh result_;
-};
+  return mesh;
+}
 
 }  // namespace
 
 TriangleMesh welded(const TriangleMesh& mesh) {
   check_sizes(mesh);
-  Welder welder(mesh);
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-  triangles.reserve(mesh.triangles.size());
-  for (const auto& [a, b, c] : mesh.triangles) {
-    triangles.push_back({welder.weld(a), welder.weld(b), welder.weld(c)});
+  constexpr std::uint32_t kNotYet = ~std::uint32_t{0};
+  VertexTable<8> table(mesh.positions.size());
+  std::vector<std::uint32_t> numbers(mesh.positions.size(), kNotYet);  // in the table, by vertex
+  std::vector<std::array<std::uint32_t, 3>> triangles = mesh.triangles;
+  for (std::array<std::uint32_t, 3>& triangle : triangles) {
+    for (std::uint32_t& vertex : triangle) {
+      std::uint32_t& number = numbers[vertex];
+      if (number == kNotYet) number = table.number_of(bits_of(mesh, vertex));
+      vertex = number;
+    }
   }
-  TriangleMesh result = welder.take();
+  TriangleMesh result = mesh_of(table.vertices(), mesh);
   result.triangles = std::move(triangles);
   return result;
 }

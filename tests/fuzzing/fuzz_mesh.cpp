@@ -55,6 +55,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   ConfigNode mesh = ConfigNode::mapping();
   mesh.set("type", ConfigNode::scalar("mesh"));
   mesh.set("file", ConfigNode::scalar(file.string()));
+  mesh.set("normals", ConfigNode::scalar("file_or_smooth"));
   BuildContext context{registry};
   ConfigNode resolved;
   try {

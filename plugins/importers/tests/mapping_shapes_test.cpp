@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <pharos/core/error.h>
+#include <pharos/tests/fixtures.h>
 
 #include "mapping_test_kit.h"
 
@@ -39,12 +40,36 @@ TEST_CASE("shapes: parameters and defaults") {
         "{ type: sphere, flip_normals: true, center: [1, 2, 3], radius: 0.5 }");
   CHECK(entry("cylinder") == "{ type: cylinder, p0: [0, 0, 0], p1: [0, 0, 1], radius: 1 }");
   CHECK(entry("ply", {value("filename", "a.ply"), value("face_normals", true)}) ==
-        "{ type: mesh, file: a.ply, face_normals: true }");
+        "{ type: mesh, file: a.ply, normals: flat }");
   CHECK(entry("serialized",
               {value("filename", "a.serialized"), value("shape_index", std::int64_t{3})}) ==
-        "{ type: mesh, file: a.serialized, shape_index: 3 }");
+        "{ type: mesh, file: a.serialized, normals: file_or_smooth, shape_index: 3 }");
   CHECK(entry("serialized", {value("filename", "a.serialized")}) ==
-        "{ type: mesh, file: a.serialized, shape_index: 0 }");
+        "{ type: mesh, file: a.serialized, normals: file_or_smooth, shape_index: 0 }");
+}
+
+TEST_CASE("shapes: meshes without normals are smoothed unless faces are to be seen") {
+  const pharos::test::TemporaryFolder folder;
+  const std::string obj =
+      folder.write("fold.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 4 2\n");
+  const std::string ply = folder.write(
+      "fold.ply",
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+      "property float z\nelement face 2\nproperty list uchar int vertex_indices\nend_header\n"
+      "0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n3 0 3 1\n");
+  const auto is_flat = [](const char* type, const std::string& file, bool face_normals) {
+    const Import import =
+        import_of({shape(type, {value("filename", file), value("face_normals", face_normals)})});
+    CHECK(notes(import).size() == 1);  // the missing camera
+    const LoadedConfig config = built(import);
+    const SurfacePoint point =
+        config.config.scene.objects[0].shape->mesh()->surface_point(0, 0.3f, 0.3f);
+    return dot(point.shading.n, point.normal) > 0.999f;
+  };
+  CHECK_FALSE(is_flat("obj", obj, false));
+  CHECK_FALSE(is_flat("ply", ply, false));
+  CHECK(is_flat("obj", obj, true));
+  CHECK(is_flat("ply", ply, true));
 }
 
 TEST_CASE("shapes: to_world is written as its matrix, the identity not at all") {

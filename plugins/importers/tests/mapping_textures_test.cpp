@@ -1,40 +1,20 @@
 // Where textures lie: against what Mitsuba computes of a shape's coordinates. There images have
 // their first row at v = 0.
 #include <cmath>
-#include <fstream>
 #include <functional>
-#include <unistd.h>
 
 #include <doctest/doctest.h>
 
 #include <pharos/core/error.h>
 #include <pharos/core/image.h>
+#include <pharos/tests/fixtures.h>
 
 #include "mapping_test_kit.h"
 
 namespace pharos::mitsuba::test {
 namespace {
 
-/// A folder of its own that is gone in the end.
-class Folder {
- public:
-  Folder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "pharos-test-XXXXXX").string();
-    if (mkdtemp(pattern.data()) == nullptr) throw RunError("no temporary folder");
-    path_ = pattern;
-  }
-  ~Folder() { std::filesystem::remove_all(path_); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  std::string file(const char* name) const { return (path_ / name).string(); }
-  std::string write(const char* name, const char* text) const {
-    std::ofstream(path_ / name) << text;
-    return file(name);
-  }
-
- private:
-  std::filesystem::path path_;
-};
+using pharos::test::TemporaryFolder;
 
 double fraction(double x) {
   return x - std::floor(x);
@@ -48,7 +28,7 @@ double checkers(double u, double v) {
   return (fraction(u) >= 0.5) == (fraction(v) >= 0.5) ? 0.9 : 0.1;
 }
 
-Property file_of_quarters(const Folder& folder) {
+Property file_of_quarters(const TemporaryFolder& folder) {
   Image image(2, 2, {"R", "G", "B"});
   for (int y = 0; y < 2; ++y) {
     for (int x = 0; x < 2; ++x) {
@@ -56,11 +36,11 @@ Property file_of_quarters(const Folder& folder) {
       for (int c = 0; c < 3; ++c) image.pixel(x, y)[c] = shade;
     }
   }
-  write_exr(image, folder.file("quarters.exr"));
-  return value("filename", folder.file("quarters.exr"));
+  write_exr(image, folder / "quarters.exr");
+  return value("filename", (folder / "quarters.exr").string());
 }
 
-ObjectRef picture(const Folder& folder, std::vector<Property> more = {}) {
+ObjectRef picture(const TemporaryFolder& folder, std::vector<Property> more = {}) {
   more.push_back(file_of_quarters(folder));
   more.push_back(value("filter_type", "nearest"));
   return texture("bitmap", std::move(more));
@@ -137,7 +117,7 @@ Vec2 of_cube(Point3 p) {
 }  // namespace
 
 TEST_CASE("textures: images stand on each shape as Mitsuba shows them") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string obj = folder.write("square.obj", kSquareObj);
   const std::string ply = folder.write("square.ply", kSquarePly);
   const ObjectRef image = picture(folder);
@@ -153,7 +133,7 @@ TEST_CASE("textures: images stand on each shape as Mitsuba shows them") {
 }
 
 TEST_CASE("textures: patterns too") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string obj = folder.write("square.obj", kSquareObj);
   check_shades(checkerboard(), "rectangle", {}, of_square, checkers);
   check_shades(checkerboard(), "cube", {}, of_cube, checkers);
@@ -161,7 +141,7 @@ TEST_CASE("textures: patterns too") {
 }
 
 TEST_CASE("textures: stretched and moved") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string obj = folder.write("square.obj", kSquareObj);
   const std::vector<Property> moves{value("uscale", 2.0), value("vscale", 1.5),
                                     value("uoffset", 0.3), value("voffset", -0.2)};
@@ -176,7 +156,7 @@ TEST_CASE("textures: stretched and moved") {
 }
 
 TEST_CASE("textures: turned by to_uv") {
-  const Folder folder;
+  const TemporaryFolder folder;
   // (u, v) to (2 v + 0.1, -3 u + 0.2)
   const Transform turned({{{0, 2, 0, 0.1f}, {-3, 0, 0, 0.2f}, {0, 0, 1, 0}}});
   const auto shade = [](double u, double v) { return quarters(2 * v + 0.1, -3 * u + 0.2); };
@@ -185,7 +165,7 @@ TEST_CASE("textures: turned by to_uv") {
 }
 
 TEST_CASE("textures: images that do not repeat") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::vector<Property> clamp{value("wrap_mode", "clamp"), value("uvscale", 3.0)};
   check_shades(picture(folder, clamp), "rectangle", {}, of_square, [](double u, double v) {
     return quarters(std::min(3 * u, 0.99), std::min(3 * v, 0.99));
@@ -228,23 +208,6 @@ TEST_CASE("textures: one that is shared is named, once for each way that v runs"
   CHECK(part(import, "scene.materials.Floor_2") == "{ type: diffuse, reflectance: Tiles_2 }");
   CHECK(part(import, "scene.textures.Tiles") == "{ type: checkerboard, color0: 0.4, color1: 0.2 }");
   CHECK(part(import, "scene.textures.Tiles_2.uv_scale") == "[1, -1]");
-}
-
-TEST_CASE("textures: meshes without normals are noted, as Mitsuba smooths them") {
-  const Folder folder;
-  const auto noted = [&](const char* type, const std::string& file, bool face_normals = false) {
-    return notes(import_of(
-                     {shape(type, {value("filename", file), value("face_normals", face_normals)})}))
-               .size() == 2;
-  };
-  const std::string obj = folder.write("square.obj", kSquareObj);
-  const std::string ply = folder.write("square.ply", kSquarePly);
-  CHECK(noted("obj", obj));
-  CHECK(noted("ply", ply));
-  CHECK_FALSE(noted("obj", obj, true));
-  CHECK_FALSE(noted("obj", folder.write("b.obj", "v 0 0 0\nvn 0 0 1\n")));
-  CHECK_FALSE(noted("ply", folder.write("b.ply", "ply\nproperty float nx\nend_header\n")));
-  CHECK_FALSE(noted("ply", folder.file("missing.ply")));
 }
 
 }  // namespace pharos::mitsuba::test

@@ -141,7 +141,7 @@ TEST_CASE("a part is a mesh wherever it is placed, or a node with all below it")
     CHECK(deck.bounds().low == Point3{10, 0, 1});
     CHECK(deck.mesh()->normals.empty());  // unlike in the whole boat
     CHECK(deck.mesh()->uvs.empty());
-    const Mesh flat({.file = path, .part = "sail", .face_normals = true});
+    const Mesh flat({.file = path, .part = "sail", .normals = MeshNormals::flat});
     CHECK(flat.mesh()->normals.empty());
   }
 }

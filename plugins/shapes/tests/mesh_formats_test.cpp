@@ -148,7 +148,7 @@ TEST_CASE("one shape in every format is the same mesh") {
   for (const auto& file : files) {
     const std::string& name = file.first;
     INFO(name);
-    const TriangleMesh read = read_mesh_file(folder.write(name, file.second), "", false);
+    const TriangleMesh read = read_mesh_file({.file = folder.write(name, file.second)});
     const bool is_stl = name.ends_with("stl") || name.ends_with("STL");
     CHECK(read.normals.empty() == is_stl);
     CHECK(read.uvs.empty() == is_stl);

@@ -50,7 +50,7 @@ TEST_CASE("shading normals are the file's unless told otherwise") {
   CHECK(p.normal.z == doctest::Approx(1));
   CHECK(p.shading.n.x == doctest::Approx(0.6));
   CHECK(p.shading.n.z == doctest::Approx(0.8));
-  const Mesh flat = file.load({.face_normals = true});
+  const Mesh flat = file.load({.normals = MeshNormals::flat});
   CHECK(flat.mesh()->normals.empty());
   CHECK(flat.mesh()->surface_point(0, 0.3f, 0.3f).shading.n.z == doctest::Approx(1));
 }

@@ -107,8 +107,10 @@ TEST_CASE("serialized: normals, texture coordinates from the top, colours and fa
   CHECK(mesh.uvs == std::vector<Vec2>{{0, 0.75f}, {1, 1}, {0.5f, 0}});
   CHECK(mesh.triangles[0] == std::array<std::uint32_t, 3>{2, 1, 0});
   content.flags |= 0x10;
-  CHECK(read(file_of(content)).normals.empty());
-  CHECK(read(file_of(content)).uvs == mesh.uvs);
+  const TriangleMesh faceted = read(file_of(content));
+  CHECK(faceted.normals.empty());
+  CHECK(faceted.positions == std::vector<Point3>(kPositions.rbegin(), kPositions.rend()));
+  CHECK(faceted.uvs == std::vector<Vec2>(mesh.uvs.rbegin(), mesh.uvs.rend()));
 }
 
 TEST_CASE("serialized: one mesh by its number or its name, or all") {
@@ -278,14 +280,28 @@ TEST_CASE("serialized: whatever a stream holds, it is a mesh or an InputError") 
   CHECK(meshes < 3000);
 }
 
+TEST_CASE("serialized: a file that asks for face normals is not smoothed, another one is") {
+  const test::TemporaryFolder folder;
+  Content fold{.vertices = 4, .triangles = 2};
+  fold.data =
+      bytes<float>({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}) + bytes<std::uint32_t>({0, 1, 2, 0, 3, 1});
+  const auto vertex_count = [&](std::uint32_t flags) {
+    fold.flags = 0x1000 | flags;
+    const auto path = folder.write("a.serialized", file_of(fold));
+    return read_mesh_file({.file = path, .normals = MeshNormals::file_or_smooth}).positions.size();
+  };
+  CHECK(vertex_count(0) == 4);
+  CHECK(vertex_count(0x10) == 6);
+}
+
 TEST_CASE("serialized: through the file, where empty meshes are an error") {
   const test::TemporaryFolder folder;
   const auto path = folder.write("a.serialized", file_of(numbered(5, "lid")));
-  CHECK(read_mesh_file(path, "", false, 0).positions[0].x == 5);
-  CHECK(read_mesh_file(path, "lid", false).positions[0].x == 5);
+  CHECK(read_mesh_file({.file = path, .shape_index = 0}).positions[0].x == 5);
+  CHECK(read_mesh_file({.file = path, .part = "lid"}).positions[0].x == 5);
   folder.write("a.serialized", file_of(Content{.vertices = 0, .triangles = 0, .data = ""}));
   CHECK(test::input_error([&] {
-          read_mesh_file(path, "", false);
+          read_mesh_file({.file = path});
         }).ends_with("a.serialized': it holds no triangles"));
 }
 
