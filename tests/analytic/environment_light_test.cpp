@@ -3,12 +3,12 @@
 #include <cmath>
 #include <filesystem>
 #include <numbers>
-#include <unistd.h>
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
 #include <pharos/core/image.h>
+#include <pharos/tests/fixtures.h>
 
 #include "analytic.h"
 
@@ -32,14 +32,13 @@ TEST_CASE("a band of an environment map") {
     for (int x = 0; x < image.width(); ++x) image.set_rgb(x, row, Rgb(3));
     irradiance += 3 * pi * std::sin(2 * (row + 0.5) * w) * std::pow(std::sin(w), 2) / w;
   }
-  const std::filesystem::path path =
-      std::filesystem::temp_directory_path() / fmt::format("pharos-analytic-test-{}.exr", getpid());
+  const test::TemporaryFolder folder;
+  const std::filesystem::path path = folder / "band.exr";
   write_exr(image, path);
   Floor("", fmt::format("    - {{ type: environment_map, file: '{}', "
                         "to_world: {{ rotate: {{ axis: [1, 0, 0], degrees: 90 }} }} }}\n",
                         path.string()))
       .check_irradiance(irradiance, kStrategies);
-  std::filesystem::remove(path);
 }
 
 }  // namespace

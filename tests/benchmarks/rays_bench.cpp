@@ -5,13 +5,13 @@
 
 #include <chrono>
 #include <filesystem>
-#include <unistd.h>
 
 #include <fmt/format.h>
 
 #include <pharos/core/parallel.h>
 #include <pharos/core/random.h>
 #include <pharos/core/warp.h>
+#include <pharos/tests/fixtures.h>
 
 #include "bench.h"
 #include "meshes.h"
@@ -87,8 +87,8 @@ std::vector<Measurement> bench_rays(int repeats) {
                   PHAROS_SCENES, kPath),
       repeats);
 
-  const std::filesystem::path mesh =
-      std::filesystem::temp_directory_path() / fmt::format("pharos-bench-{}.ply", getpid());
+  const test::TemporaryFolder folder;
+  const std::filesystem::path mesh = folder / "field.ply";
   testing::write_sphere_field(mesh, 220, 27);
   const std::string field = fmt::format(R"(
 scene:
@@ -102,7 +102,6 @@ budget: {{ spp: 64 }}
 )",
                                         mesh.string());
   for (Measurement& m : bench_scene("spheres-300k", field + kPath, repeats)) all.push_back(m);
-  std::filesystem::remove(mesh);
   return all;
 }
 

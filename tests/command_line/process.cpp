@@ -54,23 +54,9 @@ Outcome interrupt_pharos(const std::string& arguments, const std::filesystem::pa
                    folder);
 }
 
-ScratchFolder::ScratchFolder() {
-  std::string name = (std::filesystem::temp_directory_path() / "pharos-test-XXXXXX").string();
-  path_ = mkdtemp(name.data());
-}
-
-ScratchFolder::~ScratchFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
-}
-
-void ScratchFolder::write(const std::string& name, const std::string& text) const {
-  std::ofstream(path_ / name, std::ios::binary) << text;
-}
-
 std::vector<std::string> ScratchFolder::listing() const {
   std::vector<std::string> all;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(path_)) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(path())) {
     const std::uintmax_t size = entry.is_regular_file() ? entry.file_size() : 0;
     all.push_back(fmt::format("{} {}", entry.path().string(), size));
   }
@@ -80,7 +66,7 @@ std::vector<std::string> ScratchFolder::listing() const {
 
 std::size_t ScratchFolder::file_count() const {
   std::size_t count = 0;
-  for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(path_)) ++count;
+  for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(path())) ++count;
   return count;
 }
 

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include <pharos/tests/fixtures.h>
+
 namespace pharos::testing {
 
 /// What a run of the program left behind.
@@ -25,23 +27,13 @@ Outcome run_pharos(const std::string& arguments, const std::filesystem::path& fo
 Outcome interrupt_pharos(const std::string& arguments, const std::filesystem::path& folder,
                          double seconds, const char* signal);
 
-/// An empty folder that goes away again.
-class ScratchFolder {
+/// An empty folder that goes away again, and what a run of the program left there.
+class ScratchFolder : public test::TemporaryFolder {
  public:
-  ScratchFolder();
-  ~ScratchFolder();
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-  void write(const std::string& name, const std::string& text) const;
-  bool has(const std::string& name) const { return std::filesystem::exists(path_ / name); }
+  bool has(const std::string& name) const { return std::filesystem::exists(*this / name); }
   std::size_t file_count() const;
   /// Every file and folder below it, with sizes, sorted.
   std::vector<std::string> listing() const;
-
- private:
-  std::filesystem::path path_;
 };
 
 }  // namespace pharos::testing

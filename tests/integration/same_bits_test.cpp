@@ -2,10 +2,11 @@
 
 #include <filesystem>
 #include <sstream>
-#include <unistd.h>
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
+
+#include <pharos/tests/fixtures.h>
 
 #include "meshes.h"
 #include "renders.h"
@@ -52,8 +53,8 @@ TEST_CASE("same bits: guided, with the learned model") {
 }
 
 TEST_CASE("same bits: a scene of 300,000 triangles") {
-  const std::filesystem::path mesh =
-      std::filesystem::temp_directory_path() / fmt::format("pharos-field-{}.ply", getpid());
+  const test::TemporaryFolder folder;
+  const std::filesystem::path mesh = folder / "field.ply";
   const std::size_t triangles = write_sphere_field(mesh, 220, 27);
   CHECK(triangles >= 300'000);
   check_same_bits(fmt::format(R"(
@@ -65,7 +66,6 @@ film: {{ width: 64, height: 64 }}
 budget: {{ spp: 8 }}
 )",
                               mesh.string()));
-  std::filesystem::remove(mesh);
 }
 
 }  // namespace

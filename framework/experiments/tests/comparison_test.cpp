@@ -9,6 +9,7 @@
 #include <pharos/experiments/comparison.h>
 #include <pharos/experiments/error_images.h>
 
+#include "../../tests/fixtures.h"
 #include "test_images.h"
 
 namespace pharos {
@@ -21,9 +22,7 @@ using test::constant;
 class Folder {
  public:
   Folder() {
-    std::string name = (fs::temp_directory_path() / "pharos-compare-XXXXXX").string();
-    path_ = mkdtemp(name.data());
-    fs::create_directories(path_ / "old");
+    fs::create_directories(files_ / "old");
     write("ref.exr", 1, {{"pharos:samples_per_pixel", "4096"}});
     write("far.exr", 1.5f, {{"other:program", "x"}});
     write("near.exr", 1.25f,
@@ -35,18 +34,15 @@ class Folder {
            {"pharos:config", "seed: 7\n"}});
     write("old/near.exr", 1);
   }
-  ~Folder() { fs::remove_all(path_); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
 
-  fs::path operator/(const std::string& name) const { return path_ / name; }
+  fs::path operator/(const std::string& name) const { return files_ / name; }
   void write(const std::string& name, float value, const Metadata& metadata = {}) const {
-    write_exr(constant(8, 6, Rgb(value)), path_ / name, metadata);
+    write_exr(constant(8, 6, Rgb(value)), files_ / name, metadata);
   }
   Comparison compare(const std::vector<std::string>& names) const {
     std::vector<fs::path> files;
-    for (const std::string& name : names) files.push_back(path_ / name);
-    return compare_files(files, path_ / "ref.exr");
+    for (const std::string& name : names) files.push_back(files_ / name);
+    return compare_files(files, files_ / "ref.exr");
   }
   std::string refusal(const std::vector<std::string>& names) const {
     try {
@@ -58,7 +54,7 @@ class Folder {
   }
 
  private:
-  fs::path path_;
+  test::TemporaryFolder files_;
 };
 
 bool contains(const std::string& text, const std::string& part) {

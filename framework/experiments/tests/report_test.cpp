@@ -7,7 +7,6 @@
 #include <sstream>
 #include <string>
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
@@ -16,6 +15,7 @@
 #include <pharos/experiments/report.h>
 #include <pharos/experiments/report/page_data.h>
 
+#include "../../tests/fixtures.h"
 #include "sample_report.h"
 
 namespace pharos {
@@ -23,13 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-
-/// A new folder that goes with the test.
-struct Folder {
-  fs::path path = fs::temp_directory_path() / ("pharos-report-" + std::to_string(getpid()));
-  Folder() { fs::create_directory(path); }
-  ~Folder() { fs::remove_all(path); }
-};
 
 /// While it lives, writing fails beyond 100 kB of a file, as it does when the disk is full.
 class SmallFiles {
@@ -60,10 +53,10 @@ std::string content(const fs::path& path) {
 }
 
 std::string written(const Report& report) {
-  const Folder folder;
-  write_report(report, folder.path / "report.html");
-  CHECK(std::distance(fs::directory_iterator(folder.path), {}) == 1);
-  return content(folder.path / "report.html");
+  const test::TemporaryFolder folder;
+  write_report(report, folder / "report.html");
+  CHECK(std::distance(fs::directory_iterator(folder.path()), {}) == 1);
+  return content(folder / "report.html");
 }
 
 /// What stands between the first `open` and the next `close` after it.
@@ -188,10 +181,10 @@ TEST_CASE("a report that does not fit together is refused") {
   const auto refused = [](const char* part, auto&& change) {
     Report report = test::sample_report();
     change(report);
-    const Folder folder;
-    CHECK_THROWS_WITH_AS(write_report(report, folder.path / "report.html"), doctest::Contains(part),
+    const test::TemporaryFolder folder;
+    CHECK_THROWS_WITH_AS(write_report(report, folder / "report.html"), doctest::Contains(part),
                          InputError);
-    CHECK(fs::is_empty(folder.path));
+    CHECK(fs::is_empty(folder.path()));
   };
   refused("'none such' is none of the methods", [](Report& r) { r.baseline = "none such"; });
   refused("has 2 cells", [](Report& r) { r.tables[0].rows[0].cells.pop_back(); });
@@ -209,8 +202,8 @@ TEST_CASE("a report that does not fit together is refused") {
 }
 
 TEST_CASE("the file appears whole or not at all") {
-  const Folder folder;
-  const fs::path path = folder.path / "report.html";
+  const test::TemporaryFolder folder;
+  const fs::path path = folder / "report.html";
   std::ofstream(path) << "before";
   Report broken = test::sample_report();
   // Found out only when most of the page is written.
@@ -219,21 +212,21 @@ TEST_CASE("the file appears whole or not at all") {
   CHECK(content(path) == "before");
   write_report({}, path);
   CHECK(content(path).ends_with("</html>\n"));
-  CHECK(std::distance(fs::directory_iterator(folder.path), {}) == 1);
-  CHECK_THROWS_WITH_AS(write_report({}, folder.path / "none" / "report.html"),
+  CHECK(std::distance(fs::directory_iterator(folder.path()), {}) == 1);
+  CHECK_THROWS_WITH_AS(write_report({}, folder / "none" / "report.html"),
                        doctest::Contains("there is no folder"), RunError);
 }
 
 TEST_CASE("a disk that is full leaves the older file") {
-  const Folder folder;
-  const fs::path path = folder.path / "report.html";
+  const test::TemporaryFolder folder;
+  const fs::path path = folder / "report.html";
   std::ofstream(path) << "before";
   {
     const SmallFiles limit;
     CHECK_THROWS_AS(write_report(test::sample_report(), path), RunError);
   }
   CHECK(content(path) == "before");
-  CHECK(std::distance(fs::directory_iterator(folder.path), {}) == 1);
+  CHECK(std::distance(fs::directory_iterator(folder.path()), {}) == 1);
 }
 
 }  // namespace

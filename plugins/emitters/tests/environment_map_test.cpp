@@ -11,25 +11,17 @@
 #include <pharos/core/random.h>
 #include <pharos/statistics/goodness_of_fit.h>
 #include <pharos/statistics/quadrature.h>
+#include <pharos/tests/fixtures.h>
 
 namespace pharos {
 namespace {
 
-/// An image file that lives as long as this object.
-class ImageFile {
- public:
-  explicit ImageFile(const Image& image)
-      : path_(std::filesystem::temp_directory_path() / "pharos-environment-map-test.exr") {
-    write_exr(image, path_);
-  }
-  ~ImageFile() { std::filesystem::remove(path_); }
-  ImageFile(const ImageFile&) = delete;
-  ImageFile& operator=(const ImageFile&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
+EnvironmentMap map_of(const Image& image, EnvironmentMap::Settings settings) {
+  const test::TemporaryFolder folder;
+  settings.file = folder / "sky.exr";
+  write_exr(image, settings.file);
+  return EnvironmentMap(settings);
+}
 
 Image image_of(int width, int height, const std::function<Rgb(int, int)>& colour) {
   Image image(width, height, {"R", "G", "B"});
@@ -61,7 +53,7 @@ struct Sky {
   std::unique_ptr<const Light> light;
 
   explicit Sky(const Image& image, const Transform& to_world = {}, float scale = 1)
-      : emitter({.file = ImageFile(image).path(), .to_world = to_world, .scale = scale}),
+      : emitter(map_of(image, {.to_world = to_world, .scale = scale})),
         light(emitter.place({.scene_center = {5, 0, 0}, .scene_radius = 2})) {}
 
   float red(Vec3 direction) const { return light->environment_radiance(normalize(direction)).r; }

@@ -7,6 +7,7 @@
 #include <doctest/doctest.h>
 
 #include <pharos/core/error.h>
+#include <pharos/tests/fixtures.h>
 
 namespace pharos {
 namespace {
@@ -14,20 +15,17 @@ namespace {
 /// An image file that lives as long as this object.
 class ImageFile {
  public:
-  ImageFile(const std::string& name, const Image& image)
-      : path_(std::filesystem::temp_directory_path() / ("pharos-bitmap-test-" + name)) {
+  ImageFile(const std::string& name, const Image& image) : path_(folder_ / name) {
     if (path_.extension() == ".png") {
       write_png(image, path_, 0, false);
     } else {
       write_exr(image, path_);
     }
   }
-  ~ImageFile() { std::filesystem::remove(path_); }
-  ImageFile(const ImageFile&) = delete;
-  ImageFile& operator=(const ImageFile&) = delete;
   const std::filesystem::path& path() const { return path_; }
 
  private:
+  test::TemporaryFolder folder_;
   std::filesystem::path path_;
 };
 
