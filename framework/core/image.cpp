@@ -42,6 +42,15 @@ int Image::channel_index(const std::string& name) const {
   return found == channels_.end() ? -1 : static_cast<int>(found - channels_.begin());
 }
 
+std::array<int, 3> Image::color_channels() const {
+  const int r = channel_index("R"), g = channel_index("G"), b = channel_index("B");
+  const int y = channel_index("Y");
+  if (r >= 0 && g >= 0 && b >= 0) return {r, g, b};
+  if (y >= 0) return {y, y, y};
+  if (channel_count() < 3) return {0, 0, 0};
+  return {0, 1, 2};
+}
+
 Image read_image(const std::filesystem::path& path, ColorSpace integer_formats) {
   return image_files().read(path, integer_formats);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <filesystem>
 #include <map>
@@ -39,6 +40,9 @@ class Image {
 
   /// Index of a channel by its full name; -1 when there is none.
   int channel_index(const std::string& name) const;
+  /// The indices of red, green and blue: of the channels R, G, B or else Y three times; without
+  /// such names the first three channels, or the first alone when there are fewer.
+  std::array<int, 3> color_channels() const;
 
  private:
   std::size_t offset(int x, int y) const {

@@ -1,7 +1,6 @@
 #include "latlong_image.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <fmt/core.h>
@@ -10,19 +9,6 @@
 #include <pharos/core/image.h>
 
 namespace pharos {
-namespace {
-
-/// The indices of the channels that hold red, green and blue.
-std::array<int, 3> color_channels(const Image& image) {
-  const std::array rgb{image.channel_index("R"), image.channel_index("G"),
-                       image.channel_index("B")};
-  if (std::all_of(rgb.begin(), rgb.end(), [](int index) { return index >= 0; })) return rgb;
-  const int grey = image.channel_count() < 3 ? 0 : -1;
-  const int y = std::max(image.channel_index("Y"), grey);
-  return y >= 0 ? std::array{y, y, y} : std::array{0, 1, 2};
-}
-
-}  // namespace
 
 LatLong LatLong::of(Vec3 d) {
   const float turn = std::atan2(d.x, -d.z) / (2 * kPi);
@@ -46,7 +32,7 @@ LatLongImage::LatLongImage(const std::filesystem::path& file) {
   width_ = image.width();
   height_ = image.height();
   pixels_.reserve(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
-  const auto [red, green, blue] = color_channels(image);
+  const auto [red, green, blue] = image.color_channels();
   for (int y = 0; y < height_; ++y) {
     for (int x = 0; x < width_; ++x) {
       const float* pixel = image.pixel(x, y);

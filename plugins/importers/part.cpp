@@ -183,7 +183,7 @@ double Part::average(std::string_view name, double otherwise) {
   const Object* nested = p != nullptr ? nested_object(*p) : nullptr;
   if (nested == nullptr) return number(name, otherwise);
   take(name);
-  const std::optional<Rgb> mean_color = texture_average(*nested);
+  const std::optional<Rgb> mean_color = texture_average(map_, *nested);
   const double value = mean_color ? double{mean(*mean_color)} : otherwise;
   note(fmt::format("{} {}: the texture of '{}' is replaced by {}", object_.tag, object_.type, name,
                    mean_color ? "its average" : "the default " + number_text(otherwise)));

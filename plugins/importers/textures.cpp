@@ -2,10 +2,14 @@
 // are turned over wherever a shape's coordinates are the same in both.
 #include "textures.h"
 
+#include <array>
 #include <cmath>
 #include <numeric>
 
 #include <fmt/core.h>
+
+#include <pharos/core/error.h>
+#include <pharos/core/image.h>
 
 #include "uv_placement.h"
 
@@ -19,7 +23,7 @@ ConfigNode plain_color(Part& part, std::string_view name, double otherwise) {
       p != nullptr ? std::get_if<std::shared_ptr<const Object>>(&p->value) : nullptr;
   if (nested == nullptr) return part.color_or(name, otherwise);
   part.take(name);
-  const std::optional<Rgb> average = texture_average(**nested);
+  const std::optional<Rgb> average = texture_average(part.map(), **nested);
   part.note(fmt::format("texture {}: the texture of '{}' is replaced by {}", part.object().type,
                         name, average ? "its average" : "the default"));
   return average ? color_node({.value = *average}, p->where) : number_node(otherwise, p->where);
@@ -144,6 +148,26 @@ std::optional<Rgb> stated_color(const Object& object, std::string_view name, flo
   return std::nullopt;
 }
 
+/// The average over the pixels of a `bitmap`; see texture_average().
+std::optional<Rgb> image_average(Part& part) {
+  const ConfigNode node = part.file("filename");
+  const std::filesystem::path folder = std::filesystem::path(node.where().file).parent_path();
+  const std::filesystem::path file = folder / node.text();
+  if (!file_problem(file).empty()) return std::nullopt;
+  const Image image = read_image(file, reads_linear(part) ? ColorSpace::linear : ColorSpace::srgb);
+  const std::array<int, 3> channels = image.color_channels();
+  std::array<double, 3> sums{};
+  for (int y = 0; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x) {
+      for (std::size_t c = 0; c < 3; ++c) sums[c] += double{image.pixel(x, y)[channels[c]]};
+    }
+  }
+  const double pixels = double{1} * image.width() * image.height();
+  Rgb average;
+  for (int c = 0; c < 3; ++c) average[c] = static_cast<float>(sums[c] / pixels);
+  return is_finite(average) ? std::optional(average) : std::nullopt;
+}
+
 }  // namespace
 
 ConfigNode map_texture(SceneMap& scene, const Object& texture, UvSense sense,
@@ -155,7 +179,11 @@ ConfigNode map_texture(SceneMap& scene, const Object& texture, UvSense sense,
   return text_node(scene.name_in(scene.textures(), texture, sense, make), where);
 }
 
-std::optional<Rgb> texture_average(const Object& texture) {
+std::optional<Rgb> texture_average(SceneMap& scene, const Object& texture) {
+  if (texture.type == "bitmap") {
+    Part part(scene, texture);
+    return image_average(part);
+  }
   const bool is_grid = texture.type == "gridtexture";
   if (!is_grid && texture.type != "checkerboard") return std::nullopt;
   const std::optional<Rgb> color0 = stated_color(texture, "color0", is_grid ? 0.2f : 0.4f);

@@ -10,7 +10,8 @@ namespace pharos::mitsuba {
 ConfigNode map_texture(SceneMap& scene, const Object& texture, UvSense sense,
                        const Location& where);
 
-/// The average colour of a texture of stated colours; none for images.
-std::optional<Rgb> texture_average(const Object& texture);
+/// The average colour of an image, or of a texture of stated colours; none for others, and where
+/// the image is missing or has pixels that are not finite. Throws InputError for what is no image.
+std::optional<Rgb> texture_average(SceneMap& scene, const Object& texture);
 
 }  // namespace pharos::mitsuba

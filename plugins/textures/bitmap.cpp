@@ -9,19 +9,6 @@
 #include <fmt/core.h>
 
 namespace pharos {
-namespace {
-
-/// The indices of the channels that hold red, green and blue.
-std::array<int, 3> color_channels(const Image& image) {
-  const int r = image.channel_index("R"), g = image.channel_index("G"),
-            b = image.channel_index("B"), y = image.channel_index("Y");
-  if (r >= 0 && g >= 0 && b >= 0) return {r, g, b};
-  if (y >= 0) return {y, y, y};
-  if (image.channel_count() < 3) return {0, 0, 0};
-  return {0, 1, 2};
-}
-
-}  // namespace
 
 void Bitmap::Settings::describe(Schema<Settings>& s) {
   s.field("file", &Settings::file, "Image file").required();
@@ -38,7 +25,7 @@ Bitmap::Bitmap(const Settings& settings) : settings_(settings) {
   const Image image = read_image(settings.file, settings.color_space);
   width_ = image.width();
   height_ = image.height();
-  const auto [red, green, blue] = color_channels(image);
+  const auto [red, green, blue] = image.color_channels();
   double sums[3] = {};
   for (int y = 0; y < height_; ++y) {
     for (int x = 0; x < width_; ++x) {

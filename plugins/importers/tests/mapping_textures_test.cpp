@@ -196,6 +196,26 @@ TEST_CASE("textures: plain scales stay plain") {
                   InputError);
 }
 
+TEST_CASE("textures: an image as roughness becomes the average of its pixels") {
+  const TemporaryFolder folder;
+  const auto alpha_of = [](const ObjectRef& image) {
+    const Import import = import_of_bsdf(bsdf("roughconductor", {nested(image, "alpha")}));
+    return std::stod(part(import, "scene.shapes.0.material.alpha"));
+  };
+  CHECK(alpha_of(picture(folder)) == doctest::Approx(0.25));
+  Image grey(1, 1, {"R", "G", "B"});
+  grey.set_rgb(0, 0, Rgb(0.2f));
+  write_png(grey, folder / "grey.png", 0, false);
+  const Property file = value("filename", (folder / "grey.png").string());
+  CHECK(alpha_of(texture("bitmap", {file})) == doctest::Approx(0.2).epsilon(0.02));
+  CHECK(alpha_of(texture("bitmap", {file, value("raw", true)})) ==
+        doctest::Approx(srgb_from_linear(0.2f)).epsilon(0.01));
+  const Property missing = value("filename", (folder / "missing.png").string());
+  CHECK(alpha_of(texture("bitmap", {missing})) == doctest::Approx(0.1));
+  const std::string text = folder.write("text.png", "text");
+  CHECK_THROWS_AS(alpha_of(texture("bitmap", {value("filename", text)})), InputError);
+}
+
 TEST_CASE("textures: one that is shared is named, once for each way that v runs") {
   const ObjectRef shared = texture("checkerboard", {}, "Tiles");
   const ObjectRef floor = bsdf("diffuse", {nested(shared, "reflectance")}, "Floor");
