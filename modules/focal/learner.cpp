@@ -5,8 +5,18 @@
 
 namespace pharos::focal {
 
+void RegionSettings::describe(Schema<RegionSettings>& s) {
+  s.field("low", &RegionSettings::low, "Lower corner").unit("scene units").required();
+  s.field("high", &RegionSettings::high, "Upper corner").unit("scene units").required();
+}
+
 void FocalSettings::describe(Schema<FocalSettings>& s) {
   using S = FocalSettings;
+  s.field("region", &S::region,
+          "Where focal points may lie; by default the bounds of geometry and sensor");
+  s.field("grow_region", &S::grow_region,
+          "Double the region after an iteration before narrowing in which its densest place is at "
+          "its boundary: virtual images may lie outside the scene");
   s.field("split_threshold", &S::split_threshold,
           "Share of all mass above which a cell is divided (gamma)")
       .at_least(1e-6)

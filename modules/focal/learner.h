@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include <pharos/config/schema.h>
 #include <pharos/guiding/learner.h>
 
@@ -21,8 +23,16 @@ struct EnumNames<focal::SplatWeight> {
 
 namespace focal {
 
+/// A box given by its corners [scene units].
+struct RegionSettings {
+  Vec3 low{-1, -1, -1}, high{1, 1, 1};
+  static void describe(Schema<RegionSettings>& schema);
+};
+
 /// Parameters of the method; the defaults are the paper's.
 struct FocalSettings {
+  std::optional<RegionSettings> region;
+  bool grow_region = false;
   float split_threshold = 1e-3f;
   int max_depth = 14;
   int narrowing_iterations = 5;

@@ -32,6 +32,14 @@ Box region_box(const Bounds3& region) {
   return box;
 }
 
+Bounds3 region_of(const FocalSettings& settings, const LearningContext& context) {
+  if (!settings.region) return context.region;
+  Bounds3 region;
+  region.add(settings.region->low);
+  region.add(settings.region->high);
+  return region;
+}
+
 double diagonal(const Box& box) {
   double squared = 0;
   for (const double size : box.size) squared += size * size;
@@ -100,13 +108,14 @@ FocalState::FocalState(const FocalSettings& settings, const LearningContext& con
       first_narrowing_(
           context.iterations -
           std::min(context.iterations, static_cast<std::uint32_t>(settings.narrowing_iterations))),
+      max_depth_(settings.max_depth),
       sums_(density_) {
-  const Box box = region_box(context.region);
+  const Box box = region_box(region_of(settings, context));
   diagonal_ = diagonal(box);
   // Learning starts from the even density, divided by the rule of splits.
-  converging_ = diverging_ = refined(
-      uniform_octree(box, 0.5),
-      {.threshold = settings.split_threshold, .max_depth = settings.max_depth, .total_mass = 0.5});
+  converging_ = diverging_ =
+      refined(uniform_octree(box, 0.5),
+              {.threshold = settings.split_threshold, .max_depth = max_depth_, .total_mass = 0.5});
   refine(1);
   narrowing_ = narrows(0);
 }
@@ -157,7 +166,9 @@ std::shared_ptr<const GuidingModel> FocalState::update(std::uint32_t iteration, 
     const double kept = knows_something_ ? decay : 0;
     fold(converging_.masses, sums_.converging, kept, static_cast<double>(paths_));
     fold(diverging_.masses, sums_.diverging, kept, static_cast<double>(paths_));
-    refine(converging_.mass() + diverging_.mass());
+    const double mass = converging_.mass() + diverging_.mass();
+    refine(mass);
+    if (settings_.grow_region && !narrows(iteration + 1)) grow_region(mass);
     knows_something_ = true;
   }
   narrowing_ = narrows(iteration + 1);
@@ -166,11 +177,21 @@ std::shared_ptr<const GuidingModel> FocalState::update(std::uint32_t iteration, 
 }
 
 void FocalState::refine(double total_mass) {
-  const SplitRule rule{settings_.split_threshold, settings_.max_depth, total_mass};
+  const SplitRule rule{settings_.split_threshold, max_depth_, total_mass};
   converging_ = refined(converging_, rule);
   diverging_ = refined(diverging_, rule);
   density_ = {converging_.octree, diverging_.octree};
   sums_ = FocalSums(density_);
+}
+
+void FocalState::grow_region(double total_mass) {
+  const bool is_at_boundary =
+      is_densest_at_boundary(density_.converging) || is_densest_at_boundary(density_.diverging);
+  if (!is_at_boundary || max_depth_ + 1 >= Octree::kMostLevels) return;
+  converging_ = enlarged(converging_);
+  diverging_ = enlarged(diverging_);
+  ++max_depth_;  // cells as small as before
+  refine(total_mass);
 }
 
 std::shared_ptr<const GuidingModel> FocalState::model(bool last) const {
@@ -184,7 +205,8 @@ void FocalState::save(std::ostream& out) const {
   save_octree(converging_, out);
   save_octree(diverging_, out);
   write_numbers<double>({static_cast<double>(knows_something_), static_cast<double>(narrowing_),
-                         static_cast<double>(paths_), static_cast<double>(waiting_.size())},
+                         static_cast<double>(max_depth_), static_cast<double>(paths_),
+                         static_cast<double>(waiting_.size())},
                         out);
   write_numbers(sums_.converging, out);
   write_numbers(sums_.diverging, out);
@@ -195,14 +217,15 @@ void FocalState::load(std::istream& in) {
   converging_ = load_octree(in);
   diverging_ = load_octree(in);
   density_ = {converging_.octree, diverging_.octree};
-  const std::vector<double> counts = read_masses(in, 4);
+  const std::vector<double> counts = read_masses(in, 5);
   knows_something_ = counts[0] != 0;
   narrowing_ = counts[1] != 0;
-  paths_ = static_cast<std::uint64_t>(counts[2]);
+  max_depth_ = static_cast<int>(std::min(counts[2], double{Octree::kMostLevels - 1}));
+  paths_ = static_cast<std::uint64_t>(counts[3]);
   sums_.converging = read_masses(in, converging_.masses.size());
   sums_.diverging = read_masses(in, diverging_.masses.size());
-  if (counts[3] >= kGroup * kGroups) throw InputError("the focal model is damaged");
-  waiting_ = read_segments(in, static_cast<std::size_t>(counts[3]));
+  if (counts[4] >= kGroup * kGroups) throw InputError("the focal model is damaged");
+  waiting_ = read_segments(in, static_cast<std::size_t>(counts[4]));
 }
 
 void FocalState::merge(const LearningState& other) {

@@ -28,11 +28,13 @@ class FocalState final : public LearningState {
   void splat_waiting();
   void splat(std::span<const Segment> segments, FocalSums& sums) const;
   void refine(double total_mass);
+  void grow_region(double total_mass);
   std::shared_ptr<const GuidingModel> model(bool last) const;
 
   FocalSettings settings_;
   std::uint32_t first_narrowing_;  ///< iteration
-  double diagonal_;                ///< of the region [scene units]
+  double diagonal_;                ///< of the region at first [scene units]
+  int max_depth_;
   LearningOctree converging_, diverging_;
   FocalDensity density_;  ///< in force in this iteration
   bool knows_something_ = false;

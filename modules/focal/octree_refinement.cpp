@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <optional>
 
@@ -100,6 +101,53 @@ LearningOctree uniform_octree(const Box& box, double mass) {
 
 LearningOctree refined(const LearningOctree& learned, const SplitRule& rule) {
   return Refinement(learned, rule).run();
+}
+
+LearningOctree enlarged(const LearningOctree& learned) {
+  const std::vector<Node>& old = learned.octree.nodes();
+  Box box = learned.octree.box();
+  for (int axis = 0; axis < 3; ++axis) {
+    box.low[axis] -= 0.5 * box.size[axis];
+    box.size[axis] *= 2;
+  }
+  // Each child of the old root is the innermost cell of the child of the new one around it.
+  std::vector<Node> nodes(9);
+  std::vector<double> masses(72);
+  const auto shifted = [](Node node) {
+    for (unsigned c = 0; c < 8; ++c) {
+      if (!node.is_leaf(c)) node.set_index(c, node.index(c) + 8);
+    }
+    return node;
+  };
+  const Node root = shifted(old[0]);
+  for (unsigned c = 0; c < 8; ++c) {
+    nodes[0].set_index(c, 1 + c);
+    nodes[1 + c].children[c ^ 7] = root.children[c];
+    masses[8 * (1 + c) + (c ^ 7)] = learned.masses[c];
+  }
+  std::transform(old.begin() + 1, old.end(), std::back_inserter(nodes), shifted);
+  masses.insert(masses.end(), learned.masses.begin() + 8, learned.masses.end());
+  return {Octree(box, std::move(nodes)), std::move(masses)};
+}
+
+bool is_densest_at_boundary(const Octree& octree) {
+  const std::vector<Node>& nodes = octree.nodes();
+  // Which faces a node touches: bit d for the lower one of axis d, bit 3 + d for the upper one.
+  std::vector<unsigned> touched(nodes.size(), 0x3f);
+  float densest = 0;
+  bool at_boundary = false;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    for (unsigned c = 0; c < 8; ++c) {
+      const unsigned faces = touched[i] & ((~c & 7) | c << 3);
+      if (!nodes[i].is_leaf(c)) {
+        touched[nodes[i].index(c)] = faces;
+      } else if (nodes[i].density(c) > densest) {
+        densest = nodes[i].density(c);
+        at_boundary = faces != 0;
+      }
+    }
+  }
+  return at_boundary;
 }
 
 Octree pruned(const Octree& octree, double ratio) {

@@ -30,6 +30,12 @@ LearningOctree uniform_octree(const Box& box, double mass);
 /// Densities are mass over volume and `rule.total_mass`.
 LearningOctree refined(const LearningOctree& learned, const SplitRule& rule);
 
+/// The same cells and masses within a box of twice the size about the same center.
+LearningOctree enlarged(const LearningOctree& learned);
+
+/// Whether the densest leaf touches the boundary of the box: what is dense there may go on outside.
+bool is_densest_at_boundary(const Octree& octree);
+
 /// `octree` without nodes in which no leaf is denser than `ratio` times their mean (section 5,
 /// "Pruning", and fig. 6).
 Octree pruned(const Octree& octree, double ratio);

@@ -68,6 +68,37 @@ TEST_CASE("refinement: light nodes become leaves with all of their mass, over se
   CHECK(coarser.octree.mass() == doctest::Approx(1).epsilon(1e-6));
 }
 
+TEST_CASE("enlarging: the same cells with the same masses in a box of twice the size") {
+  LearningOctree learned = refined(uniform_octree(test_box(), 1), {.threshold = 0.1});
+  for (std::size_t i = 0; i < learned.masses.size(); ++i) {
+    if (learned.masses[i] > 0) learned.masses[i] = 1 + static_cast<double>(i);
+  }
+  const double mass = learned.mass();
+  const SplitRule rule{.threshold = 0.01, .total_mass = mass};
+  learned = refined(learned, rule);
+  const LearningOctree larger = refined(enlarged(learned), rule);
+  CHECK(larger.mass() == doctest::Approx(mass));
+  CHECK(larger.octree.box() == Box{{-3, -0.75, -0.25}, {6, 4, 9}});
+  RandomStream random(1);
+  for (int i = 0; i < 1000; ++i) {
+    const Point3 p = point_in_box(random, test_box());
+    CHECK(larger.octree.density(p) == doctest::Approx(learned.octree.density(p)));
+  }
+  CHECK(larger.octree.density({-1.6f, 1, 3}) == 0);
+}
+
+TEST_CASE("enlarging: what is densest at the boundary is noticed") {
+  // Two levels of leaves; the densest one is child `c` of the root's child 0.
+  const auto is_noticed = [](unsigned c) {
+    LearningOctree learned = refined(uniform_octree(test_box(), 1), {.threshold = 0.1});
+    learned.masses[8 * node_at(learned.octree, {0}) + c] = 1;
+    const SplitRule rule{.threshold = 0.01, .max_depth = 1, .total_mass = learned.mass()};
+    return is_densest_at_boundary(refined(learned, rule).octree);
+  };
+  for (unsigned c = 0; c < 7; ++c) CHECK(is_noticed(c));
+  CHECK(!is_noticed(7));
+}
+
 TEST_CASE("pruning: even nodes vanish, uneven ones stay, mass is kept") {
   const Octree even = even_tree();
   CHECK(pruned(even, 2).nodes().size() == 1);
