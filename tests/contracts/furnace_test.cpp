@@ -89,6 +89,17 @@ TEST_CASE("furnace (e): fractions learned for regions that are refined") {
   CHECK(std::abs(diffuse_t(guiding)) < kLimit);
 }
 
+TEST_CASE("furnace: the policy that learns by descent") {
+  for (const std::string objective : {"kl", "variance"}) {
+    const std::string mixing = "mixing: { type: learned, objective: " + objective + " }, ";
+    const std::string guiding =
+        pair("{ type: stub_direction, refine: true }", "stub_direction", mixing);
+    CHECK(std::abs(diffuse_t(guiding)) < kLimit);
+    CHECK(std::abs(fog_t(pair("stub_vertices", "stub_vertices", mixing))) < kLimit);
+  }
+  CHECK(std::abs(diffuse_t(pair("stub_camera", "stub_camera", "mixing: learned, "))) < kLimit);
+}
+
 TEST_CASE("furnace (f): a sampler that probes the light-position integrand") {
   CHECK(std::abs(diffuse_t("", "stub_probing")) < kLimit);
 }

@@ -45,11 +45,14 @@ TEST_CASE("same bits: cornell-box, both samplers") {
   check_same_bits(cornell("sampler: independent\n"));
 }
 
-TEST_CASE("same bits: guided, with the learned model") {
-  check_same_bits(
-      cornell("sampler: sobol\nintegrator: { type: path, guiding: { learner: { type: "
-              "stub_direction, refine: true }, guider: stub_direction, mixing: stub_learned, "
-              "training: { iterations: 3, images: combine } } }\n"));
+TEST_CASE("same bits: guided, with the learned model and either learned mixing") {
+  for (const char* mixing : {"stub_learned", "learned"}) {
+    check_same_bits(cornell(fmt::format(
+        "sampler: sobol\nintegrator: {{ type: path, guiding: {{ learner: {{ type: stub_direction, "
+        "refine: true }}, guider: stub_direction, mixing: {}, training: {{ iterations: 3, images: "
+        "combine }} }} }}\n",
+        mixing)));
+  }
 }
 
 TEST_CASE("same bits: a scene of 300,000 triangles") {

@@ -1,0 +1,64 @@
+#include "finds.h"
+
+#include <algorithm>
+
+#include <pharos/core/binary_stream.h>
+
+namespace pharos {
+
+void Finds::add(double u, double weight) {
+  ++steps_;
+  const std::size_t last = bins_.size() - 1;
+  const auto index = static_cast<std::size_t>(u * static_cast<double>(bins_.size()));
+  Bin& bin = bins_[std::min(index, last)];
+  bin.weight += weight;
+  bin.moment += weight * u;
+}
+
+void Finds::add(const Finds& other) {
+  steps_ += other.steps_;
+  for (std::size_t i = 0; i < bins_.size(); ++i) {
+    bins_[i].weight += other.bins_[i].weight;
+    bins_[i].moment += other.bins_[i].moment;
+  }
+}
+
+std::vector<Finds::Term> Finds::terms(double drawn_with) const {
+  double total = 0;
+  for (const Bin& bin : bins_) total += bin.weight;
+  std::vector<Term> all;
+  for (const Bin& bin : bins_) {
+    if (bin.weight == 0) continue;
+    const double u = bin.moment / bin.weight;
+    const double unguided = u / drawn_with, guided = (1 - u) / (1 - drawn_with);
+    all.push_back({bin.weight / total, guided, unguided - guided});
+  }
+  return all;
+}
+
+void Finds::save(std::ostream& out) const {
+  save_number(out, steps_);
+  for (const Bin& bin : bins_) {
+    save_number(out, bin.weight);
+    save_number(out, bin.moment);
+  }
+}
+
+void Finds::load(std::istream& in) {
+  steps_ = load_number<std::uint64_t>(in);
+  for (Bin& bin : bins_) {
+    bin.weight = load_finite<double>(in);
+    bin.moment = load_finite<double>(in);
+  }
+}
+
+double objective_slope(const std::vector<Finds::Term>& terms, double a, MixingObjective objective) {
+  double sum = 0;
+  for (const Finds::Term& term : terms) {
+    const double q = term.guided + a * term.excess;
+    sum -= term.weight * term.excess / (objective == MixingObjective::kl ? q : q * q);
+  }
+  return sum;
+}
+
+}  // namespace pharos

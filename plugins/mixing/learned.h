@@ -1,0 +1,46 @@
+#pragma once
+
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include <pharos/config/schema.h>
+#include <pharos/guiding/mixing.h>
+
+#include "finds.h"
+
+namespace pharos {
+
+template <>
+struct EnumNames<MixingObjective> {
+  static constexpr std::array<std::pair<std::string_view, MixingObjective>, 2> names{
+      {{"kl", MixingObjective::kl}, {"variance", MixingObjective::variance}}};
+};
+
+/// See learned.cpp.
+class LearnedMixing final : public MixingPolicy {
+ public:
+  struct Settings {
+    MixingObjective objective = MixingObjective::kl;
+    double initial = 0.5;
+    double least = 0.05;
+    double learning_rate = 0.01;
+    double mean_decay = 0.9;
+    double square_decay = 0.999;
+    double epsilon = 1e-8;
+    double regularisation = 0.01;
+    std::uint32_t batch = 2;
+    std::uint32_t steps = 500;
+    std::uint32_t bins = 32;
+    static void describe(Schema<Settings>& s);
+  };
+  /// Throws InputError when `initial` is not in [least, 1 - least].
+  explicit LearnedMixing(const Settings& settings);
+
+  std::unique_ptr<MixingState> begin() const override;
+
+ private:
+  Settings settings_;
+};
+
+}  // namespace pharos
