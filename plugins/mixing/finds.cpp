@@ -1,6 +1,7 @@
 #include "finds.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <pharos/core/binary_stream.h>
 
@@ -8,9 +9,10 @@ namespace pharos {
 
 void Finds::add(double u, double weight) {
   ++steps_;
-  const std::size_t last = bins_.size() - 1;
-  const auto index = static_cast<std::size_t>(u * static_cast<double>(bins_.size()));
-  Bin& bin = bins_[std::min(index, last)];
+  // Equal steps of asin sqrt u, so that bins are narrow where a share near 0 or 1 makes 1 / q
+  // steep.
+  const double place = std::asin(std::sqrt(u)) * (2 / M_PI) * static_cast<double>(bins_.size());
+  Bin& bin = bins_[std::min(static_cast<std::size_t>(place), bins_.size() - 1)];
   bin.weight += weight;
   bin.moment += weight * u;
 }
@@ -49,6 +51,7 @@ void Finds::load(std::istream& in) {
   for (Bin& bin : bins_) {
     bin.weight = load_finite<double>(in);
     bin.moment = load_finite<double>(in);
+    if (bin.moment < 0 || bin.moment > bin.weight) throw InputError("what was saved is damaged");
   }
 }
 

@@ -23,8 +23,8 @@ enum class MixingObjective {
 ///     u = a0 B / p         the probability that it was drawn unguided:
 ///
 /// under another share a its density would be q p, with q = a/a0 u + (1 - a)/(1 - a0) (1 - u).
-/// Steps are kept as a histogram over u: of each bin the sum of weights (x or x^2, by objective)
-/// and the weighted mean of u.
+/// Steps are kept as a histogram over u, finer towards both ends: of each bin the sum of weights (x
+/// or x^2, by objective) and the weighted mean of u.
 class Finds {
  public:
   /// One bin, in terms of densities relative to p.

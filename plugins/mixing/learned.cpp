@@ -101,10 +101,13 @@ class LearnedState final : public MixingState {
 
  private:
   Region new_region() const { return {logit(settings_.initial), {}, Finds(settings_.bins)}; }
+  Region load_region(std::istream& in) const;
   Region heir_of(const Region& region) const {
     return {region.theta, region.adam, Finds(settings_.bins)};
   }
 
+  /// The largest theta.
+  double limit() const { return logit(1 - settings_.least); }
   float fraction(const Region& region) const {
     return static_cast<float>(
         std::clamp(share_of(region.theta), settings_.least, 1 - settings_.least));
@@ -126,14 +129,14 @@ class LearnedState final : public MixingState {
     if (terms.empty()) return;
     const statistics::AdamRates rates{settings_.learning_rate, settings_.mean_decay,
                                       settings_.square_decay, settings_.epsilon};
-    const double start = logit(settings_.initial), limit = logit(1 - settings_.least);
+    const double start = logit(settings_.initial);
     const std::uint64_t earned = region.finds.steps() / settings_.batch;
     for (std::uint64_t step = std::min<std::uint64_t>(earned, settings_.steps); step > 0; --step) {
       const double a = share_of(region.theta);
       const double gradient = a * (1 - a) * objective_slope(terms, a, settings_.objective) +
                               settings_.regularisation * (region.theta - start);
       const double theta = region.theta + region.adam.step(gradient, rates);
-      region.theta = std::clamp(theta, -limit, limit);
+      region.theta = std::clamp(theta, -limit(), limit());
     }
   }
 
@@ -165,20 +168,25 @@ void LearnedState::load(std::istream& in) {
   }
   const auto count = load_number<std::uint64_t>(in);
   std::vector<Region> regions;
-  // A number that is damaged must not decide how much memory is taken: regions are read first.
-  for (std::uint64_t i = 0; i < count; ++i) {
-    Region region = new_region();
-    region.theta = load_finite<double>(in);
-    Adam::Moments moments;
-    for (double* value :
-         {&moments.mean, &moments.square, &moments.mean_left, &moments.square_left}) {
-      *value = load_finite<double>(in);
-    }
-    region.adam = Adam(moments);
-    region.finds.load(in);
-    regions.push_back(std::move(region));
-  }
+  // A count that is damaged must not decide how much memory is taken: regions are read first.
+  for (std::uint64_t i = 0; i < count; ++i) regions.push_back(load_region(in));
   regions_ = std::move(regions);
+}
+
+Region LearnedState::load_region(std::istream& in) const {
+  Region region = new_region();
+  region.theta = std::clamp(load_finite<double>(in), -limit(), limit());
+  Adam::Moments moments;
+  for (double* value : {&moments.mean, &moments.square, &moments.mean_left, &moments.square_left}) {
+    *value = load_finite<double>(in);
+  }
+  const auto is_share = [](double x) { return x >= 0 && x <= 1; };
+  if (moments.square < 0 || !is_share(moments.mean_left) || !is_share(moments.square_left)) {
+    throw InputError("what was saved is damaged");
+  }
+  region.adam = Adam(moments);
+  region.finds.load(in);
+  return region;
 }
 
 void LearnedState::merge(const MixingState& other) {

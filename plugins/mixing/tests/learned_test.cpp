@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <sstream>
 
@@ -248,6 +249,18 @@ TEST_CASE("learned mixing: what was saved otherwise is refused") {
   CHECK_THROWS_AS(load({.bins = 16}, saved), InputError);
   CHECK_THROWS_AS(load({}, saved.substr(0, saved.size() - 1)), InputError);
   CHECK_THROWS_AS(load({}, "pharos other 1\n" + saved), InputError);
+
+  const auto with = [&](std::size_t at, double value) {
+    std::string damaged = saved;
+    std::memcpy(damaged.data() + at, &value, sizeof value);
+    return damaged;
+  };
+  const std::size_t theta = saved.find('\n') + 1 + 2 * sizeof(std::uint32_t) + 8;
+  CHECK_NOTHROW(load({}, with(theta, 1e300)));  // beyond this policy's least share
+  CHECK_THROWS_AS(load({}, with(theta, std::nan(""))), InputError);
+  CHECK_THROWS_AS(load({}, with(theta + 16, -1)), InputError);       // the mean square
+  CHECK_THROWS_AS(load({}, with(theta + 24, 2)), InputError);        // what is left of the start
+  CHECK_THROWS_AS(load({}, with(saved.size() - 8, 1)), InputError);  // a bin's moment alone
 }
 
 TEST_CASE("learned mixing: merging states is absorbing all their paths") {
