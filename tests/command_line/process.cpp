@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <pty.h>
 #include <stdlib.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -20,22 +21,32 @@ std::string read_and_remove(const std::filesystem::path& path) {
   return text;
 }
 
+[[noreturn]] void become_shell(const std::string& line) {
+  execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
+  _exit(127);
+}
+
+/// Waits for the shell; `out` and `err` are still to be filled in.
+Outcome outcome_of(pid_t shell) {
+  int status = -1;
+  rusage usage{};
+  wait4(shell, &status, 0, &usage);
+  return {.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1,
+          .out = {},
+          .err = {},
+          .peak_megabytes = static_cast<double>(usage.ru_maxrss) / 1024};
+}
+
 Outcome run_shell(const std::string& command, const std::filesystem::path& folder) {
   const auto out = folder / ".stdout", err = folder / ".stderr";
   const std::string line = fmt::format("cd '{}' && {} > '{}' 2> '{}'", folder.string(), command,
                                        out.string(), err.string());
   const pid_t shell = fork();
-  if (shell == 0) {
-    execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
-    _exit(127);
-  }
-  int status = -1;
-  rusage usage{};
-  wait4(shell, &status, 0, &usage);
-  return {.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1,
-          .out = read_and_remove(out),
-          .err = read_and_remove(err),
-          .peak_megabytes = static_cast<double>(usage.ru_maxrss) / 1024};
+  if (shell == 0) become_shell(line);
+  Outcome outcome = outcome_of(shell);
+  outcome.out = read_and_remove(out);
+  outcome.err = read_and_remove(err);
+  return outcome;
 }
 
 }  // namespace
@@ -52,6 +63,24 @@ Outcome interrupt_pharos(const std::string& arguments, const std::filesystem::pa
   return run_shell(fmt::format("timeout --preserve-status --signal={} {} {} {}", signal, seconds,
                                PHAROS_PROGRAM, arguments),
                    folder);
+}
+
+Outcome run_pharos_on_terminal(const std::string& arguments, const std::filesystem::path& folder) {
+  const std::string line = fmt::format("cd '{}' && timeout {} {} {}", folder.string(),
+                                       kTimeoutSeconds, PHAROS_PROGRAM, arguments);
+  int terminal = -1;
+  const pid_t shell = forkpty(&terminal, nullptr, nullptr, nullptr);
+  if (shell == 0) become_shell(line);
+  std::string received;
+  char buffer[4096];
+  // Reading fails once the other side has been closed.
+  for (ssize_t count; (count = read(terminal, buffer, sizeof buffer)) > 0;) {
+    received.append(buffer, static_cast<std::size_t>(count));
+  }
+  close(terminal);
+  Outcome outcome = outcome_of(shell);
+  outcome.out = std::move(received);
+  return outcome;
 }
 
 std::vector<std::string> ScratchFolder::listing() const {

@@ -27,6 +27,10 @@ Outcome run_pharos(const std::string& arguments, const std::filesystem::path& fo
 Outcome interrupt_pharos(const std::string& arguments, const std::filesystem::path& folder,
                          double seconds, const char* signal);
 
+/// Runs `pharos ARGUMENTS` on a terminal of its own, which takes output and messages alike: `out`
+/// is all that it received, `err` is empty.
+Outcome run_pharos_on_terminal(const std::string& arguments, const std::filesystem::path& folder);
+
 /// An empty folder that goes away again, and what a run of the program left there.
 class ScratchFolder : public test::TemporaryFolder {
  public:
