@@ -30,6 +30,8 @@ struct World {
 constexpr World kApart{{0.5, 0.5, 0}, {0, 0, 1}, {0.3, 0, 0.7}};
 /// Where no mixture is perfect.
 constexpr World kOverlapping{{0.7, 0.2, 0.1}, {0.3, 0.1, 0.6}, {0.1, 0.5, 0.4}};
+constexpr World kGuideMisses{{1, 0, 0}, {0, 1, 0}, {1, 0, 0}};
+constexpr World kOnlyGuideFinds{{1, 0, 0}, {0, 1, 0}, {0, 1, 0}};
 
 std::size_t choose(const std::array<double, 3>& probabilities, double u) {
   std::size_t i = 0;
@@ -158,16 +160,36 @@ TEST_CASE("learned mixing: regularisation pulls towards the initial share") {
 }
 
 TEST_CASE("learned mixing: both ways keep their least share") {
-  const World guide_misses{{1, 0, 0}, {0, 1, 0}, {1, 0, 0}};
-  const World only_guide_finds{{1, 0, 0}, {0, 1, 0}, {0, 1, 0}};
   const Settings settings{.least = 0.2};
-  CHECK(learned_share(settings, guide_misses, 2000) == doctest::Approx(0.8));
-  CHECK(learned_share(settings, only_guide_finds, 2000) == doctest::Approx(0.2));
+  CHECK(learned_share(settings, kGuideMisses, 2000) == doctest::Approx(0.8));
+  CHECK(learned_share(settings, kOnlyGuideFinds, 2000) == doctest::Approx(0.2));
+}
+
+TEST_CASE("learned mixing: a region that was long at a limit leaves it at once") {
+  const auto state = LearnedMixing({.least = 0.4, .regularisation = 0}).begin();
+  auto fractions = state->update(1, {});
+  for (int i = 0; i < 10; ++i) {
+    state->absorb(paths(kGuideMisses, fractions->unguided_fraction(0), 1000, 1));
+    fractions = state->update(1, {});
+  }
+  CHECK(fractions->unguided_fraction(0) == doctest::Approx(0.6));
+  state->absorb(paths(kOnlyGuideFinds, 0.6f, 100, 1));
+  CHECK(state->update(1, {})->unguided_fraction(0) < 0.55f);
+}
+
+TEST_CASE("learned mixing: the momentum of one iteration is felt in the next") {
+  const auto state = LearnedMixing({.batch = 100, .steps = 1}).begin();
+  state->update(1, {});
+  state->absorb(paths(kGuideMisses, 0.5f, 100, 1));
+  const float there = state->update(1, {})->unguided_fraction(0);
+  CHECK(there == doctest::Approx(0.5025).epsilon(1e-4));  // one step of 0.01 in log-odds
+  // The slope is now the opposite, and about as steep: without memory all would be undone.
+  state->absorb(paths(kOnlyGuideFinds, there, 100, 1));
+  CHECK(state->update(1, {})->unguided_fraction(0) > 0.502f);
 }
 
 TEST_CASE("learned mixing: few samples move little, none and black ones nothing") {
-  const World only_guide_finds{{1, 0, 0}, {0, 1, 0}, {0, 1, 0}};
-  const double after_ten = learned_share({}, only_guide_finds, 10, 1);
+  const double after_ten = learned_share({}, kOnlyGuideFinds, 10, 1);
   CHECK(after_ten < 0.5);
   CHECK(after_ten > 0.485);  // five steps of 0.01 in log-odds
   CHECK(learned_share({}, kApart, 0, 3) == 0.5);
@@ -204,7 +226,7 @@ TEST_CASE("learned mixing: refined regions go on from where their origin was") {
   for (const std::uint32_t region : {0u, 2u}) CHECK(after->unguided_fraction(region) == learned);
   for (const std::uint32_t region : {1u, 3u}) CHECK(after->unguided_fraction(region) == 0.5f);
 
-  // The moments are inherited too: with the same paths, heir and origin take the same steps.
+  // With the same paths, heir and origin take the same steps.
   whole->absorb(paths(kApart, learned, 300, 2, 1));
   refined->absorb(paths(kApart, learned, 300, 2, 2));
   const float next = whole->update(2, std::array{0u, 1u})->unguided_fraction(1);
