@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <pharos/core/binary_stream.h>
+
 #include "octree_file.h"
 
 namespace pharos::focal {
@@ -21,13 +23,15 @@ Vec3 to_float(const Double3& v) {
 }  // namespace
 
 FocalModel::FocalModel(std::istream& in) {
-  density_.converging = read_octree(in);
-  density_.diverging = read_octree(in);
+  expect_heading(in, kFocalModel, kVersion);
+  density_.converging = load_octree(in);
+  density_.diverging = load_octree(in);
 }
 
 void FocalModel::save(std::ostream& out) const {
-  write_octree(density_.converging, out);
-  write_octree(density_.diverging, out);
+  save_heading(out, kFocalModel, kVersion);
+  save_octree(density_.converging, out);
+  save_octree(density_.diverging, out);
 }
 
 Bounds3 FocalModel::bounds() const {

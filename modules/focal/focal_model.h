@@ -19,7 +19,7 @@ class FocalModel final : public GuidingModel {
   explicit FocalModel(std::istream& in);
 
   std::string name() const override { return kFocalModel; }
-  std::uint32_t version() const override { return 1; }
+  std::uint32_t version() const override { return kVersion; }
   std::size_t size_bytes() const override { return density_.size_bytes(); }
   void save(std::ostream& out) const override;
 
@@ -33,6 +33,8 @@ class FocalModel final : public GuidingModel {
   const FocalDensity& focal_density() const { return density_; }
 
  private:
+  static constexpr std::uint32_t kVersion = 1;
+
   FocalDensity density_;
 };
 

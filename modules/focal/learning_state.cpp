@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <istream>
-#include <ostream>
 
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-#include <pharos/core/error.h>
+#include <pharos/core/binary_stream.h>
 
 #include "focal_model.h"
 #include "octree_file.h"
@@ -16,6 +14,8 @@
 namespace pharos::focal {
 namespace {
 
+constexpr const char* kHeading = "focal_learning";
+constexpr std::uint32_t kVersion = 1;
 /// Segments are splatted in groups of this size, each into sums of its own, this many at a time.
 constexpr std::size_t kGroup = 4096, kGroups = 16;
 
@@ -54,51 +54,57 @@ void fold(std::vector<double>& masses, const std::vector<double>& sums, double d
   }
 }
 
-/// Masses: finite and not negative.
-std::vector<double> read_masses(std::istream& in, std::size_t count) {
-  std::vector<double> masses = read_numbers<double>(in, count);
-  for (const double mass : masses) {
-    if (!std::isfinite(mass) || mass < 0) throw InputError("the focal model is damaged");
+void save_masses(const std::vector<double>& masses, std::ostream& out) {
+  for (const double mass : masses) save_number(out, mass);
+}
+
+std::vector<double> load_masses(std::istream& in, std::size_t count) {
+  std::vector<double> masses(count);
+  for (double& mass : masses) {
+    mass = load_finite<double>(in);
+    if (mass < 0) throw InputError("what was learned of focal points is damaged");
   }
   return masses;
 }
 
-void save_octree(const LearningOctree& learned, std::ostream& out) {
-  write_octree(learned.octree, out);
-  write_numbers(learned.masses, out);
+void save_learned(const LearningOctree& learned, std::ostream& out) {
+  save_octree(learned.octree, out);
+  save_masses(learned.masses, out);
 }
 
-LearningOctree load_octree(std::istream& in) {
-  Octree octree = read_octree(in);
+LearningOctree load_learned(std::istream& in) {
+  Octree octree = load_octree(in);
   const std::size_t slots = 8 * octree.nodes().size();
-  return {std::move(octree), read_masses(in, slots)};
+  return {std::move(octree), load_masses(in, slots)};
 }
 
-/// Segments as numbers, as structures have gaps of unknown content between their members.
-constexpr std::size_t kNumbers = 11;
-
-void write_segments(const std::vector<Segment>& segments, std::ostream& out) {
-  for (const Segment& s : segments) {
-    write_numbers<float>(
-        {s.origin.x, s.origin.y, s.origin.z, s.direction.x, s.direction.y, s.direction.z, s.length,
-         s.contribution, s.unguided_pdf, s.unguided_fraction, s.whole_line ? 1.0f : 0.0f},
-        out);
-  }
+void save_vector(Vec3 v, std::ostream& out) {
+  for (int axis = 0; axis < 3; ++axis) save_number(out, v[axis]);
 }
 
-std::vector<Segment> read_segments(std::istream& in, std::size_t count) {
-  std::vector<Segment> segments(count);
-  for (Segment& s : segments) {
-    const std::vector<float> v = read_numbers<float>(in, kNumbers);
-    s = {.origin = {v[0], v[1], v[2]},
-         .direction = {v[3], v[4], v[5]},
-         .length = v[6],
-         .contribution = v[7],
-         .unguided_pdf = v[8],
-         .unguided_fraction = v[9],
-         .whole_line = v[10] != 0};
+Vec3 load_vector(std::istream& in) {
+  Vec3 v;
+  for (int axis = 0; axis < 3; ++axis) v[axis] = load_finite<float>(in);
+  return v;
+}
+
+void save_segment(const Segment& s, std::ostream& out) {
+  save_vector(s.origin, out);
+  save_vector(s.direction, out);
+  for (const float number : {s.length, s.contribution, s.unguided_pdf, s.unguided_fraction}) {
+    save_number(out, number);
   }
-  return segments;
+  save_number(out, s.whole_line);
+}
+
+Segment load_segment(std::istream& in) {
+  Segment s{.origin = load_vector(in), .direction = load_vector(in)};
+  s.length = load_number<float>(in);  // infinite where it left the scene
+  s.contribution = load_finite<float>(in);
+  s.unguided_pdf = load_finite<float>(in);
+  s.unguided_fraction = load_finite<float>(in);
+  s.whole_line = load_number<std::uint8_t>(in) != 0;
+  return s;
 }
 
 }  // namespace
@@ -202,30 +208,34 @@ std::shared_ptr<const GuidingModel> FocalState::model(bool last) const {
 }
 
 void FocalState::save(std::ostream& out) const {
-  save_octree(converging_, out);
-  save_octree(diverging_, out);
-  write_numbers<double>({static_cast<double>(knows_something_), static_cast<double>(narrowing_),
-                         static_cast<double>(max_depth_), static_cast<double>(paths_),
-                         static_cast<double>(waiting_.size())},
-                        out);
-  write_numbers(sums_.converging, out);
-  write_numbers(sums_.diverging, out);
-  write_segments(waiting_, out);
+  save_heading(out, kHeading, kVersion);
+  save_learned(converging_, out);
+  save_learned(diverging_, out);
+  save_number(out, knows_something_);
+  save_number(out, narrowing_);
+  save_number(out, max_depth_);
+  save_number(out, paths_);
+  save_masses(sums_.converging, out);
+  save_masses(sums_.diverging, out);
+  save_number(out, static_cast<std::uint32_t>(waiting_.size()));
+  for (const Segment& segment : waiting_) save_segment(segment, out);
 }
 
 void FocalState::load(std::istream& in) {
-  converging_ = load_octree(in);
-  diverging_ = load_octree(in);
+  expect_heading(in, kHeading, kVersion);
+  converging_ = load_learned(in);
+  diverging_ = load_learned(in);
   density_ = {converging_.octree, diverging_.octree};
-  const std::vector<double> counts = read_masses(in, 5);
-  knows_something_ = counts[0] != 0;
-  narrowing_ = counts[1] != 0;
-  max_depth_ = static_cast<int>(std::min(counts[2], double{Octree::kMostLevels - 1}));
-  paths_ = static_cast<std::uint64_t>(counts[3]);
-  sums_.converging = read_masses(in, converging_.masses.size());
-  sums_.diverging = read_masses(in, diverging_.masses.size());
-  if (counts[4] >= kGroup * kGroups) throw InputError("the focal model is damaged");
-  waiting_ = read_segments(in, static_cast<std::size_t>(counts[4]));
+  knows_something_ = load_number<std::uint8_t>(in) != 0;
+  narrowing_ = load_number<std::uint8_t>(in) != 0;
+  max_depth_ = std::clamp(load_number<int>(in), 0, Octree::kMostLevels - 1);
+  paths_ = load_number<std::uint64_t>(in);
+  sums_.converging = load_masses(in, converging_.masses.size());
+  sums_.diverging = load_masses(in, diverging_.masses.size());
+  waiting_.clear();
+  for (auto count = load_number<std::uint32_t>(in); count > 0; --count) {
+    waiting_.push_back(load_segment(in));
+  }
 }
 
 void FocalState::merge(const LearningState& other) {

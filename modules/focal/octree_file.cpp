@@ -1,37 +1,18 @@
 #include "octree_file.h"
 
 #include <cmath>
-#include <cstring>
-#include <istream>
-#include <ostream>
 
-#include <pharos/core/error.h>
+#include <pharos/core/binary_stream.h>
 
 namespace pharos::focal {
 namespace {
 
-constexpr char kMagic[8] = {'o', 'c', 't', 'r', 'e', 'e', '0', '1'};
+constexpr const char* kHeading = "octree";
+constexpr std::uint32_t kVersion = 1;
 constexpr std::uint32_t kMostNodes = 1u << 24;
 
-template <class T>
-void write(std::ostream& out, const T& value) {
-  out.write(reinterpret_cast<const char*>(&value), sizeof value);
-}
-
-template <class T>
-T read(std::istream& in) {
-  T value;
-  in.read(reinterpret_cast<char*>(&value), sizeof value);
-  if (!in) throw InputError("the focal model is cut off");
-  return value;
-}
-
-/// Elements come a piece at a time, so that a wrong count costs no memory.
-template <class T>
-std::vector<T> read_array(std::istream& in, std::size_t count) {
-  std::vector<T> values;
-  while (values.size() < count) values.push_back(read<T>(in));
-  return values;
+void expect(bool holds) {
+  if (!holds) throw InputError("the octree of the focal model is damaged");
 }
 
 /// Throws unless children follow their parents breadth-first, each once, and densities are sound.
@@ -41,59 +22,49 @@ void check_nodes(const std::vector<Octree::Node>& nodes) {
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     for (unsigned c = 0; c < 8; ++c) {
       if (nodes[i].is_leaf(c)) {
-        if (!std::isfinite(nodes[i].density(c))) throw InputError("the focal model is damaged");
+        expect(std::isfinite(nodes[i].density(c)));
         continue;
       }
-      if (nodes[i].index(c) != next || next >= nodes.size() || levels[i] >= Octree::kMostLevels) {
-        throw InputError("the focal model is damaged");
-      }
+      expect(nodes[i].index(c) == next && next < nodes.size() && levels[i] < Octree::kMostLevels);
       levels[next++] = levels[i] + 1;
     }
   }
-  if (next != nodes.size()) throw InputError("the focal model is damaged");
+  expect(next == nodes.size());
 }
 
 }  // namespace
 
-void write_octree(const Octree& octree, std::ostream& out) {
-  out.write(kMagic, sizeof kMagic);
-  write(out, octree.box());
-  write(out, static_cast<std::uint32_t>(octree.nodes().size()));
-  for (const Octree::Node& node : octree.nodes()) write(out, node.children);
+void save_octree(const Octree& octree, std::ostream& out) {
+  save_heading(out, kHeading, kVersion);
+  for (int axis = 0; axis < 3; ++axis) {
+    save_number(out, octree.box().low[axis]);
+    save_number(out, octree.box().size[axis]);
+  }
+  save_number(out, static_cast<std::uint32_t>(octree.nodes().size()));
+  for (const Octree::Node& node : octree.nodes()) {
+    for (const std::uint32_t child : node.children) save_number(out, child);
+  }
 }
 
-Octree read_octree(std::istream& in) {
-  char magic[sizeof kMagic] = {};
-  in.read(magic, sizeof magic);
-  if (std::memcmp(magic, kMagic, sizeof magic) != 0) {
-    throw InputError("the file holds another kind of model than a focal one");
-  }
-  const Box box = read<Box>(in);
+Octree load_octree(std::istream& in) {
+  expect_heading(in, kHeading, kVersion);
+  Box box;
   for (int axis = 0; axis < 3; ++axis) {
-    if (!std::isfinite(box.low[axis]) || !(box.size[axis] > 0) || !std::isfinite(box.size[axis])) {
-      throw InputError("the focal model is damaged");
+    box.low[axis] = load_finite<double>(in);
+    box.size[axis] = load_finite<double>(in);
+    expect(box.size[axis] > 0);
+  }
+  const auto count = load_number<std::uint32_t>(in);
+  expect(count > 0 && count <= kMostNodes);
+  // Nodes come one by one, so that a wrong count costs no memory.
+  std::vector<Octree::Node> nodes;
+  while (nodes.size() < count) {
+    for (std::uint32_t& child : nodes.emplace_back().children) {
+      child = load_number<std::uint32_t>(in);
     }
   }
-  const auto count = read<std::uint32_t>(in);
-  if (count == 0 || count > kMostNodes) throw InputError("the focal model is damaged");
-  std::vector<Octree::Node> nodes = read_array<Octree::Node>(in, count);
   check_nodes(nodes);
   return {box, std::move(nodes)};
 }
-
-template <class Number>
-void write_numbers(const std::vector<Number>& numbers, std::ostream& out) {
-  for (const Number number : numbers) write(out, number);
-}
-
-template <class Number>
-std::vector<Number> read_numbers(std::istream& in, std::size_t count) {
-  return read_array<Number>(in, count);
-}
-
-template void write_numbers(const std::vector<float>&, std::ostream&);
-template void write_numbers(const std::vector<double>&, std::ostream&);
-template std::vector<float> read_numbers(std::istream&, std::size_t);
-template std::vector<double> read_numbers(std::istream&, std::size_t);
 
 }  // namespace pharos::focal
