@@ -1,6 +1,7 @@
 #include "analytic.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <doctest/doctest.h>
@@ -44,6 +45,18 @@ std::vector<std::string> samplers() {
     if (has_defaults && name.rfind("stub_", 0) != 0) found.push_back(name);
   }
   return found;
+}
+
+double polygon_irradiance(const Transform& quad) {
+  const std::array<Point3, 4> corners{quad.point({-1, -1, 0}), quad.point({1, -1, 0}),
+                                      quad.point({1, 1, 0}), quad.point({-1, 1, 0})};
+  double sum = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    REQUIRE(corners[i].z > 0);
+    const Vec3 a = normalize(corners[i]), b = normalize(corners[(i + 1) % 4]);
+    sum += std::acos(double{dot(a, b)}) * normalize(cross(a, b)).z;
+  }
+  return std::abs(sum) / 2;
 }
 
 void Floor::check_irradiance(double expected, const std::vector<Strategy>& strategies) const {

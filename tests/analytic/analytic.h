@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include <pharos/core/transform.h>
+
 #include "renders.h"
 
 /// Renders of constant images whose value is known in closed form. A test is the mean of all pixels
@@ -36,6 +38,12 @@ inline const std::vector<Strategy> kStrategies{
 /// The strategies that find lights without extent.
 inline const std::vector<Strategy> kLightSampling{{"one", "light_selection: one"},
                                                   {"all", "light_selection: all"}};
+
+/// The irradiance at the origin, of normal +z, of a polygon of radiance 1 above the horizon, a
+/// transformed square of corners (+-1, +-1, 0): Lambert 1760; half the sum over edges of the angle
+/// that they span times the cosine between the receiver's normal and the normal of the plane of
+/// that angle.
+double polygon_irradiance(const Transform& quad);
 
 /// A floor seen from close by in a spot of half a millimetre about the origin, with +z as its
 /// normal and a reflectance of 0.5.

@@ -30,23 +30,9 @@ Transform overhead(float h, Vec3 scale) {
          Transform::scale(scale);
 }
 
-/// The irradiance at the origin, of normal +z, of a polygon of radiance 1 above the horizon:
-/// Lambert 1760; half the sum over edges of the angle that they span times the cosine between the
-/// receiver's normal and the normal of the plane of that angle.
-double polygon_irradiance(const Transform& quad) {
-  const std::array<Point3, 4> corners{quad.point({-1, -1, 0}), quad.point({1, -1, 0}),
-                                      quad.point({1, 1, 0}), quad.point({-1, 1, 0})};
-  double sum = 0;
-  for (std::size_t i = 0; i < 4; ++i) {
-    REQUIRE(corners[i].z > 0);
-    const Vec3 a = normalize(corners[i]), b = normalize(corners[(i + 1) % 4]);
-    sum += std::acos(double{dot(a, b)}) * normalize(cross(a, b)).z;
-  }
-  return std::abs(sum) / 2;
-}
-
-/// The same for a rectangle of half-edges a and b parallel to the floor, centred at height h: pi
-/// times four times the view factor of a quarter (Howell, catalogue of configuration factors, B-4).
+/// polygon_irradiance() of a rectangle of half-edges a and b parallel to the floor, centred at
+/// height h: pi times four times the view factor of a quarter (Howell, catalogue of configuration
+/// factors, B-4).
 double rectangle_irradiance(double a, double b, double h) {
   const double x = a / h, y = b / h;
   const double rx = std::sqrt(1 + x * x), ry = std::sqrt(1 + y * y);
