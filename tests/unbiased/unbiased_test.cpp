@@ -1,0 +1,82 @@
+// Guided and unguided renders of a scene show the same image, by the protocol of
+// statistics/image_agreement.h. The scenes are variants of hard ones, with features large enough
+// for unguided renders to converge. Prints one line a comparison.
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <span>
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include "agreement.h"
+
+namespace pharos::testing {
+namespace {
+
+constexpr int kRenders = 32;
+
+/// A way to guide, as settings of the integrator's `guiding`.
+struct Method {
+  std::string name;
+  std::vector<std::string> settings;
+};
+
+Method focal(float unguided_fraction, const char* extent, const char* images) {
+  return {fmt::format("focal {} {} {}", unguided_fraction, extent, images),
+          {fmt::format("learner={{ type: focal, splat_extent: {} }}", extent), "guider=focal",
+           fmt::format("mixing={{ type: fixed, unguided_fraction: {} }}", unguided_fraction),
+           fmt::format("training={{ images: {} }}", images)}};
+}
+
+/// A pairwise covering array of unguided fractions, extents of splats and uses of training images.
+std::vector<Method> methods() {
+  return {focal(0.1f, "line", "discard"), focal(0.5f, "roughness_gated", "discard"),
+          focal(0.9f, "line", "combine"), focal(0.1f, "roughness_gated", "combine"),
+          focal(0.5f, "line", "combine"), focal(0.9f, "roughness_gated", "discard")};
+}
+
+LoadedConfig proof(const std::filesystem::path& config, const std::vector<std::string>& guiding) {
+  std::vector<std::string> overrides;
+  for (const std::string& setting : guiding) {
+    overrides.push_back("integrator.guiding." + setting);
+  }
+  return load_render_config(config, overrides, registry());
+}
+
+/// Compares methods from `begin` to `end` with unguided renders of the same number of samples.
+void compare(const std::filesystem::path& config, std::span<const Method> methods) {
+  const std::string scene = config.stem().string();
+  const Renders unguided = render_seeds(proof(config, {}), kRenders);
+  const auto reference = unguided.side();
+  for (std::size_t i = 0; i < methods.size(); ++i) {
+    const Renders guided =
+        render_seeds(proof(config, methods[i].settings), kRenders, 1000 * (i + 1));
+    const auto result = statistics::compare_images(guided.side(), reference);
+    CAPTURE(scene);
+    CAPTURE(methods[i].name);
+    print_agreement(scene + ", " + methods[i].name, guided.samples_per_pixel, result);
+    check_agreement(result);
+    check_bias_is_seen(guided, reference);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("unbiased: focal guiding in a camera obscura") {
+  compare(std::filesystem::path(PHAROS_PROOF_CONFIGS) / "camera-obscura.yaml",
+          std::array{methods().front()});
+}
+
+TEST_CASE("long: unbiased on every proof variant") {
+  std::vector<std::filesystem::path> configs;
+  for (const auto& entry : std::filesystem::directory_iterator(PHAROS_PROOF_CONFIGS)) {
+    if (entry.path().extension() == ".yaml") configs.push_back(entry.path());
+  }
+  std::sort(configs.begin(), configs.end());
+  REQUIRE(!configs.empty());
+  for (const auto& config : configs) compare(config, methods());
+}
+
+}  // namespace pharos::testing
