@@ -123,7 +123,6 @@ FocalState::FocalState(const FocalSettings& settings, const LearningContext& con
       refined(uniform_octree(box, 0.5),
               {.threshold = settings.split_threshold, .max_depth = max_depth_, .total_mass = 0.5});
   refine(1);
-  narrowing_ = narrows(0);
 }
 
 bool FocalState::narrows(std::uint32_t iteration) const {
@@ -168,7 +167,7 @@ std::shared_ptr<const GuidingModel> FocalState::update(std::uint32_t iteration, 
   splat_waiting();
   // An iteration that found no light is no reason to forget what earlier ones did.
   if (sums_.total() > 0) {
-    const double decay = narrows(iteration) ? settings_.narrowing_decay : settings_.decay;
+    const double decay = narrowing_ ? settings_.narrowing_decay : settings_.decay;
     const double kept = knows_something_ ? decay : 0;
     fold(converging_.masses, sums_.converging, kept, static_cast<double>(paths_));
     fold(diverging_.masses, sums_.diverging, kept, static_cast<double>(paths_));
@@ -177,7 +176,8 @@ std::shared_ptr<const GuidingModel> FocalState::update(std::uint32_t iteration, 
     if (settings_.grow_region && !narrows(iteration + 1)) grow_region(mass);
     knows_something_ = true;
   }
-  narrowing_ = narrows(iteration + 1);
+  // Without a guide so far, there is nothing to narrow.
+  narrowing_ = knows_something_ && narrows(iteration + 1);
   paths_ = 0;
   return knows_something_ ? model(last) : nullptr;
 }

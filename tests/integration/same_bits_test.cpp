@@ -55,6 +55,12 @@ TEST_CASE("same bits: guided, with the learned model and either learned mixing")
   }
 }
 
+TEST_CASE("same bits: focal guiding, with the learned model") {
+  check_same_bits(
+      cornell("sampler: sobol\nintegrator: { type: path, guiding: { learner: focal, guider: focal, "
+              "training: { iterations: 4 } } }\n"));
+}
+
 TEST_CASE("same bits: a scene of 300,000 triangles") {
   const test::TemporaryFolder folder;
   const std::filesystem::path mesh = folder / "field.ply";

@@ -22,13 +22,14 @@ constexpr Point3 kCenter{0.1f, 1.1f, 3.9f};
 
 /// Paths of one guidable step each, from random points through the hole, as a camera obscura has
 /// them; every coordinate times `scale`.
-PathLog hole_paths(int count, std::uint64_t seed, float scale = 1) {
+PathLog hole_paths(int count, std::uint64_t seed, float scale = 1, Point3 center = kCenter,
+                   float unguided_fraction = 0.5f) {
   PathLog log;
   RandomStream random(seed);
   for (int i = 0; i < count; ++i) {
     Point3 from = point_in_box(random, test_box());
     from.z = 2;
-    const Vec3 direction = normalize(point_near(random, kCenter, kHole) - from);
+    const Vec3 direction = normalize(point_near(random, center, kHole) - from);
     log.begin_path({}, Transport::radiance);
     log.add(RecordedVertex{.throughput = Rgb(1)});
     log.add(RecordedVertex{.position = scale * from,
@@ -39,7 +40,7 @@ PathLog hole_paths(int count, std::uint64_t seed, float scale = 1) {
                            .direction = direction,
                            .unguided_pdf = 0.3f,
                            .guided_pdf = 0.3f,
-                           .unguided_fraction = 0.5f,
+                           .unguided_fraction = unguided_fraction,
                            .guidable = true});
     log.add(RecordedVertex{
         .position = scale * (from + 4.0f * direction), .parent = 1, .emission = Rgb(1)});
@@ -47,7 +48,7 @@ PathLog hole_paths(int count, std::uint64_t seed, float scale = 1) {
   return log;
 }
 
-LearningContext context(float scale = 1, std::uint32_t iterations = 6) {
+LearningContext context(float scale = 1, std::uint32_t iterations = 10) {
   const Box box = test_box();
   Bounds3 region;
   for (const unsigned corner : {0u, 7u}) {
@@ -63,12 +64,13 @@ LearningContext context(float scale = 1, std::uint32_t iterations = 6) {
 
 /// Trains on `hole_paths` for all of the iterations.
 std::shared_ptr<const FocalModel> trained(const FocalSettings& settings, float scale = 1,
-                                          std::uint32_t iterations = 6) {
+                                          Point3 center = kCenter) {
+  constexpr std::uint32_t iterations = 10;
   const auto state = FocalLearner(settings).begin(context(scale, iterations));
   std::shared_ptr<const GuidingModel> model = state->initial_model();
   for (std::uint32_t i = 0; i < iterations; ++i) {
     for (std::uint64_t unit = 0; unit < 3; ++unit) {
-      state->absorb(hole_paths(1000, 10 * i + unit, scale));
+      state->absorb(hole_paths(1000, 10 * i + unit, scale, center));
     }
     model = state->update(i, i + 1 == iterations);
   }
@@ -87,7 +89,7 @@ std::string saved(const LearningState& state) {
 }
 
 /// Share of drawn directions from the canvas that go through the hole.
-double hits(const FocalModel& model) {
+double hits(const FocalModel& model, Point3 center = kCenter) {
   RandomStream random(99);
   constexpr int kDraws = 10'000;
   int through = 0;
@@ -98,8 +100,8 @@ double hits(const FocalModel& model) {
     const Vec2 u = random.next_2d();
     const auto w = model.focal_density().sample_direction(from, sign, u, random.next_1d());
     if (!w || w->z <= 0) continue;
-    const Point3 p = from + (kCenter.z - from.z) / w->z * *w;
-    through += max_component(abs(p - kCenter)) < kHole ? 1 : 0;
+    const Point3 p = from + (center.z - from.z) / w->z * *w;
+    through += max_component(abs(p - center)) < kHole ? 1 : 0;
   }
   return static_cast<double>(through) / kDraws;
 }
@@ -113,6 +115,21 @@ TEST_CASE("focal learner: mass gathers in the hole, and narrowing gathers more o
   CHECK(wide > 0.002);
   CHECK(narrow > 0.3);
   CHECK(narrow > 30 * wide);
+}
+
+TEST_CASE("focal learner: the region grows to a focal point outside of the scene") {
+  constexpr Point3 kImage{0.4f, 1.6f, 9};
+  const auto fixed = trained({}, 1, kImage), grown = trained({.grow_region = true}, 1, kImage);
+  const double before = hits(*fixed, kImage), after = hits(*grown, kImage);
+  MESSAGE("share of directions through the image: " << before << ", with a region that grew "
+                                                    << after);
+  CHECK(!fixed->bounds().contains(kImage));
+  CHECK(grown->bounds().contains(kImage));
+  CHECK(after > 0.3);
+  CHECK(after > 5 * before);
+  // What lies within the scene makes it grow no more than once.
+  const auto inside = trained({.grow_region = true});
+  CHECK(inside->bounds().diagonal() <= 2.001f * fixed->bounds().diagonal());
 }
 
 TEST_CASE("focal learner: the same model for any number of threads") {
@@ -186,6 +203,12 @@ TEST_CASE("focal learner: nothing is known before light is found, and nothing is
   const auto model = state->update(1, false);
   REQUIRE(model != nullptr);
   CHECK(saved(*state->update(2, false)) == saved(*model));
+}
+
+TEST_CASE("focal learner: what no guide has sampled yet is not narrowed") {
+  const auto state = FocalLearner({.narrowing_iterations = 5}).begin(context(1, 2));
+  state->absorb(hole_paths(1000, 1, 1, kCenter, 1));
+  CHECK(state->update(0, false) != nullptr);
 }
 
 TEST_CASE("focal learner: pruning makes the model smaller and leaves its mass") {
