@@ -175,6 +175,11 @@ std::shared_ptr<const GuidingModel> saved_and_loaded(const GuidingModel& model,
 
 void check_save_load(const GuidedPair& pair, const std::shared_ptr<const GuidingModel>& model,
                      const Scene& scene, std::uint64_t seed, Check& check) {
+  const std::uint32_t stated = pair.the_learner().traits().model_version;
+  check.expect(model->version() == stated, [&] {
+    return fmt::format("the model is of version {}, its learner states {}", model->version(),
+                       stated);
+  });
   try {
     const auto loaded = saved_and_loaded(*model, pair.the_learner());
     check.expect(loaded != nullptr, [] { return "load_model() returns null"; });

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <pharos/config/component.h>
@@ -18,6 +20,11 @@ struct GuidingMethod {
   Ref<Learner> learner;
   Ref<Guider> guider;
   float weight = 1;  ///< relative share among the methods that know something at a vertex
+  std::filesystem::path model_file;  ///< that `model` was read from; empty: none
+  /// What guides from the start, in place of what the learner would learn; null: it learns.
+  std::shared_ptr<const GuidingModel> model;
+
+  bool learns() const { return model == nullptr; }
 
   static void describe(Schema<GuidingMethod>& schema);
 };
@@ -27,6 +34,8 @@ struct GuidingMethod {
 struct GuidingSettings {
   Ref<Learner> learner;
   Ref<Guider> guider;
+  std::filesystem::path model_file;           ///< of the method in place, as GuidingMethod's
+  std::shared_ptr<const GuidingModel> model;  ///< of the method in place, as GuidingMethod's
   std::vector<GuidingMethod> methods;
   Ref<MixingPolicy> mixing;
   TrainingSchedule training;
@@ -36,6 +45,18 @@ struct GuidingSettings {
   /// The methods, however they were given. Throws InputError when none or both ways were used, or
   /// when a learner's model is not what its guider samples, naming both.
   std::vector<GuidingMethod> resolved_methods() const;
+
+  /// Whether any method learns; without one there is nothing to train.
+  bool learns() const;
+};
+
+/// Reads the settings and then the model files that they name; what is wrong with a file is located
+/// where the config names it.
+template <>
+struct Value<GuidingSettings> : PlainValue {
+  static std::string type_name() { return "mapping"; }
+  static std::string default_text(const GuidingSettings& settings);
+  static GuidingSettings read(const ConfigNode& node, BuildContext& context, ConfigNode& resolved);
 };
 
 /// What is known about where to go from a vertex.
@@ -85,6 +106,8 @@ class GuidingState {
 
   /// The newest model of method `i`; null before the first.
   std::shared_ptr<const GuidingModel> model(std::size_t i) const;
+  /// The plugin name of the learner of method `i`.
+  const std::string& learner_name(std::size_t i) const;
   /// Of all models [bytes].
   std::size_t model_bytes() const;
 

@@ -9,7 +9,7 @@ namespace pharos {
 
 struct GuidingState::Method {
   GuidingMethod settings;
-  std::unique_ptr<LearningState> state;
+  std::unique_ptr<LearningState> state;  ///< null: it does not learn
   std::shared_ptr<const GuidingModel> model;
   std::shared_ptr<const BoundGuider> bound;
 
@@ -20,12 +20,26 @@ struct GuidingState::Method {
     bound = model == nullptr ? nullptr : settings.guider->bind(model);
   }
 
+  void start(const LearningContext& context) {
+    if (settings.learns()) state = settings.learner->begin(context);
+    take(settings.learns() ? state->initial_model() : settings.model);
+  }
+
+  void absorb(const PathLog& log) {
+    if (state != nullptr) state->absorb(log);
+  }
+
+  void update(std::uint32_t iteration, bool last) {
+    if (state != nullptr) take(state->update(iteration, last));
+  }
+
   /// Appends where each of this model's regions came from among the `old_regions` before it, which
   /// are numbered from `first` on. Regions of a first model all come from the one there was.
   void append_origins(std::uint32_t first, std::uint32_t old_regions,
                       std::vector<std::uint32_t>& origins) const {
+    const bool is_new = model != nullptr && state != nullptr;
     std::vector<std::uint32_t> own =
-        model == nullptr ? std::vector<std::uint32_t>{} : model->region_origins();
+        is_new ? model->region_origins() : std::vector<std::uint32_t>{};
     if (own.empty()) {
       own.assign(region_count(), 0u);
       if (old_regions == region_count()) std::iota(own.begin(), own.end(), 0u);
@@ -46,8 +60,7 @@ GuidingState::GuidingState(const GuidingSettings& settings, const LearningContex
                               context.iterations};
     Method& added = methods_.emplace_back();
     added.settings = std::move(method);
-    added.state = added.settings.learner->begin(own);
-    added.take(added.state->initial_model());
+    added.start(own);
   }
   std::uint32_t regions = 0;
   for (const Method& method : methods_) regions += method.region_count();
@@ -58,7 +71,7 @@ GuidingState::GuidingState(const GuidingSettings& settings, const LearningContex
 GuidingState::~GuidingState() = default;
 
 void GuidingState::absorb(const PathLog& log) {
-  for (Method& method : methods_) method.state->absorb(log);
+  for (Method& method : methods_) method.absorb(log);
   mixing_->absorb(log);
 }
 
@@ -67,7 +80,7 @@ void GuidingState::update(std::uint32_t iteration, bool last) {
   std::uint32_t first_old_region = 0;
   for (Method& method : methods_) {
     const std::uint32_t old_regions = method.region_count();
-    method.take(method.state->update(iteration, last));
+    method.update(iteration, last);
     method.append_origins(first_old_region, old_regions, origins);
     first_old_region += old_regions;
   }
@@ -94,6 +107,10 @@ void GuidingState::rebuild_frame() {
 
 std::shared_ptr<const GuidingModel> GuidingState::model(std::size_t i) const {
   return methods_[i].model;
+}
+
+const std::string& GuidingState::learner_name(std::size_t i) const {
+  return methods_[i].settings.learner->plugin_name();
 }
 
 std::size_t GuidingState::model_bytes() const {

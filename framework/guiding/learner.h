@@ -47,6 +47,8 @@ class LearningState {
 struct LearnerTraits {
   std::string model;    ///< neutral name of the model contract that it learns
   RecordNeeds records;  ///< what paths must carry
+  /// GuidingModel::version() of its models; files of another one are refused.
+  std::uint32_t model_version = 1;
 };
 
 /// Contract: turns recorded paths into a model.

@@ -42,7 +42,7 @@ void check_method(const IntegratorTraits& offered, const Sensor& sensor,
         method.learner->plugin_name(), learner.model, method.guider->plugin_name(), guider.model));
   }
   check_camera(offered, sensor, *method.guider);
-  check_records(offered.records, method);
+  if (method.learns()) check_records(offered.records, method);
 }
 
 }  // namespace

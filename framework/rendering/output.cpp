@@ -1,11 +1,9 @@
 #include <filesystem>
-#include <fstream>
 
 #include <fmt/format.h>
 
-#include <pharos/core/atomic_file.h>
-#include <pharos/core/error.h>
 #include <pharos/core/version.h>
+#include <pharos/guiding/model_file.h>
 #include <pharos/rendering/render_job.h>
 
 namespace pharos {
@@ -27,15 +25,6 @@ Metadata metadata_of(const RenderResult& result, const LoadedConfig& loaded) {
   };
 }
 
-void write_model(const GuidingModel& model, const std::filesystem::path& path) {
-  write_atomically(path, [&](const std::filesystem::path& temporary) {
-    std::ofstream out(temporary, std::ios::binary);
-    model.save(out);
-    out.flush();
-    if (!out) throw RunError(fmt::format("{}: error: cannot be written", path.string()));
-  });
-}
-
 }  // namespace
 
 void write_outputs(const RenderResult& result, const LoadedConfig& loaded) {
@@ -45,7 +34,9 @@ void write_outputs(const RenderResult& result, const LoadedConfig& loaded) {
     write_png(result.image, std::filesystem::path(output.image).replace_extension(".png"),
               output.exposure, output.filmic);
   }
-  if (!output.model.empty() && result.model != nullptr) write_model(*result.model, output.model);
+  if (!output.model.empty() && result.model != nullptr) {
+    write_model_file(*result.model, result.learner, output.model);
+  }
 }
 
 }  // namespace pharos

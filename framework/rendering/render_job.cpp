@@ -125,8 +125,9 @@ class RenderJob::Implementation {
             {scene_, *sensor_, config.film.width, config.film.height, config.film.window()})),
         tiles_(tiles_of(config.film.window(), config.film.tile)) {
     const GuidingSettings* guiding = config.integrator->guiding();
+    const bool learns = guiding != nullptr && guiding->learns();
     const TrainingSchedule untrained{.iterations = 0};
-    iterations_ = (guiding != nullptr ? guiding->training : untrained)
+    iterations_ = (learns ? guiding->training : untrained)
                       .divide(config.budget, config.sampler->preferred_samples());
     const auto probe = config.sampler->needs_probe() ? integrator_->probe() : nullptr;
     sampler_ = config.sampler->prepare({config.film.width, config.film.height},
@@ -144,6 +145,7 @@ class RenderJob::Implementation {
     if (guiding_ != nullptr) {
       result_.model_bytes = guiding_->model_bytes();
       result_.model = guiding_->model(0);
+      result_.learner = guiding_->learner_name(0);
     }
     return std::move(result_);
   }

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include <pharos/core/image.h>
 #include <pharos/guiding/guiding.h>
@@ -64,6 +65,7 @@ struct RenderResult {
   bool stopped = false;                       ///< ended early through RenderControl::stop
   std::size_t model_bytes = 0;                ///< of the learned models
   std::shared_ptr<const GuidingModel> model;  ///< of the first method; null: none
+  std::string learner;                        ///< plugin name of the learner of `model`
   std::optional<PathKey> first_invalid;       ///< a path of NaN or infinite value
 };
 

@@ -1,0 +1,126 @@
+// Train once, render many: a method with a model file guides from the start and learns nothing.
+
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+#include <unistd.h>
+
+#include <pharos/guiding/model_file.h>
+
+#include "furnace.h"
+
+namespace pharos::testing {
+namespace {
+
+/// A model that a render of the furnace has learned, as a file.
+class LearnedFile {
+ public:
+  LearnedFile(const std::string& learner, const std::string& guider)
+      : path_(std::filesystem::temp_directory_path() /
+              fmt::format("pharos-{}-{}.model", guider, getpid())) {
+    const std::string guiding = fmt::format(
+        "{{ learner: {}, guider: {}, training: {{ iterations: 3 }} }}", learner, guider);
+    const RenderResult result = render(path_config(kDiffuseScene, 4, guiding, 32));
+    write_model_file(*result.model, result.learner, path_);
+  }
+  ~LearnedFile() { std::filesystem::remove(path_); }
+  LearnedFile(const LearnedFile&) = delete;
+  LearnedFile& operator=(const LearnedFile&) = delete;
+
+  std::string path() const { return path_.string(); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// `guiding` that takes the model from a file, with training that must not take place.
+std::string fixed(const std::string& name, const std::string& file, const std::string& more = "") {
+  return fmt::format("{{ learner: {}, guider: {}, model: '{}', {}training: {{ iterations: 3 }} }}",
+                     name, name, file, more);
+}
+
+std::string bits(const Image& image) {
+  const std::vector<float>& values = image.values();
+  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float)};
+}
+
+std::string bits(const GuidingModel& model) {
+  std::ostringstream out;
+  model.save(out);
+  return out.str();
+}
+
+TEST_CASE("a render with a model file: its model, no training, the whole budget") {
+  const LearnedFile file("stub_direction", "stub_direction");
+  const LoadedConfig loaded =
+      config_from(path_config(kDiffuseScene, 4, fixed("stub_direction", file.path()), 24));
+  const GuidingSettings& guiding = *loaded.config.integrator->guiding();
+  CHECK_FALSE(guiding.learns());
+  bool trained = false;
+  std::uint32_t iterations = 0;
+  RenderControl control;
+  control.on_progress = [&](const Progress& progress) {
+    trained |= progress.training;
+    iterations = std::max(iterations, progress.iteration_count);
+  };
+  const RenderResult result = RenderJob(loaded.config).run(control);
+  CHECK_FALSE(trained);
+  CHECK(iterations == 1);
+  CHECK(result.times.training == 0);
+  CHECK(result.samples_per_pixel == 24);
+  CHECK(result.learner == "stub_direction");
+  CHECK(bits(*result.model) == bits(*guiding.model));
+  // Guided, not merely informed: the same paths would have the same bits.
+  const RenderResult unguided = render(path_config(kDiffuseScene, 4, "", 24));
+  CHECK(bits(unguided.image) != bits(result.image));
+}
+
+TEST_CASE("renders with a model file: the same bits for any number of threads") {
+  const LearnedFile file("{ type: stub_direction, refine: true }", "stub_direction");
+  const std::string config =
+      path_config(kDiffuseScene, 4, fixed("stub_direction", file.path(), "mixing: stub_learned, "),
+                  16, "sobol");
+  const std::string once = bits(render(config, 1).image);
+  CHECK(bits(render(config, 1).image) == once);
+  CHECK(bits(render(config, 3).image) == once);
+}
+
+TEST_CASE("furnace: model files") {
+  for (const char* name : {"stub_direction", "stub_segments", "stub_vertices", "stub_camera"}) {
+    CAPTURE(name);
+    const LearnedFile file(name, name);
+    const std::string config = path_config(kDiffuseScene, 4, fixed(name, file.path()), 32);
+    CHECK(std::abs(furnace_t(config, kDiffuseFurnace)) < kLimit);
+  }
+}
+
+TEST_CASE("furnace: a method with a model file beside one that learns") {
+  const LearnedFile file("{ type: stub_direction, refine: true }", "stub_direction");
+  const std::string guiding = fmt::format(
+      "{{ methods: [ {{ learner: stub_direction, guider: stub_direction, model: '{}' }}, "
+      "{{ learner: {{ type: stub_direction, refine: true }}, guider: stub_direction }} ], "
+      "mixing: stub_learned, training: {{ iterations: 3 }} }}",
+      file.path());
+  const std::string config = path_config(kDiffuseScene, 4, guiding, 32);
+  CHECK(std::abs(furnace_t(config, kDiffuseFurnace)) < kLimit);
+  const LoadedConfig loaded = config_from(config);
+  CHECK(loaded.config.integrator->guiding()->learns());
+  const RenderResult result = RenderJob(loaded.config).run();
+  CHECK(result.times.training > 0);
+  // Training has not touched it.
+  CHECK(bits(*result.model) == bits(*loaded.config.integrator->guiding()->methods[0].model));
+}
+
+TEST_CASE("a model file that is wrong is told of where the config names it") {
+  const LearnedFile file("stub_direction", "stub_direction");
+  CHECK_THROWS_WITH_AS(
+      config_from(path_config(kDiffuseScene, 4, fixed("stub_segments", file.path()), 1)),
+      doctest::Contains(("was learned by 'stub_direction', which the learner 'stub_segments' "
+                         "cannot read")),
+      InputError);
+  CHECK_THROWS_WITH_AS(config_from(path_config(kDiffuseScene, 4, "{ model: x }", 1)),
+                       doctest::Contains("guiding has no learner"), InputError);
+}
+
+}  // namespace
+}  // namespace pharos::testing
