@@ -39,14 +39,13 @@ void check(const ColorScale& scale) {
                   scale.logarithmic ? ", both positive" : "", scale.low, scale.high));
 }
 
-/// Where a value is on the scale; what a logarithm cannot show is at the low end.
-double position(double value, const ColorScale& scale) {
+}  // namespace
+
+double scale_position(double value, const ColorScale& scale) {
   if (!scale.logarithmic) return (value - scale.low) / (scale.high - scale.low);
   if (value <= scale.low) return 0;
   return std::log(value / scale.low) / std::log(scale.high / scale.low);
 }
-
-}  // namespace
 
 Rgb magma(double position) {
   const double at = std::clamp(position, 0.0, 1.0) * (kMagma.size() - 1);
@@ -63,7 +62,7 @@ Image false_color(const Image& map, const ColorScale& scale) {
     const int y = static_cast<int>(row);
     for (int x = 0; x < map.width(); ++x) {
       const double value = *map.pixel(x, y);
-      colors.set_rgb(x, y, std::isnan(value) ? kNanColor : magma(position(value, scale)));
+      colors.set_rgb(x, y, std::isnan(value) ? kNanColor : magma(scale_position(value, scale)));
     }
   });
   return colors;

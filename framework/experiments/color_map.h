@@ -10,6 +10,10 @@ struct ColorScale {
   bool logarithmic = false;  ///< low and high must be positive then
 };
 
+/// Where a value is on the scale: 0 at `low`, 1 at `high`, not clamped. What a logarithm cannot
+/// show is at 0.
+double scale_position(double value, const ColorScale& scale);
+
 /// A position on the map, 0 to 1, as a linear colour: magma, by N. Smith and S. van der Walt
 /// (matplotlib 1.5, 2015; CC0), perceptually uniform from black over purple and orange to pale
 /// yellow. Sixteen colours and straight lines between them, never further than 0.01 from the

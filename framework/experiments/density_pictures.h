@@ -17,7 +17,7 @@ struct DensityPicture {
 };
 
 /// Slices of the density over the scene's bounds through their centre, seen along x, y and z, and
-/// the density over directions (latitude-longitude, +z up) at the surface in the middle of a
+/// the density over directions (latitude-longitude, +y up) at the surface in the middle of a
 /// picture of `width` x `height` pixels, where there is one.
 std::vector<DensityPicture> density_pictures(const GuidingModel& model, const Scene& scene,
                                              int width, int height);

@@ -32,6 +32,8 @@ class SegmentModel final : public TableModel {
   using TableModel::TableModel;
 
   std::string name() const override { return "stub_segments"; }
+  Bounds3 bounds() const override { return region(); }
+  std::vector<ModelFact> facts() const override { return {{"voxels", std::to_string(kVoxels)}}; }
   double density(Point3 p) const override {
     for (std::uint32_t v = 0; v < kVoxels; ++v) {
       if (voxel_bounds(region(), v).contains(p)) return table()[v];
