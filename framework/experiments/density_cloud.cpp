@@ -12,6 +12,9 @@ namespace {
 /// Brightness of surfaces that are seen head-on and edge-on, linear: dark enough for the cloud to
 /// stand out.
 constexpr float kHeadOn = 0.16f, kEdgeOn = 0.02f;
+/// A cloud's opacity is its position on the scale to this power: only what is densest hides the
+/// rest.
+constexpr double kThinning = 2;
 /// Brightness and half width [pixels] of the box's edges.
 constexpr float kEdgeBrightness = 0.25f, kEdgeHalfWidth = 0.75f;
 
@@ -166,7 +169,7 @@ Image cloud_picture(const Image& density, const ColorScale& scale, const Image& 
   Image picture(density.width(), density.height(), {"R", "G", "B"});
   for_each_pixel(density.width(), density.height(), [&](int x, int y) {
     const double position = scale_position(*density.pixel(x, y), scale);
-    const auto opacity = static_cast<float>(std::clamp(position, 0.0, 1.0));
+    const auto opacity = static_cast<float>(std::pow(std::clamp(position, 0.0, 1.0), kThinning));
     picture.set_rgb(x, y, opacity * colors.rgb(x, y) + (1 - opacity) * backdrop.rgb(x, y));
   });
   return picture;

@@ -66,6 +66,18 @@ TEST_CASE("a model is learned once and rendered with many times") {
   CHECK(bytes_of(folder.path() / "again.model") == bytes_of(folder.path() / "box.model"));
 }
 
+TEST_CASE("a model that nobody learned is not written, and that is told") {
+  const ScratchFolder folder;
+  write_learned_model(folder);
+  const Outcome outcome =
+      run_pharos("render train.yaml --set integrator.guiding=null --set output.model=none.model",
+                 folder.path());
+  CHECK(outcome.exit_code == 0);
+  CHECK(outcome.err.find("none.model: not written, since nothing was learned") !=
+        std::string::npos);
+  CHECK_FALSE(folder.has("none.model"));
+}
+
 TEST_CASE("model files that are missing or no files") {
   check_model_refused("bx.model", {"no such file (did you mean 'box.model'?)"});
   check_model_refused(".", {"found a folder"});

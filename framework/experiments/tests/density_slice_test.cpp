@@ -138,10 +138,11 @@ TEST_CASE("clouds: what is dense hides the backdrop, what is not shows it") {
   Image backdrop(3, 1, {"R", "G", "B"});
   for (float& value : backdrop.values()) value = 0.25f;
   const Image picture =
-      cloud_picture(row({1, 100, 0}), {.low = 1, .high = 100, .logarithmic = true}, backdrop);
+      cloud_picture(row({1, 100, 10}), {.low = 1, .high = 100, .logarithmic = true}, backdrop);
   CHECK(picture.rgb(0, 0) == Rgb(0.25f));
   CHECK(picture.rgb(1, 0) == magma(1));
-  CHECK(picture.rgb(2, 0) == Rgb(0.25f));
+  // Halfway on the scale a quarter of the colour.
+  CHECK(picture.rgb(2, 0).b == doctest::Approx(0.75 * 0.25 + magma(0.5).b / 4));
 }
 
 TEST_CASE("the box around a cloud: twelve edges, the corners where the cloud would be") {
