@@ -1,5 +1,6 @@
 // Pictures of densities: planes, directions, scales and clouds, of a model whose mass is known.
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -30,6 +31,23 @@ class BallModel final : public GuidingModel {
 
  private:
   Point3 center_;
+};
+
+/// 1 within a small ball, 0 elsewhere.
+class PointModel final : public GuidingModel {
+ public:
+  PointModel(Point3 center, float radius) : center_(center), radius_(radius) {}
+
+  std::string name() const override { return "point"; }
+  std::uint32_t version() const override { return 1; }
+  std::size_t size_bytes() const override { return sizeof center_; }
+  void save(std::ostream&) const override {}
+  double density(Point3 point) const override { return length(point - center_) < radius_; }
+  double density(Point3, Vec3) const override { return 0; }
+
+ private:
+  Point3 center_;
+  float radius_;
 };
 
 /// Four units along x, two along y, one along z.
@@ -132,6 +150,15 @@ TEST_CASE("clouds: the largest value on a ray, and nothing outside the bounds") 
   CHECK(*map.pixel(40, 40) == doctest::Approx(1).epsilon(0.06));
   CHECK(*map.pixel(0, 0) == 0);
   CHECK(*map.pixel(79, 79) == 0);
+}
+
+TEST_CASE("clouds: nothing as large as a pixel is stepped over") {
+  const CloudView view = oblique_view(brick(), 80);
+  for (int i = 0; i < 10; ++i) {
+    const Point3 center{-1.5f + 0.3f * static_cast<float>(i), 1.1f, 5.4f};
+    const Image map = cloud_density(PointModel(center, brick().diagonal() / 80), brick(), view);
+    CHECK(std::count(map.values().begin(), map.values().end(), 1.0f) > 0);
+  }
 }
 
 TEST_CASE("clouds: what is dense hides the backdrop, what is not shows it") {
