@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <memory>
-#include <optional>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -1,5 +1,9 @@
 #include "inspect_options.h"
 
+#include <limits>
+#include <utility>
+#include <vector>
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 

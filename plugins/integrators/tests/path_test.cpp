@@ -31,11 +31,25 @@ TEST_CASE("path offers what guides need, and no guiding unless asked") {
   CHECK_FALSE(path.traits().records.light_paths);
 }
 
+class IdleModel final : public GuidingModel {
+ public:
+  std::string name() const override { return "none"; }
+  std::uint32_t version() const override { return 1; }
+  std::size_t size_bytes() const override { return 0; }
+  void save(std::ostream&) const override {}
+  double density(Point3) const override { return 0; }
+  double density(Point3, Vec3) const override { return 0; }
+};
+
 class IdleLearner final : public Learner {
  public:
-  LearnerTraits traits() const override { return {.model = "none", .records = {}}; }
+  explicit IdleLearner(RecordNeeds needs = {}) : needs_(needs) {}
+  LearnerTraits traits() const override { return {.model = "none", .records = needs_}; }
   std::unique_ptr<LearningState> begin(const LearningContext&) const override { return nullptr; }
   std::shared_ptr<const GuidingModel> load_model(std::istream&) const override { return nullptr; }
+
+ private:
+  RecordNeeds needs_;
 };
 
 class IdleGuider final : public Guider {
@@ -79,6 +93,18 @@ TEST_CASE("guides of the camera are refused where the sensor sees a single direc
   CHECK(message(true, true).find("sees a single direction") != std::string::npos);
   CHECK(message(true, false) == "fits");
   CHECK(message(false, true) == "fits");
+}
+
+TEST_CASE("what a learner needs recorded must be offered, unless it has its model already") {
+  PathSettings settings;
+  settings.guiding.emplace();
+  settings.guiding->learner = std::make_shared<const IdleLearner>(RecordNeeds{.light_paths = true});
+  settings.guiding->guider = std::make_shared<const IdleGuider>(false);
+  const StubSensor sensor(false);
+  CHECK_THROWS_WITH_AS(check_compatible(PathIntegrator(settings), sensor),
+                       doctest::Contains("needs light paths"), InputError);
+  settings.guiding->model = std::make_shared<const IdleModel>();
+  CHECK_NOTHROW(check_compatible(PathIntegrator(settings), sensor));
 }
 
 TEST_CASE("a path's text tells of every vertex and light sample") {
