@@ -60,7 +60,7 @@ void print_facts(const InspectedModel& inspected) {
   std::vector<ModelFact> facts = {
       {"model", fmt::format("{}, version {}", inspected.header.model, inspected.header.version)},
       {"learner", inspected.header.learner},
-      {"file", fmt::format("{} bytes", inspected.header.bytes)},
+      {"saved", fmt::format("{} bytes", inspected.header.bytes)},
       {"memory", fmt::format("{} bytes", model.size_bytes())},
       {"bounds", bounds.empty()
                      ? "none"

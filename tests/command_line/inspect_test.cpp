@@ -60,8 +60,9 @@ TEST_CASE("inspect: what a model tells of itself") {
   CHECK(outcome.exit_code == 0);
   CHECK(outcome.err.empty());
   for (const char* part :
-       {"model    stub_segments, version 1\n", "learner  stub_segments\n", "memory   1000 bytes\n",
-        "bounds   (-2, -1, -1) to (2, 1, 1)\n", "regions  1\n", "voxels   125\n"}) {
+       {"model    stub_segments, version 1\n", "learner  stub_segments\n", "saved    1032 bytes\n",
+        "memory   1000 bytes\n", "bounds   (-2, -1, -1) to (2, 1, 1)\n", "regions  1\n",
+        "voxels   125\n"}) {
     CAPTURE(part);
     CHECK(contains(outcome.out, part));
   }
