@@ -119,7 +119,8 @@ TEST_CASE("a spectrum in a file is one in the scene") {
 }
 
 TEST_CASE("a spectrum with a type is a texture") {
-  const Object& texture = child(*read_new("<spectrum type=\"d65\" name=\"r\"/>").scene, "r");
+  const Document document = read_new("<spectrum type=\"d65\" name=\"r\"/>");
+  const Object& texture = child(*document.scene, "r");
   CHECK(texture.tag == "texture");
   CHECK(texture.type == "d65");
 }
