@@ -24,5 +24,6 @@ using Benchmark = std::function<std::vector<Measurement>(int repeats)>;
 std::vector<Measurement> bench_rays(int repeats);
 std::vector<Measurement> bench_threads(int repeats);
 std::vector<Measurement> bench_startup(int repeats);
+std::vector<Measurement> bench_guiding(int repeats);
 
 }  // namespace pharos::bench

@@ -4,17 +4,13 @@
 // made beforehand, on as many threads.
 
 #include <chrono>
-#include <filesystem>
-
-#include <fmt/format.h>
 
 #include <pharos/core/parallel.h>
 #include <pharos/core/random.h>
 #include <pharos/core/warp.h>
-#include <pharos/tests/fixtures.h>
 
 #include "bench.h"
-#include "meshes.h"
+#include "bench_scenes.h"
 #include "raw_embree.h"
 #include "renders.h"
 
@@ -73,6 +69,8 @@ std::vector<Measurement> bench_scene(const std::string& name, const std::string&
 }
 
 const std::string kPath = R"(
+film: { width: 256, height: 256, filter: box }
+budget: { spp: 64 }
 sampler: independent
 integrator: { type: path, max_depth: 10, roulette: off }
 )";
@@ -80,28 +78,12 @@ integrator: { type: path, max_depth: 10, roulette: off }
 }  // namespace
 
 std::vector<Measurement> bench_rays(int repeats) {
-  std::vector<Measurement> all = bench_scene(
-      "cornell-box",
-      fmt::format("scene: {}/cornell-box/scene.yaml\nfilm: {{ width: 256, height: 256, filter: box "
-                  "}}\nbudget: {{ spp: 64 }}\n{}",
-                  PHAROS_SCENES, kPath),
-      repeats);
-
-  const test::TemporaryFolder folder;
-  const std::filesystem::path mesh = folder / "field.ply";
-  testing::write_sphere_field(mesh, 220, 27);
-  const std::string field = fmt::format(R"(
-scene:
-  shapes:
-    - {{ type: mesh, file: {}, material: {{ type: diffuse, reflectance: 0.7 }} }}
-    - {{ type: quad, to_world: [ {{ rotate: {{ axis: [1, 0, 0], degrees: 90 }} }}, {{ translate: [0, 2, 0] }} ], emitter: {{ type: area, radiance: 5 }} }}
-  emitters: [ {{ type: constant, radiance: 0.3 }} ]
-  sensor: {{ type: perspective, fov: 40, to_world: {{ look_at: {{ origin: [0, 0, -4], target: [0, 0, 0], up: [0, 1, 0] }} }} }}
-film: {{ width: 256, height: 256, filter: box }}
-budget: {{ spp: 64 }}
-)",
-                                        mesh.string());
-  for (Measurement& m : bench_scene("spheres-300k", field + kPath, repeats)) all.push_back(m);
+  std::vector<Measurement> all =
+      bench_scene("cornell-box", scene_entry("cornell-box") + kPath, repeats);
+  const SphereField field;
+  for (Measurement& m : bench_scene("spheres-300k", field.entry() + kPath, repeats)) {
+    all.push_back(m);
+  }
   return all;
 }
 

@@ -1,0 +1,47 @@
+// The replaced global `operator new`. Modules are loaded after the program and so use it as well;
+// the array and nothrow forms of the standard library end up in these two.
+
+#include "allocation_count.h"
+
+#include <cstdlib>
+#include <new>
+
+namespace {
+
+thread_local std::uint64_t allocations = 0;
+
+void* counted(void* block) {
+  ++allocations;
+  if (block == nullptr) throw std::bad_alloc();
+  return block;
+}
+
+}  // namespace
+
+void* operator new(std::size_t bytes) {
+  return counted(std::malloc(bytes > 0 ? bytes : 1));
+}
+void* operator new(std::size_t bytes, std::align_val_t alignment) {
+  const auto edge = static_cast<std::size_t>(alignment);
+  return counted(std::aligned_alloc(edge, (bytes + edge - 1) / edge * edge));
+}
+void operator delete(void* block) noexcept {
+  std::free(block);
+}
+void operator delete(void* block, std::size_t) noexcept {
+  std::free(block);
+}
+void operator delete(void* block, std::align_val_t) noexcept {
+  std::free(block);
+}
+void operator delete(void* block, std::size_t, std::align_val_t) noexcept {
+  std::free(block);
+}
+
+namespace pharos::bench {
+
+std::uint64_t allocation_count() {
+  return allocations;
+}
+
+}  // namespace pharos::bench

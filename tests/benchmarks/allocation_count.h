@@ -1,0 +1,11 @@
+#pragma once
+
+#include <cstdint>
+
+namespace pharos::bench {
+
+/// Blocks that the calling thread has taken from the heap by `operator new` so far, modules
+/// included: the program replaces it.
+std::uint64_t allocation_count();
+
+}  // namespace pharos::bench

@@ -1,0 +1,101 @@
+#include "guide_costs.h"
+
+#include <algorithm>
+#include <chrono>
+#include <span>
+
+#include <pharos/conformance/guided.h>
+
+#include "allocation_count.h"
+
+namespace pharos::bench {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Vertices that are asked together: enough for the clock's own time not to matter.
+constexpr std::size_t kBatch = 64;
+
+double nanoseconds(Clock::duration elapsed) {
+  return std::chrono::duration<double, std::nano>(elapsed).count();
+}
+
+/// Keeps results from being optimised away.
+volatile float sink;
+
+class CostMeter {
+ public:
+  explicit CostMeter(const BoundGuider& guider) : guider_(guider) {
+    streams_.reserve(kBatch);
+    distributions_.reserve(kBatch);
+  }
+
+  /// Adds a batch's times [ns].
+  void add(std::span<const GuideQuery> batch, std::uint64_t first) {
+    prepare(batch.size(), first);
+    float sum = 0;
+    const auto start = Clock::now();
+    for (const GuideQuery& q : batch) {
+      distributions_.push_back(guider_.query(q.vertex->query(), arena_));
+    }
+    const auto queried = Clock::now();
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+      const VertexStream stream(streams_[i], batch[i].vertex->query().bounce);
+      if (const auto proposal = distributions_[i]->propose(stream)) sum += proposal->direction.x;
+    }
+    const auto sampled = Clock::now();
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+      sum += distributions_[i]->density(batch[i].guided).value;
+      sum += distributions_[i]->density(batch[i].scattered).value;
+    }
+    const auto end = Clock::now();
+    sink = sum;
+    costs_.query_ns += nanoseconds(queried - start);
+    costs_.sample_ns += nanoseconds(sampled - queried);
+    costs_.pdf_ns += nanoseconds(end - sampled);
+  }
+
+  GuideCosts take() { return std::exchange(costs_, {}); }
+
+ private:
+  void prepare(std::size_t count, std::uint64_t first) {
+    arena_.reset();
+    distributions_.clear();
+    streams_.clear();
+    for (std::size_t i = 0; i < count; ++i) {
+      streams_.emplace_back(numbers_, PathKey{.seed = 3, .index = first + i});
+    }
+  }
+
+  const BoundGuider& guider_;
+  conformance::KeyedSampler numbers_;
+  Arena arena_;
+  std::vector<SampleStream> streams_;
+  std::vector<const GuidingDistribution*> distributions_;
+  GuideCosts costs_;
+};
+
+}  // namespace
+
+GuideCosts measure_costs(const BoundGuider& guider, const std::vector<GuideQuery>& queries) {
+  CostMeter meter(guider);
+  const auto ask_all = [&] {
+    for (std::size_t i = 0; i < queries.size(); i += kBatch) {
+      const std::size_t n = std::min(kBatch, queries.size() - i);
+      meter.add({queries.data() + i, n}, i);
+    }
+  };
+  ask_all();  // warms caches, and fills the arena with blocks
+  meter.take();
+  const std::uint64_t before = allocation_count();
+  ask_all();
+  GuideCosts costs = meter.take();
+  costs.allocations = allocation_count() - before;
+  const auto count = static_cast<double>(queries.size());
+  costs.query_ns /= count;
+  costs.sample_ns /= count;
+  costs.pdf_ns /= 2 * count;
+  return costs;
+}
+
+}  // namespace pharos::bench

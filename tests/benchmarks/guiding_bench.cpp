@@ -1,0 +1,140 @@
+// What guiding costs, for every pair of learner and guider that is registered: the time of a
+// guide's answers on one thread, and of two threads' rays a second the share that is left of an
+// unguided render's. Both take the model that 15 iterations of training have made, of 4 samples a
+// pixel each.
+
+#include <cstdio>
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+#include <pharos/config/module_loader.h>
+#include <pharos/conformance/guided.h>
+#include <pharos/rendering/render_job.h>
+
+#include "bench.h"
+#include "bench_scenes.h"
+#include "guide_costs.h"
+#include "guide_pairs.h"
+#include "render_rate.h"
+
+namespace pharos::bench {
+namespace {
+
+constexpr std::size_t kVertices = 50'000;  // of two densities each
+constexpr int kThreads = 2;
+
+std::string guided_config(const GuidePair& pair, const std::string& scene) {
+  return fmt::format(R"({}
+film: {{ width: 96, height: 64, filter: box }}
+budget: {{ spp: 64 }}
+sampler: independent
+integrator:
+  type: path
+  max_depth: 10
+  roulette: off
+  guiding: {{ learner: {}, guider: {}, training: {{ iterations: 15, share: 0.95 }} }}
+)",
+                     scene, pair.learner, pair.guider);
+}
+
+/// A pair that has learned a scene.
+class Trained {
+ public:
+  Trained(const GuidePair& pair, const std::string& scene, const Registry& registry)
+      : loaded_(build_render_config(parse_yaml(guided_config(pair, scene), "benchmark"), registry)),
+        job_(loaded_.config),
+        result_(job_.run()),
+        frame_(conformance::frame_of(guider(), result_.model)) {}
+
+  const RenderConfig& config() const { return loaded_.config; }
+  const Scene& scene() const { return job_.scene(); }
+  const GuidingFrame& frame() const { return frame_; }
+  const RenderResult& result() const { return result_; }
+  std::unique_ptr<const BoundGuider> bound_guider() const { return guider().bind(result_.model); }
+
+ private:
+  const Guider& guider() const {
+    return *loaded_.config.integrator->guiding()->resolved_methods().front().guider;
+  }
+
+  LoadedConfig loaded_;
+  RenderJob job_;
+  RenderResult result_;
+  GuidingFrame frame_;
+};
+
+std::vector<Measurement> measure_answers(const GuidePair& pair, const Trained& trained,
+                                         int repeats) {
+  const auto queries = guide_queries(trained.scene(), trained.frame(), kVertices);
+  const auto guider = trained.bound_guider();
+  Measurement query{pair.name + ".query_ns", "ns", {}}, sample{pair.name + ".sample_ns", "ns", {}},
+      pdf{pair.name + ".pdf_ns", "ns", {}}, allocations{pair.name + ".allocations", "1", {}};
+  for (int i = 0; i < repeats; ++i) {
+    const GuideCosts costs = measure_costs(*guider, queries);
+    query.runs.push_back(costs.query_ns);
+    sample.runs.push_back(costs.sample_ns);
+    pdf.runs.push_back(costs.pdf_ns);
+    allocations.runs.push_back(static_cast<double>(costs.allocations));
+  }
+  return {pdf, sample, query, allocations};
+}
+
+std::vector<Measurement> measure_render(const GuidePair& pair, const std::string& scene,
+                                        const Trained& trained, int repeats) {
+  const auto named = [&](const char* what) { return pair.name + "." + what + "." + scene; };
+  const RenderTimes& times = trained.result().times;
+  const Measurement share{
+      named("update_share"), "1", {times.update / (times.training + times.update)}};
+  const Measurement bytes{
+      named("model_bytes"), "B", {static_cast<double>(trained.result().model_bytes)}};
+  Measurement ratio{named("rays_ratio"), "1", {}};
+  const RenderRate rate(trained.config(), trained.scene());
+  rate.mrays(nullptr), rate.mrays(&trained.frame());  // warm-up
+  for (int i = 0; i < repeats; ++i) {
+    const double unguided = rate.mrays(nullptr);
+    ratio.runs.push_back(rate.mrays(&trained.frame()) / unguided);
+  }
+  return {ratio, share, bytes};
+}
+
+std::vector<Measurement> measure_pair(const GuidePair& pair, const SphereField& field,
+                                      const Registry& registry, int repeats) {
+  std::vector<Measurement> all;
+  const auto add = [&](const std::vector<Measurement>& some) {
+    all.insert(all.end(), some.begin(), some.end());
+  };
+  const std::vector<std::pair<std::string, std::string>> scenes{
+      {"camera-obscura", scene_entry("camera-obscura")},
+      {"cornell-box", scene_entry("cornell-box")},
+      {"spheres-300k", field.entry()}};
+  for (const auto& [name, entry] : scenes) {
+    const Trained trained(pair, entry, registry);
+    if (all.empty()) add(measure_answers(pair, trained, repeats));
+    add(measure_render(pair, name, trained, repeats));
+  }
+  return all;
+}
+
+}  // namespace
+
+std::vector<Measurement> bench_guiding(int repeats) {
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, kThreads);
+  tbb::task_arena arena(kThreads);
+  const Registry registry = load_default_modules();
+  const SphereField field;
+  std::vector<Measurement> all;
+  for (const GuidePair& pair : guide_pairs(registry)) {
+    try {
+      arena.execute([&] {
+        for (Measurement& m : measure_pair(pair, field, registry, repeats)) all.push_back(m);
+      });
+    } catch (const InputError& e) {
+      fmt::print(stderr, "{} is left out: {}\n", pair.name, e.what());
+    }
+  }
+  return all;
+}
+
+}  // namespace pharos::bench
