@@ -94,15 +94,15 @@ double Octree::density(Point3 p) const {
 
 double Octree::directional_density(const Line& line, double begin, double end) const {
   Lanes sums{};
-  traverse(line, begin, end, [&](std::uint32_t i, const Spans& spans) {
+  traverse(line, begin, end, [&](std::uint32_t, const Node& node, const Spans& spans) {
     const Lanes &t0 = spans.begin, &t1 = spans.end;
-    const Lanes length = t0 < t1 ? t1 - t0 : Lanes{};
+    Lanes densities, length = t1 - t0;
+    node.get_densities(densities);
+    keep_larger(length, Lanes{});
     // t1^3 - t0^3, without its cancellation.
-    sums += nodes_[i].density_lanes() * length * (t1 * t1 + t1 * t0 + t0 * t0);
+    sums += densities * length * (t1 * t1 + t1 * t0 + t0 * t0);
   });
-  double sum = 0;
-  for (int c = 0; c < 8; ++c) sum += sums[c];
-  return sum / 3;
+  return sum_of(sums) / 3;
 }
 
 Double3 Octree::sample(const Double3& u) const {

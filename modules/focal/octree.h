@@ -59,14 +59,12 @@ class Octree {
 
     bool is_leaf(unsigned c) const { return static_cast<std::int32_t>(children[c]) >= 0; }
     float density(unsigned c) const { return std::bit_cast<float>(children[c]); }
-    /// All ones in the lanes of inner children.
-    LaneMask inner_lanes() const {
-      return __builtin_convertvector(std::bit_cast<WordLanes>(children), LaneMask) < 0;
-    }
+    /// The inner children as bits.
+    unsigned inner_bits() const { return sign_bits(std::bit_cast<WordLanes>(children)); }
     /// Densities of leaves; 0 in the lanes of inner children.
-    Lanes density_lanes() const {
+    void get_densities(Lanes& to) const {
       const auto words = std::bit_cast<WordLanes>(children);
-      return __builtin_convertvector(std::bit_cast<FloatLanes>(words & ~(words >> 31)), Lanes);
+      widen(std::bit_cast<FloatLanes>(words & ~(words >> 31)), to);
     }
     std::uint32_t index(unsigned c) const { return children[c] & ~kInner; }
     void set_density(unsigned c, float density) {
@@ -99,12 +97,17 @@ class Octree {
   /// (McCool and Harwood 1997).
   Double3 sample(const Double3& u) const;
 
-  /// Calls `visit(i, spans)` for every node i that `line` crosses between distances `begin` and
-  /// `end`, with the stretches within its children. In no particular but always the same order.
+  /// Calls `visit(i, node, spans)` for every node i that `line` crosses between distances `begin`
+  /// and `end`, with the stretches within its children. In no particular but always the same order.
+  /// Inlined, so that sums of visitors stay in registers.
   template <class Visit>
-  void traverse(const Line& line, double begin, double end, Visit&& visit) const;
+  [[gnu::always_inline]] void traverse(const Line& line, double begin, double end,
+                                       Visit&& visit) const;
 
  private:
+  struct Steps;
+  struct Front;
+
   static constexpr std::uint32_t kInner = 0x80000000u;
 
   /// Probabilities of lower halves, axis by axis: x, y given x, z given x and y.
@@ -112,56 +115,98 @@ class Octree {
     float x = 0.5f, y[2] = {0.5f, 0.5f}, z[4] = {0.5f, 0.5f, 0.5f, 0.5f};
   };
 
+  /// Makes the root the only child of `front`.
+  Steps enter(const Line& line, Front& front) const;
+
   Box box_;
   std::vector<Node> nodes_;
   std::vector<Warp> warps_;
   double mass_ = 0;
 };
 
-template <class Visit>
-void Octree::traverse(const Line& line, double begin, double end, Visit&& visit) const {
-  // All crossings are computed from the planes through which the line enters: `entry` of a node,
-  // one for each axis, and half a node's width further for its children beyond the middle. Which
-  // children these are depends on the signs of the direction: `beyond`. A fourth number is carried
-  // along, half the edge of the node relative to the box.
-  Quad entry, width;
-  Lanes beyond[3];
-  unsigned mirror = 0;
-  for (unsigned axis = 0; axis < 3; ++axis) {
-    const double low = (box_.low[axis] - line.origin[axis]) * line.reciprocal[axis];
-    const double size = box_.size[axis] * line.reciprocal[axis];
-    mirror |= static_cast<unsigned>(size < 0) << axis;
-    beyond[axis] = size < 0 ? kLower[axis] : kUpper[axis];
-    entry[axis] = low + std::min(size, 0.0);
-    width[axis] = std::abs(size);
-  }
-  entry[3] = 0.5;
-  width[3] = -0.5;
-  // A line crosses at most four of a node's children: three wait on each level.
-  constexpr int kMostWaiting = 3 * kMostLevels + 2;
-  Quad entries[kMostWaiting] = {entry};
-  std::uint32_t indices[kMostWaiting] = {0};
-  for (int count = 1; count > 0;) {
-    const Quad from = entries[--count];
-    const Quad half = from[3] * width;
-    const Node& node = nodes_[indices[count]];
-    Lanes near[3], far[3];
+/// What the crossings of all nodes of one level have in common.
+struct Octree::Steps {
+  Lanes half[3];    ///< width of a child along the line, by axis [scene units]
+  Lanes beyond[3];  ///< how much later the line enters each child than its node, by axis
+
+  void scale(double factor) {
     for (int axis = 0; axis < 3; ++axis) {
-      near[axis] = from[axis] + beyond[axis] * half[axis];
-      far[axis] = near[axis] + half[axis];
+      half[axis] *= factor;
+      beyond[axis] *= factor;
     }
-    const Lanes first = Lanes{} + begin, last = Lanes{} + end;
-    near[0] = near[0] > near[1] ? near[0] : near[1];
-    near[2] = near[2] > first ? near[2] : first;
-    far[0] = far[0] < far[1] ? far[0] : far[1];
-    far[2] = far[2] < last ? far[2] : last;
-    const Spans spans{near[0] > near[2] ? near[0] : near[2], far[0] < far[2] ? far[0] : far[2]};
-    visit(indices[count], spans);
-    unsigned inner = to_bits((spans.begin < spans.end) & node.inner_lanes());
-    for (; inner != 0; inner &= inner - 1) {
-      const auto c = static_cast<unsigned>(std::countr_zero(inner));
-      entries[count] = from + kCorner[c ^ mirror] * half;
-      indices[count++] = node.index(c);
+  }
+};
+
+/// The children of up to eight nodes that a line crosses on one level.
+struct alignas(64) Octree::Front {
+  double planes[3][64];        ///< where the line enters their slabs, by axis
+  std::uint32_t children[64];  ///< as in nodes
+  std::uint64_t pending;       ///< those that have yet to be visited
+};
+
+inline Octree::Steps Octree::enter(const Line& line, Front& front) const {
+  // All crossings are computed from the planes through which the line enters the box, one for each
+  // axis, and half a width further for children beyond the middle.
+  Steps steps;
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    const double size = box_.size[axis] * line.reciprocal[axis];
+    const double low = (box_.low[axis] - line.origin[axis]) * line.reciprocal[axis];
+    front.planes[axis][0] = low + std::min(size, 0.0);
+    steps.half[axis] = Lanes{} + 0.5 * std::abs(size);
+    steps.beyond[axis] = kBeyond[axis][size < 0 ? 1 : 0] * steps.half[axis];
+  }
+  front.children[0] = 0;
+  return steps;
+}
+
+template <class Visit>
+inline void Octree::traverse(const Line& line, double begin, double end, Visit&& visit) const {
+  // Level by level, as nodes of one level can be worked on at once. Where the children of a node
+  // are put depends on the number of nodes before it alone, so that the processor need not wait for
+  // what these hold; a mask tells which children are to be visited. More than eight nodes of a
+  // level are taken in several rounds.
+  Front fronts[kMostLevels + 1];
+  Steps steps = enter(line, fronts[0]);
+  const Lanes first = Lanes{} + begin, last = Lanes{} + end;
+  std::uint32_t unfinished = 0;
+  int level = 0;
+  for (std::uint64_t pending = 1;;) {
+    const Front& front = fronts[level];
+    Front& next = fronts[level + 1];
+    std::uint64_t found = 0;
+    for (int slot = 0; pending != 0 && slot < 64; slot += 8, pending &= pending - 1) {
+      const int at = std::countr_zero(pending);
+      const std::uint32_t i = front.children[at] & ~kInner;
+      const Node node = nodes_[i];
+      Lanes near[3];
+      for (int axis = 0; axis < 3; ++axis) {
+        near[axis] = front.planes[axis][at] + steps.beyond[axis];
+        store(near[axis], &next.planes[axis][slot]);
+      }
+      std::copy_n(node.children.begin(), 8, &next.children[slot]);
+      Spans spans{first, last};
+      for (int axis = 0; axis < 3; ++axis) {
+        keep_larger(spans.begin, near[axis]);
+        keep_smaller(spans.end, near[axis] + steps.half[axis]);
+      }
+      visit(i, node, spans);
+      found |= std::uint64_t{less_bits(spans.begin, spans.end) & node.inner_bits()} << slot;
+    }
+    if (pending != 0) [[unlikely]] {
+      fronts[level].pending = pending;
+      unfinished |= 1u << level;
+    }
+    if (found != 0) {
+      pending = found;
+      ++level;
+      steps.scale(0.5);
+    } else {
+      if (unfinished == 0) return;
+      const int back = std::bit_width(unfinished) - 1;
+      unfinished ^= 1u << back;
+      pending = fronts[back].pending;
+      steps.scale(1u << (level - back));
+      level = back;
     }
   }
 }

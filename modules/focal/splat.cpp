@@ -18,13 +18,14 @@ template <class Amount>
 void add_to_leaves(const Octree& octree, const Line& line, double begin, double end,
                    std::vector<double>& sums, Amount&& amount) {
   if (!(begin < end)) return;
-  octree.traverse(line, begin, end, [&](std::uint32_t i, const Spans& spans) {
-    const Octree::Node& node = octree.nodes()[i];
-    for (unsigned c = 0; c < 8; ++c) {
-      const bool crossed = node.is_leaf(c) && spans.begin[c] < spans.end[c];
-      if (crossed) sums[8 * std::size_t{i} + c] += amount(node, c, spans.begin[c], spans.end[c]);
-    }
-  });
+  octree.traverse(
+      line, begin, end, [&](std::uint32_t i, const Octree::Node& node, const Spans& spans) {
+        for (unsigned c = 0; c < 8; ++c) {
+          const bool crossed = node.is_leaf(c) && spans.begin[c] < spans.end[c];
+          if (crossed)
+            sums[8 * std::size_t{i} + c] += amount(node, c, spans.begin[c], spans.end[c]);
+        }
+      });
 }
 
 /// Length of the line within the box between two distances.
