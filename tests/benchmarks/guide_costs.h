@@ -7,7 +7,7 @@
 
 namespace pharos::bench {
 
-/// What a guide takes on one thread.
+/// What a guide takes on one thread, in processor time.
 struct GuideCosts {
   double query_ns = 0;            ///< BoundGuider::query()
   double sample_ns = 0;           ///< GuidingDistribution::propose(), its random numbers included
