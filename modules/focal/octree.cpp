@@ -96,34 +96,39 @@ double Octree::directional_density(const Line& line, double begin, double end) c
   Lanes sums{};
   traverse(line, begin, end, [&](std::uint32_t, const Node& node, const Spans& spans) {
     const Lanes &t0 = spans.begin, &t1 = spans.end;
-    Lanes densities, length = t1 - t0;
-    node.get_densities(densities);
-    keep_larger(length, Lanes{});
     // t1^3 - t0^3, without its cancellation.
-    sums += densities * length * (t1 * t1 + t1 * t0 + t0 * t0);
+    const Lanes cubes = larger(t1 - t0, Lanes{}) * (t1 * t1 + t1 * t0 + t0 * t0);
+    sums = sums + node.densities() * cubes;
   });
-  return sum_of(sums) / 3;
+  return sums.sum() / 3;
 }
 
 Double3 Octree::sample(const Double3& u) const {
   Double3 rest = u;
-  // Takes the lower half of an axis with probability p, and makes of the number a new one.
+  // Takes the lower half of an axis with probability p, and makes of the number a new one. By
+  // arithmetic, as nobody can foresee which way a branch would go.
   const auto choose = [](double& number, double p) -> unsigned {
-    const bool upper = number >= p;
-    number = std::min(upper ? (number - p) / (1 - p) : number / p, kBelowOne);
-    return upper ? 1 : 0;
+    const unsigned upper = number >= p ? 1 : 0;
+    const double is_upper = upper;
+    number = std::min((number - is_upper * p) / (p + is_upper * (1 - 2 * p)), kBelowOne);
+    return upper;
   };
-  Box cell = box_;
+  double edge = 1;                        // of the cell, relative to the box
+  std::array<std::uint32_t, 3> corner{};  // of the cell, in units of its edge
   for (std::uint32_t i = 0;;) {
     const Warp& warp = warps_[i];
     const unsigned x = choose(rest[0], warp.x);
     const unsigned y = choose(rest[1], warp.y[x]);
-    const unsigned c = x | y << 1 | choose(rest[2], warp.z[x | y << 1]) << 2;
-    cell = cell.child(c);
+    const unsigned z = choose(rest[2], warp.z[x | y << 1]);
+    corner = {2 * corner[0] + x, 2 * corner[1] + y, 2 * corner[2] + z};
+    edge *= 0.5;
+    const unsigned c = x | y << 1 | z << 2;
     if (nodes_[i].is_leaf(c)) break;
     i = nodes_[i].index(c);
   }
-  for (int axis = 0; axis < 3; ++axis) rest[axis] = cell.low[axis] + rest[axis] * cell.size[axis];
+  for (int axis = 0; axis < 3; ++axis) {
+    rest[axis] = box_.low[axis] + (corner[axis] + rest[axis]) * edge * box_.size[axis];
+  }
   return rest;
 }
 

@@ -55,17 +55,14 @@ class Octree {
   /// The eight children of a node. A child is a leaf with a density [1/scene unit^3], or an inner
   /// node by its index, marked by the sign bit (densities have none).
   struct alignas(32) Node {
-    std::array<std::uint32_t, 8> children{};
+    Words children{};
 
     bool is_leaf(unsigned c) const { return static_cast<std::int32_t>(children[c]) >= 0; }
     float density(unsigned c) const { return std::bit_cast<float>(children[c]); }
     /// The inner children as bits.
-    unsigned inner_bits() const { return sign_bits(std::bit_cast<WordLanes>(children)); }
+    unsigned inner_bits() const { return high_bits(children); }
     /// Densities of leaves; 0 in the lanes of inner children.
-    void get_densities(Lanes& to) const {
-      const auto words = std::bit_cast<WordLanes>(children);
-      widen(std::bit_cast<FloatLanes>(words & ~(words >> 31)), to);
-    }
+    Lanes densities() const { return positive_floats(children); }
     std::uint32_t index(unsigned c) const { return children[c] & ~kInner; }
     void set_density(unsigned c, float density) {
       children[c] = std::bit_cast<std::uint32_t>(density);
@@ -131,8 +128,8 @@ struct Octree::Steps {
 
   void scale(double factor) {
     for (int axis = 0; axis < 3; ++axis) {
-      half[axis] *= factor;
-      beyond[axis] *= factor;
+      half[axis] = half[axis] * Lanes::all(factor);
+      beyond[axis] = beyond[axis] * Lanes::all(factor);
     }
   }
 };
@@ -152,8 +149,8 @@ inline Octree::Steps Octree::enter(const Line& line, Front& front) const {
     const double size = box_.size[axis] * line.reciprocal[axis];
     const double low = (box_.low[axis] - line.origin[axis]) * line.reciprocal[axis];
     front.planes[axis][0] = low + std::min(size, 0.0);
-    steps.half[axis] = Lanes{} + 0.5 * std::abs(size);
-    steps.beyond[axis] = kBeyond[axis][size < 0 ? 1 : 0] * steps.half[axis];
+    steps.half[axis] = Lanes::all(0.5 * std::abs(size));
+    steps.beyond[axis] = Lanes::load(kBeyond[axis][size < 0 ? 1 : 0]) * steps.half[axis];
   }
   front.children[0] = 0;
   return steps;
@@ -167,7 +164,7 @@ inline void Octree::traverse(const Line& line, double begin, double end, Visit&&
   // level are taken in several rounds.
   Front fronts[kMostLevels + 1];
   Steps steps = enter(line, fronts[0]);
-  const Lanes first = Lanes{} + begin, last = Lanes{} + end;
+  const Spans whole{Lanes::all(begin), Lanes::all(end)};
   std::uint32_t unfinished = 0;
   int level = 0;
   for (std::uint64_t pending = 1;;) {
@@ -178,17 +175,14 @@ inline void Octree::traverse(const Line& line, double begin, double end, Visit&&
       const int at = std::countr_zero(pending);
       const std::uint32_t i = front.children[at] & ~kInner;
       const Node node = nodes_[i];
-      Lanes near[3];
+      Spans spans = whole;
       for (int axis = 0; axis < 3; ++axis) {
-        near[axis] = front.planes[axis][at] + steps.beyond[axis];
-        store(near[axis], &next.planes[axis][slot]);
+        const Lanes near = Lanes::all(front.planes[axis][at]) + steps.beyond[axis];
+        near.store(&next.planes[axis][slot]);
+        spans.begin = larger(spans.begin, near);
+        spans.end = smaller(spans.end, near + steps.half[axis]);
       }
       std::copy_n(node.children.begin(), 8, &next.children[slot]);
-      Spans spans{first, last};
-      for (int axis = 0; axis < 3; ++axis) {
-        keep_larger(spans.begin, near[axis]);
-        keep_smaller(spans.end, near[axis] + steps.half[axis]);
-      }
       visit(i, node, spans);
       found |= std::uint64_t{less_bits(spans.begin, spans.end) & node.inner_bits()} << slot;
     }
