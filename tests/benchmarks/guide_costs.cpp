@@ -33,7 +33,7 @@ class CostMeter {
 
   /// Adds a batch's times [ns].
   void add(std::span<const GuideQuery> batch, std::uint64_t first) {
-    prepare(batch.size(), first);
+    prepare(batch, first);
     float sum = 0;
     const double start = thread_ns();
     for (const GuideQuery& q : batch) {
@@ -59,13 +59,16 @@ class CostMeter {
   GuideCosts take() { return std::exchange(costs_, {}); }
 
  private:
-  void prepare(std::size_t count, std::uint64_t first) {
-    arena_.reset();
+  /// Vertices and their surfaces are in the caches when a render asks: each is asked once before.
+  void prepare(std::span<const GuideQuery> batch, std::uint64_t first) {
     distributions_.clear();
     streams_.clear();
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < batch.size(); ++i) {
       streams_.emplace_back(numbers_, PathKey{.seed = 3, .index = first + i});
+      arena_.reset();
+      guider_.query(batch[i].vertex->query(), arena_);
     }
+    arena_.reset();
   }
 
   const BoundGuider& guider_;
