@@ -39,24 +39,29 @@ integrator:
                      scene, pair.learner, pair.guider);
 }
 
-/// A pair that has learned a scene.
+/// A pair that has learned a scene. Throws RunError when it knows nothing after training.
 class Trained {
  public:
   Trained(const GuidePair& pair, const std::string& scene, const Registry& registry)
       : loaded_(build_render_config(parse_yaml(guided_config(pair, scene), "benchmark"), registry)),
         job_(loaded_.config),
         result_(job_.run()),
-        frame_(conformance::frame_of(guider(), result_.model)) {}
+        frame_(conformance::frame_of(guider(), model())) {}
 
   const RenderConfig& config() const { return loaded_.config; }
   const Scene& scene() const { return job_.scene(); }
   const GuidingFrame& frame() const { return frame_; }
   const RenderResult& result() const { return result_; }
-  std::unique_ptr<const BoundGuider> bound_guider() const { return guider().bind(result_.model); }
+  std::unique_ptr<const BoundGuider> bound_guider() const { return guider().bind(model()); }
 
  private:
   const Guider& guider() const {
     return *loaded_.config.integrator->guiding()->resolved_methods().front().guider;
+  }
+
+  const std::shared_ptr<const GuidingModel>& model() const {
+    if (result_.model == nullptr) throw RunError("nothing was learned");
+    return result_.model;
   }
 
   LoadedConfig loaded_;
@@ -130,7 +135,7 @@ std::vector<Measurement> bench_guiding(int repeats) {
       arena.execute([&] {
         for (Measurement& m : measure_pair(pair, field, registry, repeats)) all.push_back(m);
       });
-    } catch (const InputError& e) {
+    } catch (const Error& e) {
       fmt::print(stderr, "{} is left out: {}\n", pair.name, e.what());
     }
   }
