@@ -42,6 +42,11 @@ struct Line {
 /// misses has begin >= end.
 struct Spans {
   Lanes begin, end;
+
+  void limit(const Lanes& low, const Lanes& high) {
+    begin = larger(begin, low);
+    end = smaller(end, high);
+  }
 };
 
 /// An adaptive octree over a box with a constant density in each leaf: one half, converging or
@@ -114,6 +119,12 @@ class Octree {
 
   /// Makes the root the only child of `front`.
   Steps enter(const Line& line, Front& front) const;
+  /// Visits up to eight of the `pending` nodes of `front`, and takes them off. Their children go to
+  /// `next`; returns those of them that are to be visited, as bits.
+  template <class Visit>
+  [[gnu::always_inline]] std::uint64_t cross(const Front& front, std::uint64_t& pending,
+                                             const Steps& steps, const Spans& whole, Front& next,
+                                             Visit& visit) const;
 
   Box box_;
   std::vector<Node> nodes_;
@@ -157,6 +168,27 @@ inline Octree::Steps Octree::enter(const Line& line, Front& front) const {
 }
 
 template <class Visit>
+inline std::uint64_t Octree::cross(const Front& front, std::uint64_t& pending, const Steps& steps,
+                                   const Spans& whole, Front& next, Visit& visit) const {
+  std::uint64_t found = 0;
+  for (int slot = 0; pending != 0 && slot < 64; slot += 8, pending &= pending - 1) {
+    const int at = std::countr_zero(pending);
+    const std::uint32_t i = front.children[at] & ~kInner;
+    const Node node = nodes_[i];
+    Spans spans = whole;
+    for (int axis = 0; axis < 3; ++axis) {
+      const Lanes near = Lanes::all(front.planes[axis][at]) + steps.beyond[axis];
+      near.store(&next.planes[axis][slot]);
+      spans.limit(near, near + steps.half[axis]);
+    }
+    std::copy_n(node.children.begin(), 8, &next.children[slot]);
+    visit(i, node, spans);
+    found |= std::uint64_t{less_bits(spans.begin, spans.end) & node.inner_bits()} << slot;
+  }
+  return found;
+}
+
+template <class Visit>
 inline void Octree::traverse(const Line& line, double begin, double end, Visit&& visit) const {
   // Level by level, as nodes of one level can be worked on at once. Where the children of a node
   // are put depends on the number of nodes before it alone, so that the processor need not wait for
@@ -165,27 +197,11 @@ inline void Octree::traverse(const Line& line, double begin, double end, Visit&&
   Front fronts[kMostLevels + 1];
   Steps steps = enter(line, fronts[0]);
   const Spans whole{Lanes::all(begin), Lanes::all(end)};
-  std::uint32_t unfinished = 0;
+  std::uint32_t unfinished = 0;  // levels with nodes left for another round
   int level = 0;
   for (std::uint64_t pending = 1;;) {
-    const Front& front = fronts[level];
-    Front& next = fronts[level + 1];
-    std::uint64_t found = 0;
-    for (int slot = 0; pending != 0 && slot < 64; slot += 8, pending &= pending - 1) {
-      const int at = std::countr_zero(pending);
-      const std::uint32_t i = front.children[at] & ~kInner;
-      const Node node = nodes_[i];
-      Spans spans = whole;
-      for (int axis = 0; axis < 3; ++axis) {
-        const Lanes near = Lanes::all(front.planes[axis][at]) + steps.beyond[axis];
-        near.store(&next.planes[axis][slot]);
-        spans.begin = larger(spans.begin, near);
-        spans.end = smaller(spans.end, near + steps.half[axis]);
-      }
-      std::copy_n(node.children.begin(), 8, &next.children[slot]);
-      visit(i, node, spans);
-      found |= std::uint64_t{less_bits(spans.begin, spans.end) & node.inner_bits()} << slot;
-    }
+    const std::uint64_t found =
+        cross(fronts[level], pending, steps, whole, fronts[level + 1], visit);
     if (pending != 0) [[unlikely]] {
       fronts[level].pending = pending;
       unfinished |= 1u << level;
