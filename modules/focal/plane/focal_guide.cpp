@@ -1,14 +1,12 @@
 #include "focal_guide.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace pharos::focal::plane {
 namespace {
 
 Cell region_of(const GapScene& scene) {
-  const double half_width = std::max(scene.floor_half_width, scene.light_half_width);
-  return {{-half_width, 0}, {2 * half_width, scene.light_height}};
+  return {{-scene.half_width(), 0}, {2 * scene.half_width(), scene.light_height}};
 }
 
 /// Directions from a point of the floor to points of the tree.

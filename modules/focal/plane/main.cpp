@@ -44,8 +44,8 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--samples", study.plan.samples, "Samples of a training iteration")
       ->check(at_least(1))
       ->capture_default_str();
-  app.add_option("--gap-width", study.scene.gap_width, "[scene units]")
-      ->check(CLI::Range(1e-6, study.scene.gap_distance))
+  app.add_option("--gap-width", study.scene.gap_width, "[scene units]")->capture_default_str();
+  app.add_option("--light", study.scene.light_half_width, "Half the light's width [scene units]")
       ->capture_default_str();
   app.add_option("--neighbours", study.path_space.neighbours, "Paths that shape a kernel")
       ->check(at_least(2))
@@ -89,12 +89,27 @@ void print_table(const Options& options, const std::vector<SeedResult>& seeds) {
   print_method("focal", seeds, &SeedResult::focal);
 }
 
+void check_range(const char* option, double value, double least, double most) {
+  if (value >= least && value <= most) return;  // not for NaN
+  throw InputError(fmt::format("{}: error: expected a number from {} to {}, found {}", option,
+                               least, most, value));
+}
+
+void check(const Options& options) {
+  const GapScene& scene = options.study.scene;
+  check_range("--gap-width", scene.gap_width, 1e-6, scene.gap_distance);
+  // The ends of the floor see nothing of a smaller light than 0.6.
+  check_range("--light", scene.light_half_width, 0.65, 100);
+  const std::filesystem::path output = options.output;
+  if (!output.empty() && output.extension() != ".png") {
+    throw InputError(fmt::format("--output: error: expected a name that ends in .png, found '{}'",
+                                 options.output));
+  }
+}
+
 void run(const Options& options) {
+  check(options);
   if (!options.output.empty()) {
-    if (std::filesystem::path(options.output).extension() != ".png") {
-      throw InputError(fmt::format("--output: error: expected a name that ends in .png, found '{}'",
-                                   options.output));
-    }
     write_png(draw_seed(options.study, options.seed), options.output, 0, false);
   }
   std::vector<SeedResult> seeds(static_cast<std::size_t>(options.seeds));

@@ -11,9 +11,14 @@ namespace {
 constexpr Rgb kPaper{1, 1, 1}, kDark{0.11f, 0.13f, 0.18f}, kGrey{0.52f, 0.54f, 0.58f};
 constexpr Rgb kLight{0.96f, 0.73f, 0.18f};
 // All in pixels.
-constexpr double kUnit = 256;  // a scene unit
+constexpr double kUnit = 240;  // a scene unit
 constexpr double kMargin = 22, kTitleHeight = 56, kFloorSpace = 40, kStripHeight = 168;
 constexpr double kLetters = 17, kSmallLetters = 13;
+
+/// Of what the picture shows [scene units]: all, and room for letters on both sides of the floor.
+double seen_half_width(const GapScene& scene) {
+  return std::max(scene.half_width(), scene.floor_half_width + 0.42);
+}
 
 /// The strips' logarithmic scale.
 struct Scale {
@@ -58,7 +63,7 @@ class PanelDrawing {
 
  private:
   Point2 to_pixels(Point2 p) const {
-    return {left_ + (p.x + scene_.light_half_width) * kUnit,
+    return {left_ + (p.x + seen_half_width(scene_)) * kUnit,
             top_ + (scene_.light_height - p.y) * kUnit};
   }
   double floor_left() const { return to_pixels({-scene_.floor_half_width, 0}).x; }
@@ -84,17 +89,17 @@ class PanelDrawing {
   }
 
   void walls() {
-    const double half = scene_.light_half_width;
-    const Point2 light = to_pixels({-half, scene_.light_height});
-    canvas_.rectangle({light.x, light.y - 9}, {light.x + 2 * half * kUnit, light.y}, {kLight});
+    const Point2 light = to_pixels({-scene_.light_half_width, scene_.light_height});
+    canvas_.rectangle({light.x, light.y - 9},
+                      {light.x + 2 * scene_.light_half_width * kUnit, light.y}, {kLight});
     const Point2 floor = to_pixels({0, 0});
     canvas_.rectangle({floor_left(), floor.y}, {floor_right(), floor.y + 6}, {kDark});
-    double begin = -half;
+    double begin = -seen_half_width(scene_);
     for (const Interval& gap : scene_.gaps()) {
       obstacle(begin, gap.low);
       begin = gap.high;
     }
-    obstacle(begin, half);
+    obstacle(begin, seen_half_width(scene_));
   }
   void obstacle(double begin, double end) {
     const Point2 from = to_pixels({begin, scene_.obstacle_height});
@@ -154,7 +159,7 @@ class PanelDrawing {
 
 Image draw_picture(const GapScene& scene, std::span<const Panel> panels,
                    std::span<const double> uniform, double full_value) {
-  const double panel_width = 2 * scene.light_half_width * kUnit + 2 * kMargin;
+  const double panel_width = 2 * seen_half_width(scene) * kUnit + 2 * kMargin;
   const double height = kTitleHeight + scene.light_height * kUnit + kFloorSpace + kStripHeight;
   Canvas canvas(static_cast<int>(panel_width * static_cast<double>(panels.size())),
                 static_cast<int>(height + kMargin), kPaper);

@@ -1,6 +1,5 @@
 #include "scene.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace pharos::focal::plane {

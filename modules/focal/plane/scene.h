@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 namespace pharos::focal::plane {
@@ -24,6 +25,8 @@ struct GapScene {
   double gap_width = 0.01;
   double gap_distance = 0.2;  ///< between the centres of neighbouring gaps
 
+  /// Of the world: of the floor or the light, whichever is wider.
+  double half_width() const { return std::max(floor_half_width, light_half_width); }
   /// Where the obstacle is open, from left to right.
   std::vector<Interval> gaps() const;
   /// Whether the ray from the floor at `x` reaches the light.

@@ -191,6 +191,20 @@ TEST_CASE("plane guides: a narrowed splat is the share that eq. 14 says") {
   CHECK(lower == doctest::Approx(0.5));  // lengths
 }
 
+TEST_CASE("plane guides: the focal guide splats values, before narrowing and after") {
+  for (const int narrowing_from : {0, 1}) {
+    FocalSettings settings;
+    settings.narrowing_from = narrowing_from;
+    FocalGuide guide(kScene, settings);
+    guide.learn(std::vector<Path>{{-0.7, 0, 0.5, 1}, {0.6, 0, 0.5, 3}}, 0);
+    double left = 0;
+    guide.tree().for_each_leaf([&](const Quadtree::Child& leaf, const Cell& cell, std::size_t) {
+      if (cell.low.x < 0) left += leaf.mass;
+    });
+    CHECK(left == doctest::Approx(0.25));
+  }
+}
+
 TEST_CASE("plane guides: too few paths are no guide") {
   PathSpaceGuide guide(kScene.light_height, {.neighbours = 3});
   std::vector<Path> paths{{0, 0, 1, 1}, {0.1, 0.1, 1, 1}};

@@ -67,6 +67,7 @@ TEST_CASE("canvas: text is as wide as said, and letters that the font lacks are 
   CHECK(canvas.text({5, 30}, "ab 1", 20, {kBlack}) == doctest::Approx(text_width("ab 1", 20)));
   CHECK(text_width("ab", 20) == doctest::Approx(2 * text_width("a", 20)));
   CHECK(ink_on(canvas) > 100);
+  CHECK(text_width("0123456789-", 20) > text_width("123", 20));
   CHECK_THROWS_WITH_AS(text_width("a?", 20), "the font of the picture has no '?'", InputError);
 }
 
