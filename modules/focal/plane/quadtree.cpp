@@ -72,7 +72,8 @@ struct Quadtree::Refinement {
 };
 
 Quadtree::Quadtree(const Cell& region, const SplitRule& rule) : region_(region) {
-  Refinement even{.old = *this, .sums = {}, .rule = rule, .total = 1};
+  const Sums none;
+  Refinement even{.old = *this, .sums = none, .rule = rule, .total = 1};
   even.add({std::nullopt, 1}, 0);
   *this = std::move(even.result);
 }

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <numbers>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -21,16 +20,21 @@ namespace {
 const GapScene kScene;
 constexpr double kFraction = 0.5;
 
+struct Named {
+  std::string name;
+  Guide* guide;
+};
+
 /// Every kind of guide, trained with a seed.
 struct Trained {
   explicit Trained(std::uint64_t seed, const TrainingPlan& plan = {}) {
-    for (auto& [name, guide] : all) train(*guide, kScene, plan, seed);
+    for (const Named& named : all) train(*named.guide, kScene, plan, seed);
   }
 
   PathSpaceGuide path_space{kScene.light_height};
   PathSpaceGuide means{kScene.light_height, {.centre = KernelCentre::neighbours}};
   FocalGuide focal{kScene};
-  std::vector<std::pair<std::string, Guide*>> all{
+  std::vector<Named> all{
       {"path space", &path_space}, {"path space, neighbours' means", &means}, {"focal", &focal}};
 };
 
@@ -57,16 +61,16 @@ double mass_near_gaps(const FocalGuide& guide, double distance) {
 TEST_CASE("plane guides: samples follow the densities, which integrate to one") {
   std::vector<double> p_values;
   std::uint64_t seed = 17;
-  for (const auto& [name, guide] : trained().all) {
+  for (const Named& named : trained().all) {
     for (const double x : {-0.93, 0.0, 0.41}) {
-      CAPTURE(name);
+      CAPTURE(named.name);
       CAPTURE(x);
-      const testing::AngleFit fit = testing::fit_angles(*guide->at(x), seed++);
+      const testing::AngleFit fit = testing::fit_angles(*named.guide->at(x), seed++);
       CHECK(fit.integral == doctest::Approx(1).epsilon(5e-4));
       p_values.push_back(fit.p_value);
     }
     const testing::AngleFit mixed =
-        testing::fit_angles(MixedDensity(guide->at(0.2), kFraction), seed++);
+        testing::fit_angles(MixedDensity(named.guide->at(0.2), kFraction), seed++);
     CHECK(mixed.integral == doctest::Approx(1).epsilon(5e-4));
     p_values.push_back(mixed.p_value);
   }
@@ -90,12 +94,13 @@ TEST_CASE("plane guides: estimates agree with the irradiance in closed form") {
   RandomStream unguided(7);
   const MonteCarloMean uniform = estimate_irradiance(kScene, {}, 10 * kSamples, unguided);
   CHECK(std::abs(uniform.value - expected) < 4 * uniform.standard_error);
-  for (const auto& [name, guide] : trained().all) {
+  for (const Named& named : trained().all) {
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-      CAPTURE(name);
+      CAPTURE(named.name);
       CAPTURE(seed);
       RandomStream random(seed, 2);
-      const MonteCarloMean mean = estimate_irradiance(kScene, {guide, kFraction}, kSamples, random);
+      const MonteCarloMean mean =
+          estimate_irradiance(kScene, {named.guide, kFraction}, kSamples, random);
       CHECK(std::abs(mean.value - expected) < 4 * mean.standard_error);
     }
   }
@@ -109,11 +114,11 @@ TEST_CASE("plane guides: estimates agree with the irradiance in closed form") {
 
 TEST_CASE("plane guides: irradiance and variance at points of the floor") {
   constexpr int kSamples = 20'000;
-  for (const auto& [name, guide] : trained().all) {
+  for (const Named& named : trained().all) {
     for (const double x : {-0.8, 0.1, 0.55}) {
-      CAPTURE(name);
+      CAPTURE(named.name);
       CAPTURE(x);
-      const Technique technique{guide, kFraction};
+      const Technique technique{named.guide, kFraction};
       const MixedDensity density = technique.at(x);
       RandomStream random(23);
       std::vector<double> values;
@@ -137,9 +142,9 @@ TEST_CASE("plane guides: the same seed gives the same guides, another one others
   const TrainingPlan plan{.iterations = 4, .samples = 1024};
   const Trained a(3, plan), b(3, plan), other(4, plan);
   for (std::size_t i = 0; i < a.all.size(); ++i) {
-    CAPTURE(a.all[i].first);
+    CAPTURE(a.all[i].name);
     const auto profile = [&](const Trained& guides) {
-      return variance_profile(kScene, {guides.all[i].second, kFraction}, 16);
+      return variance_profile(kScene, {guides.all[i].guide, kFraction}, 16);
     };
     CHECK(profile(a) == profile(b));
     CHECK(profile(a) != profile(other));
