@@ -39,14 +39,19 @@ double summed_over_leaves(const Octree& octree, std::uint32_t node, const Box& b
 }  // namespace
 
 TEST_CASE("octree: the traversal equals the sum over all leaves") {
-  const std::vector<std::pair<const char*, Octree>> trees = {{"even", even_tree()},
-                                                             {"random", random_tree(1)},
-                                                             {"random too", random_tree(2)},
-                                                             {"pinhole", pinhole_tree()},
-                                                             {"one hot", one_hot_tree()}};
+  struct NamedTree {
+    const char* name;
+    Octree octree;
+  };
+  const NamedTree trees[] = {{"even", even_tree()},
+                             {"random", random_tree(1)},
+                             {"random too", random_tree(2)},
+                             {"pinhole", pinhole_tree()},
+                             {"one hot", one_hot_tree()}};
   RandomStream random(7);
-  for (const auto& [name, octree] : trees) {
-    CAPTURE(name);
+  for (const NamedTree& tree : trees) {
+    CAPTURE(tree.name);
+    const Octree& octree = tree.octree;
     double worst = 0;
     for (int i = 0; i < 200'000; ++i) {
       const Point3 from = point_in_box(random, {{-3, -1, 0}, {6, 5, 8}});
