@@ -32,16 +32,13 @@ std::string wall_with_hole(double h, double r, double x) {
 }  // namespace
 
 TEST_CASE("a light seen through a hole, guided") {
-  const double h = 0.5, r = 0.03, x = 0.1;
+  const double h = 0.5, r = 0.06, x = 0.1;
   const auto hole = Transform::translate({static_cast<float>(x), 0, static_cast<float>(h)}) *
                     Transform::scale({static_cast<float>(r), static_cast<float>(r), 1});
-  // Fractions and extents as a covering array: each pair of values once.
   std::vector<Strategy> strategies;
   for (const auto& [fraction, extent, mis] : {std::tuple{0.1, "line", "balance"},
-                                              {0.5, "line", "power"},
-                                              {0.9, "roughness_gated", "balance"},
-                                              {0.5, "roughness_gated", "balance"},
-                                              {0.1, "roughness_gated", "power"}}) {
+                                              {0.5, "roughness_gated", "power"},
+                                              {0.9, "line", "balance"}}) {
     strategies.push_back(
         {fmt::format("focal {} {} {}", fraction, extent, mis),
          fmt::format("mis: {}, guiding: {{ learner: {{ type: focal, splat_extent: {} }}, "
