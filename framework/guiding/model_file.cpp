@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <pharos/core/atomic_file.h>
+#include <pharos/core/binary_stream.h>
 #include <pharos/core/error.h>
 #include <pharos/guiding/model_file.h>
 
@@ -20,13 +21,8 @@ constexpr std::uint32_t kLongestName = 256;
   throw InputError(fmt::format("the model file '{}' {}", path.string(), what));
 }
 
-template <class T>
-void write(std::ostream& out, const T& value) {
-  out.write(reinterpret_cast<const char*>(&value), sizeof value);
-}
-
 void write_name(std::ostream& out, std::string_view name) {
-  write(out, static_cast<std::uint32_t>(name.size()));
+  save_number(out, static_cast<std::uint32_t>(name.size()));
   out.write(name.data(), static_cast<std::streamsize>(name.size()));
 }
 
@@ -128,12 +124,12 @@ void write_model_file(const GuidingModel& model, std::string_view learner,
   const std::string bytes = std::move(saved).str();
   write_atomically(path, [&](const std::filesystem::path& temporary) {
     std::ofstream out(temporary, std::ios::binary);
-    write(out, kMagic);
-    write(out, kForm);
+    out.write(kMagic.data(), kMagic.size());
+    save_number(out, kForm);
     write_name(out, learner);
     write_name(out, model.name());
-    write(out, model.version());
-    write(out, static_cast<std::uint64_t>(bytes.size()));
+    save_number(out, model.version());
+    save_number(out, static_cast<std::uint64_t>(bytes.size()));
     out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     out.flush();
     if (!out) throw RunError(fmt::format("cannot write '{}'", path.string()));
@@ -152,6 +148,10 @@ std::shared_ptr<const GuidingModel> read_model_file(const std::filesystem::path&
   std::istringstream in(file.rest(header.bytes));
   std::shared_ptr<const GuidingModel> model = load(path, in, learner);
   if (model == nullptr) fail(path, "holds no model");
+  if (model->name() != header.model) {
+    fail(path, fmt::format("has a head that speaks of the model '{}', but holds '{}'", header.model,
+                           model->name()));
+  }
   if (in.peek() != std::istringstream::traits_type::eof()) fail(path, "holds more than its model");
   return model;
 }

@@ -1,6 +1,7 @@
 #include "focal_model.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -26,6 +27,12 @@ FocalModel::FocalModel(std::istream& in) {
   expect_heading(in, kFocalModel, kVersion);
   density_.converging = load_octree(in);
   density_.diverging = load_octree(in);
+  // Directions are drawn as if the masses added up to one: a density that does not is no density.
+  constexpr double kRounding = 1e-4;
+  const double mass = density_.converging.mass() + density_.diverging.mass();
+  const bool is_sound =
+      density_.converging.box() == density_.diverging.box() && std::abs(mass - 1) <= kRounding;
+  if (!is_sound) throw InputError("the focal model is damaged");
 }
 
 void FocalModel::save(std::ostream& out) const {

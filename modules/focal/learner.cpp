@@ -1,5 +1,7 @@
 #include "learner.h"
 
+#include <pharos/core/error.h>
+
 #include "focal_model.h"
 #include "learning_state.h"
 
@@ -14,9 +16,11 @@ void FocalSettings::describe(Schema<FocalSettings>& s) {
   using S = FocalSettings;
   s.field("region", &S::region,
           "Where focal points may lie; by default the bounds of geometry and sensor");
-  s.field("grow_region", &S::grow_region,
-          "Double the region after an iteration before narrowing in which its densest place is at "
-          "its boundary: virtual images may lie outside the scene");
+  s.field("region_growths", &S::region_growths,
+          "How often the region may double, each time after an iteration before narrowing in which "
+          "its densest place is at its boundary: virtual images may lie outside the scene")
+      .at_least(0)
+      .at_most(8);
   s.field("split_threshold", &S::split_threshold,
           "Share of all mass above which a cell is divided (gamma)")
       .at_least(1e-6)
@@ -24,8 +28,10 @@ void FocalSettings::describe(Schema<FocalSettings>& s) {
   s.field("max_depth", &S::max_depth, "Depth of the finest cells: edges are 2^-(depth + 1)")
       .at_least(0)
       .at_most(Octree::kMostLevels - 1);
-  s.field("narrowing_iterations", &S::narrowing_iterations,
-          "How many of the last training iterations narrow the density to true focal points")
+  s.field(
+       "narrowing_iterations", &S::narrowing_iterations,
+       "How many of the last training iterations narrow the density to true focal points; at most "
+       "a third of them all")
       .at_least(0);
   s.field("splat_extent", &S::splat_extent,
           "What a path meets: all of each segment's line (paper), or the segment alone unless its "
@@ -51,6 +57,14 @@ void FocalSettings::describe(Schema<FocalSettings>& s) {
           "After training, nodes in which no leaf is denser than this many times their mean become "
           "leaves; 0 keeps all")
       .at_least(0);
+}
+
+FocalLearner::FocalLearner(const Settings& settings) : settings_(settings) {
+  if (!settings.region) return;
+  const Vec3 extent = settings.region->high - settings.region->low;
+  if (!(extent.x > 0 && extent.y > 0 && extent.z > 0)) {
+    throw InputError("the region's upper corner must be above its lower one along every axis");
+  }
 }
 
 LearnerTraits FocalLearner::traits() const {

@@ -32,7 +32,7 @@ struct RegionSettings {
 /// Parameters of the method; the defaults are the paper's.
 struct FocalSettings {
   std::optional<RegionSettings> region;
-  bool grow_region = false;
+  int region_growths = 0;
   float split_threshold = 1e-3f;
   int max_depth = 14;
   int narrowing_iterations = 5;
@@ -50,7 +50,8 @@ struct FocalSettings {
 class FocalLearner final : public Learner {
  public:
   using Settings = FocalSettings;
-  explicit FocalLearner(const Settings& settings) : settings_(settings) {}
+  /// Throws InputError for a region without volume.
+  explicit FocalLearner(const Settings& settings);
 
   LearnerTraits traits() const override;
   std::unique_ptr<LearningState> begin(const LearningContext& context) const override;

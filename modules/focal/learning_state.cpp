@@ -54,6 +54,10 @@ void fold(std::vector<double>& masses, const std::vector<double>& sums, double d
   }
 }
 
+[[noreturn]] void fail() {
+  throw InputError("what was learned of focal points is damaged");
+}
+
 void save_masses(const std::vector<double>& masses, std::ostream& out) {
   for (const double mass : masses) save_number(out, mass);
 }
@@ -62,7 +66,7 @@ std::vector<double> load_masses(std::istream& in, std::size_t count) {
   std::vector<double> masses(count);
   for (double& mass : masses) {
     mass = load_finite<double>(in);
-    if (mass < 0) throw InputError("what was learned of focal points is damaged");
+    if (mass < 0) fail();
   }
   return masses;
 }
@@ -91,7 +95,8 @@ Vec3 load_vector(std::istream& in) {
 void save_segment(const Segment& s, std::ostream& out) {
   save_vector(s.origin, out);
   save_vector(s.direction, out);
-  for (const float number : {s.length, s.contribution, s.unguided_pdf, s.unguided_fraction}) {
+  for (const float number :
+       {s.length, s.contribution, s.unguided_pdf, s.guided_pdf, s.unguided_fraction}) {
     save_number(out, number);
   }
   save_number(out, s.whole_line);
@@ -100,8 +105,10 @@ void save_segment(const Segment& s, std::ostream& out) {
 Segment load_segment(std::istream& in) {
   Segment s{.origin = load_vector(in), .direction = load_vector(in)};
   s.length = load_number<float>(in);  // infinite where it left the scene
+  if (!(s.length > 0)) fail();
   s.contribution = load_finite<float>(in);
   s.unguided_pdf = load_finite<float>(in);
+  s.guided_pdf = load_finite<float>(in);
   s.unguided_fraction = load_finite<float>(in);
   s.whole_line = load_number<std::uint8_t>(in) != 0;
   return s;
@@ -111,18 +118,19 @@ Segment load_segment(std::istream& in) {
 
 FocalState::FocalState(const FocalSettings& settings, const LearningContext& context)
     : settings_(settings),
-      first_narrowing_(
-          context.iterations -
-          std::min(context.iterations, static_cast<std::uint32_t>(settings.narrowing_iterations))),
+      first_narrowing_(context.iterations -
+                       std::min(context.iterations / 3,
+                                static_cast<std::uint32_t>(settings.narrowing_iterations))),
       max_depth_(settings.max_depth),
+      growths_left_(settings.region_growths),
       sums_(density_) {
   const Box box = region_box(region_of(settings, context));
   diagonal_ = diagonal(box);
-  // Learning starts from the even density, divided by the rule of splits.
+  // Learning starts from the even density in both octrees, each divided as if it had all mass.
   converging_ = diverging_ =
       refined(uniform_octree(box, 0.5),
-              {.threshold = settings.split_threshold, .max_depth = max_depth_, .total_mass = 0.5});
-  refine(1);
+              {.threshold = settings.split_threshold / 2, .max_depth = max_depth_});
+  use_octrees();
 }
 
 bool FocalState::narrows(std::uint32_t iteration) const {
@@ -173,7 +181,7 @@ std::shared_ptr<const GuidingModel> FocalState::update(std::uint32_t iteration, 
     fold(diverging_.masses, sums_.diverging, kept, static_cast<double>(paths_));
     const double mass = converging_.mass() + diverging_.mass();
     refine(mass);
-    if (settings_.grow_region && !narrows(iteration + 1)) grow_region(mass);
+    if (growths_left_ > 0 && !narrows(iteration + 1)) grow_region(mass);
     knows_something_ = true;
   }
   // Without a guide so far, there is nothing to narrow.
@@ -186,6 +194,10 @@ void FocalState::refine(double total_mass) {
   const SplitRule rule{settings_.split_threshold, max_depth_, total_mass};
   converging_ = refined(converging_, rule);
   diverging_ = refined(diverging_, rule);
+  use_octrees();
+}
+
+void FocalState::use_octrees() {
   density_ = {converging_.octree, diverging_.octree};
   sums_ = FocalSums(density_);
 }
@@ -197,6 +209,7 @@ void FocalState::grow_region(double total_mass) {
   converging_ = enlarged(converging_);
   diverging_ = enlarged(diverging_);
   ++max_depth_;  // cells as small as before
+  --growths_left_;
   refine(total_mass);
 }
 
@@ -214,6 +227,7 @@ void FocalState::save(std::ostream& out) const {
   save_number(out, knows_something_);
   save_number(out, narrowing_);
   save_number(out, max_depth_);
+  save_number(out, growths_left_);
   save_number(out, paths_);
   save_masses(sums_.converging, out);
   save_masses(sums_.diverging, out);
@@ -222,13 +236,22 @@ void FocalState::save(std::ostream& out) const {
 }
 
 void FocalState::load(std::istream& in) {
+  FocalState loaded(*this);
+  loaded.read(in);
+  *this = std::move(loaded);
+}
+
+void FocalState::read(std::istream& in) {
   expect_heading(in, kHeading, kVersion);
   converging_ = load_learned(in);
   diverging_ = load_learned(in);
-  density_ = {converging_.octree, diverging_.octree};
+  if (converging_.octree.box() != diverging_.octree.box()) fail();
+  use_octrees();
   knows_something_ = load_number<std::uint8_t>(in) != 0;
   narrowing_ = load_number<std::uint8_t>(in) != 0;
-  max_depth_ = std::clamp(load_number<int>(in), 0, Octree::kMostLevels - 1);
+  max_depth_ = load_number<int>(in);
+  growths_left_ = load_number<int>(in);
+  if (max_depth_ < 0 || max_depth_ >= Octree::kMostLevels) fail();
   paths_ = load_number<std::uint64_t>(in);
   sums_.converging = load_masses(in, converging_.masses.size());
   sums_.diverging = load_masses(in, diverging_.masses.size());
@@ -240,6 +263,10 @@ void FocalState::load(std::istream& in) {
 
 void FocalState::merge(const LearningState& other) {
   const auto& theirs = dynamic_cast<const FocalState&>(other);
+  if (theirs.converging_.octree != converging_.octree ||
+      theirs.diverging_.octree != diverging_.octree || theirs.narrowing_ != narrowing_) {
+    throw InputError("focal learning of another iteration or scene cannot be merged");
+  }
   sums_.add(theirs.sums_);
   waiting_.insert(waiting_.end(), theirs.waiting_.begin(), theirs.waiting_.end());
   paths_ += theirs.paths_;

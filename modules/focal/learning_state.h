@@ -29,12 +29,16 @@ class FocalState final : public LearningState {
   void splat(std::span<const Segment> segments, FocalSums& sums) const;
   void refine(double total_mass);
   void grow_region(double total_mass);
+  /// Puts the refined octrees in force.
+  void use_octrees();
+  void read(std::istream& in);
   std::shared_ptr<const GuidingModel> model(bool last) const;
 
   FocalSettings settings_;
   std::uint32_t first_narrowing_;  ///< iteration
   double diagonal_;                ///< of the region at first [scene units]
   int max_depth_;
+  int growths_left_;  ///< how often the region may still double
   LearningOctree converging_, diverging_;
   FocalDensity density_;  ///< in force in this iteration
   bool knows_something_ = false;

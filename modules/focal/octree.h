@@ -88,6 +88,9 @@ class Octree {
   std::size_t leaf_count() const { return nodes_.size() * 7 + 1; }
   /// Levels of leaves; the root's own children are level 1.
   int depth() const;
+  friend bool operator==(const Octree& a, const Octree& b) {
+    return a.box_ == b.box_ && a.nodes_ == b.nodes_;
+  }
   std::size_t size_bytes() const { return nodes_.size() * (sizeof(Node) + sizeof(Warp)); }
 
   /// The density at a point [1/scene unit^3], 0 outside.

@@ -9,7 +9,7 @@ namespace {
 
 constexpr const char* kHeading = "octree";
 constexpr std::uint32_t kVersion = 1;
-constexpr std::uint32_t kMostNodes = 1u << 24;
+constexpr std::uint32_t kMostNodes = 1u << 25;
 
 void expect(bool holds) {
   if (!holds) throw InputError("the octree of the focal model is damaged");

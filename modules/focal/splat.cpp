@@ -39,26 +39,35 @@ double length_within(const Box& box, const Line& line, double begin, double end)
   return std::max(end - begin, 0.0);
 }
 
+/// Splats `contribution` along the line between two distances, by length over `unit`, or over all
+/// of the length there where `unit` is 0.
+void splat_length(const Octree& octree, const Line& line, double begin, double end,
+                  double contribution, double unit, std::vector<double>& sums) {
+  if (unit == 0) unit = length_within(octree.box(), line, begin, end);
+  if (!(unit > 0)) return;
+  const double scale = contribution / unit;
+  add_to_leaves(
+      octree, line, begin, end, sums,
+      [&](const Octree::Node&, unsigned, double t0, double t1) { return scale * (t1 - t0); });
+}
+
 void splat_length(const Segment& segment, const FocalDensity& density, double unit,
                   FocalSums& sums) {
   const Line line(segment.origin, segment.direction);
   const Reach reach(segment);
-  if (unit == 0) unit = length_within(density.converging.box(), line, 0, segment.length);
-  if (!(unit > 0)) return;
-  const double scale = segment.contribution / unit;
-  const auto amount = [&](const Octree::Node&, unsigned, double t0, double t1) {
-    return scale * (t1 - t0);
-  };
-  add_to_leaves(density.converging, line, 0, reach.ahead, sums.converging, amount);
-  add_to_leaves(density.diverging, line, reach.behind, 0, sums.diverging, amount);
+  splat_length(density.converging, line, 0, reach.ahead, segment.contribution, unit,
+               sums.converging);
+  splat_length(density.diverging, line, reach.behind, 0, segment.contribution, unit,
+               sums.diverging);
 }
 
 void splat_narrowed(const Segment& segment, const FocalDensity& density, bool mis_compensation,
                     FocalSums& sums) {
+  const double own = density.directional_density(segment.origin, segment.direction);
   const float unguided = mis_compensation ? segment.unguided_fraction : 0.0f;
-  const double guided = density.directional_density(segment.origin, segment.direction);
+  const double guided = mis_compensation && segment.guided_pdf > 0 ? segment.guided_pdf : own;
   const double pdf = unguided * double{segment.unguided_pdf} + (1 - unguided) * guided;
-  if (!(guided > 0) || !(pdf > 0)) return;
+  if (!(own > 0) || !(pdf > 0)) return;
   const double scale = (1 - unguided) * double{segment.contribution} / pdf;
   const Line line(segment.origin, segment.direction);
   const Reach reach(segment);
@@ -94,6 +103,7 @@ void extract_segments(const PathView& path, const ExtentRule& rule, std::vector<
                         .length = escapes ? kInfinity : length(end.position - vertex.position),
                         .contribution = contribution,
                         .unguided_pdf = directional ? vertex.unguided_pdf : 0.0f,
+                        .guided_pdf = directional ? vertex.guided_pdf : 0.0f,
                         .unguided_fraction = vertex.unguided_fraction,
                         .whole_line = meets_whole_line(end, rule)});
   }

@@ -19,7 +19,8 @@ enum class SplatExtent {
 /// How much a cell gets of a contribution before narrowing.
 enum class SplatWeight {
   length,  ///< the length within the cell over the region's diagonal (the paper, eq. 10)
-  share,   ///< the share of the segment's length that lies in the cell (the authors' code)
+  share,   ///< the share of the length that is splatted (the authors' code): a contribution counts
+           ///< the same however long it is, once for each sign
 };
 
 /// A step of a path that a guide could have sampled, and what came of it.
@@ -29,6 +30,7 @@ struct Segment {
   float length = 0;        ///< to its end; infinite where it left the scene
   float contribution = 0;  ///< f/p of all that came along it, mean of the channels; > 0
   float unguided_pdf = 0;  ///< of the BSDF or phase function [1/sr]
+  float guided_pdf = 0;    ///< of all guides [1/sr]; 0: not known
   float unguided_fraction = 1;
   bool whole_line = false;  ///< meets points anywhere on its line, not just up to its end
 };
@@ -56,13 +58,13 @@ struct FocalSums {
 };
 
 /// Splats lengths within cells times contributions (eq. 10). Lengths are relative to `unit`
-/// [scene units], or to each segment's own length within the region where `unit` is 0.
+/// [scene units], or to all of the length that goes into an octree where `unit` is 0.
 void splat_lengths(std::span<const Segment> segments, const FocalDensity& density, double unit,
                    FocalSums& sums);
 
 /// Splats contributions in proportion to how likely each cell would have sampled the segment
-/// (iterative narrowing with MIS compensation, eq. 11, 12 and 14; without compensation the guide
-/// counts as the only technique).
+/// (iterative narrowing with MIS compensation, eq. 11, 12 and 14; without compensation this guide
+/// counts as the only technique). Other guides beside this one are techniques too.
 void splat_narrowed(std::span<const Segment> segments, const FocalDensity& density,
                     bool mis_compensation, FocalSums& sums);
 

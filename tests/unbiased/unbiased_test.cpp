@@ -23,6 +23,10 @@ struct Method {
   std::vector<std::string> settings;
 };
 
+Method focal_learned() {
+  return {"focal learned", {"learner=focal", "guider=focal", "mixing=learned"}};
+}
+
 Method focal(float unguided_fraction, const char* extent, const char* images) {
   return {fmt::format("focal {} {} {}", unguided_fraction, extent, images),
           {fmt::format("learner={{ type: focal, splat_extent: {} }}", extent), "guider=focal",
@@ -30,11 +34,16 @@ Method focal(float unguided_fraction, const char* extent, const char* images) {
            fmt::format("training={{ images: {} }}", images)}};
 }
 
-/// A pairwise covering array of unguided fractions, extents of splats and uses of training images.
+/// A pairwise covering array of unguided fractions, extents of splats and uses of training images,
+/// and fractions that are learned.
 std::vector<Method> methods() {
-  return {focal(0.1f, "line", "discard"), focal(0.5f, "roughness_gated", "discard"),
-          focal(0.9f, "line", "combine"), focal(0.1f, "roughness_gated", "combine"),
-          focal(0.5f, "line", "combine"), focal(0.9f, "roughness_gated", "discard")};
+  return {focal(0.1f, "line", "discard"),
+          focal(0.5f, "roughness_gated", "discard"),
+          focal(0.9f, "line", "combine"),
+          focal(0.1f, "roughness_gated", "combine"),
+          focal(0.5f, "line", "combine"),
+          focal(0.9f, "roughness_gated", "discard"),
+          focal_learned()};
 }
 
 LoadedConfig proof(const std::filesystem::path& config, const std::vector<std::string>& guiding) {

@@ -119,7 +119,7 @@ TEST_CASE("focal learner: mass gathers in the hole, and narrowing gathers more o
 
 TEST_CASE("focal learner: the region grows to a focal point outside of the scene") {
   constexpr Point3 kImage{0.4f, 1.6f, 9};
-  const auto fixed = trained({}, 1, kImage), grown = trained({.grow_region = true}, 1, kImage);
+  const auto fixed = trained({}, 1, kImage), grown = trained({.region_growths = 3}, 1, kImage);
   const double before = hits(*fixed, kImage), after = hits(*grown, kImage);
   MESSAGE("share of directions through the image: " << before << ", with a region that grew "
                                                     << after);
@@ -128,7 +128,7 @@ TEST_CASE("focal learner: the region grows to a focal point outside of the scene
   CHECK(after > 0.3);
   CHECK(after > 5 * before);
   // What lies within the scene makes it grow no more than once.
-  const auto inside = trained({.grow_region = true});
+  const auto inside = trained({.region_growths = 3});
   CHECK(inside->bounds().diagonal() <= 2.001f * fixed->bounds().diagonal());
 }
 
@@ -176,6 +176,71 @@ TEST_CASE("focal learner: what is absorbed in pieces or merged is what is absorb
   half->merge(*other);
   CHECK(saved(*whole) == saved(*half));
   CHECK(saved(*whole->update(0, false)) == saved(*half->update(0, false)));
+}
+
+TEST_CASE("focal learner: what another iteration absorbed is not merged") {
+  const FocalLearner learner(FocalSettings{});
+  const auto state = learner.begin(context()), later = learner.begin(context());
+  later->absorb(hole_paths(1000, 1));
+  later->update(0, false);
+  CHECK_THROWS_AS(state->merge(*later), InputError);
+}
+
+TEST_CASE("focal learner: learning starts from 16 x 16 x 16 cells of each sign") {
+  // 585 nodes of 8 children, each with an index or density, a mass and a sum.
+  const std::size_t numbers = 2 * 585 * 8 * (sizeof(float) + 2 * sizeof(double));
+  const std::size_t size = saved(*FocalLearner(FocalSettings{}).begin(context())).size();
+  CHECK(size > numbers);
+  CHECK(size < numbers + 1000);
+}
+
+TEST_CASE("focal learner: decay keeps a share of what earlier iterations found") {
+  const auto mass_of_first = [](float decay) {
+    const auto state = FocalLearner({.narrowing_iterations = 0, .decay = decay}).begin(context());
+    state->absorb(hole_paths(1000, 1));
+    state->update(0, false);
+    state->absorb(hole_paths(1000, 2, 1, {-1, 2, 6}));  // light moves to another place
+    const auto model = state->update(1, false);
+    return model->density(kCenter) / (model->density(kCenter) + model->density({-1, 2, 6}));
+  };
+  const double forgotten = mass_of_first(0), kept = mass_of_first(0.5f);
+  MESSAGE("density at the old place over both: " << forgotten << ", with decay 0.5 " << kept);
+  CHECK(forgotten < 0.05);
+  CHECK(kept > 0.2);
+}
+
+TEST_CASE("focal learner: narrowing has a decay of its own") {
+  // The last of three iterations narrows.
+  const auto after = [](float decay, float narrowing_decay) {
+    const auto state =
+        FocalLearner({.decay = decay, .narrowing_decay = narrowing_decay}).begin(context(1, 3));
+    for (std::uint32_t i = 0; i < 2; ++i) {
+      state->absorb(hole_paths(500, 1 + i));
+      state->update(i, false);
+    }
+    state->absorb(hole_paths(500, 3));
+    return saved(*state->update(2, false));
+  };
+  CHECK(after(0, 0) != after(0, 0.25f));
+  CHECK(after(0, 0) == after(0, 0));
+}
+
+TEST_CASE("focal learner: a region that is given, and cells no finer than asked for") {
+  FocalSettings settings{.region = RegionSettings{{-1, 0.5f, 3}, {1, 2, 5}}, .max_depth = 3};
+  const auto model = trained(settings);
+  CHECK(model->bounds().low == Point3{-1, 0.5f, 3});
+  CHECK(model->bounds().high == Point3{1, 2, 5});
+  CHECK(model->focal_density().converging.depth() <= 4);
+  settings.region->high.y = 0.5f;
+  CHECK_THROWS_AS(FocalLearner{settings}, InputError);
+}
+
+TEST_CASE("focal learner: the behaviour of the authors' code learns too") {
+  const auto model = trained({.splat_extent = SplatExtent::roughness_gated,
+                              .splat_weight = SplatWeight::share,
+                              .decay = 0.5f,
+                              .narrowing_decay = 0.25f});
+  CHECK(hits(*model) > 0.3);
 }
 
 TEST_CASE("focal learner: saved learning goes on where it stopped") {
@@ -238,7 +303,10 @@ TEST_CASE("focal model: cut or damaged files are refused") {
         static_cast<char>(1 << (i % 8));
     try {
       const auto model = load(damaged);
-      CHECK(model->density(kCenter) >= 0);  // a density was changed, not the shape
+      // A density was changed, so little that it is one still.
+      const FocalDensity& density = dynamic_cast<const FocalModel&>(*model).focal_density();
+      CHECK(density.converging.mass() + density.diverging.mass() ==
+            doctest::Approx(1).epsilon(1e-3));
     } catch (const InputError&) {
     }
   }

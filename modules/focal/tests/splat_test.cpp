@@ -128,7 +128,8 @@ TEST_CASE("splat: lengths within the region, each sign its part of the line") {
       CHECK(total(sums.diverging) == doctest::Approx(2.5 * behind / 2).epsilon(1e-3));
       FocalSums shares(density);
       splat_lengths({&s, 1}, density, 0, shares);
-      CHECK(total(shares.converging) == doctest::Approx(2.5 * ahead / s.length).epsilon(1e-3));
+      CHECK(total(shares.converging) == doctest::Approx(2.5).epsilon(1e-6));
+      CHECK(total(shares.diverging) == doctest::Approx(whole_line ? 2.5 : 0).epsilon(1e-6));
     }
   }
 }
@@ -181,6 +182,16 @@ TEST_CASE("splat: narrowing shares out what the guide would have sampled (eq. 14
     CHECK(sums.total() == doctest::Approx(2.5 * share).epsilon(1e-5));
     CHECK(alone.total() == doctest::Approx(2.5).epsilon(1e-5));
   }
+}
+
+TEST_CASE("splat: what other guides sample well is left to them") {
+  const FocalDensity density = test_densities()[2].density;
+  Segment s = segment({0, 1, 2.5f}, {0.1f, 1.3f, 3.7f}, true);
+  const double own = density.directional_density(s.origin, s.direction);
+  s.guided_pdf = static_cast<float>(10 * own);  // of a mixture of guides
+  FocalSums sums(density);
+  splat_narrowed({&s, 1}, density, true, sums);
+  CHECK(sums.total() == doctest::Approx(2.5 * 0.5 * own / (0.5 * 0.4 + 0.5 * 10 * own)));
 }
 
 TEST_CASE("splat: the weight of one cell is its share of the density (eq. 12)") {
