@@ -210,10 +210,12 @@ TEST_CASE("an output folder belongs to one experiment, and to one process at a t
   const std::string same =
       fmt::format("experiment {0}/test.yaml -o {0}/test", folder.path().string());
   auto busy = std::async(std::launch::async, [&] {
-    return interrupt_pharos("experiment test.yaml --set seeds=10000 -q", folder.path(), 3, "INT");
+    return interrupt_pharos_once("done", "experiment test.yaml --set seeds=10000 -q", folder.path(),
+                                 "INT");
   });
-  std::this_thread::sleep_for(std::chrono::seconds(1));
+  CHECK(appears(folder.path() / "test/runs/deep/independent/seed-2.json"));
   const Outcome second = run_pharos(same, elsewhere.path());
+  folder.write("done", "");
   CHECK(second.exit_code == 2);
   CHECK(second.err.find("another process is at work here") != std::string::npos);
   CHECK(busy.get().exit_code == 130);
@@ -261,7 +263,8 @@ TEST_CASE("a method that learns: checkpoints after training, sizes, pictures of 
 TEST_CASE("Ctrl-C keeps finished runs and reports them; the same command goes on") {
   const ScratchFolder folder;
   write_experiment(folder, "spp: 16", 200);
-  const Outcome outcome = interrupt_pharos("experiment test.yaml", folder.path(), 2.5, "INT");
+  const Outcome outcome = interrupt_pharos_once("test/runs/deep/independent/seed-1.exr",
+                                                "experiment test.yaml", folder.path(), "INT");
   CHECK(outcome.exit_code == 130);
   REQUIRE(folder.has("test/results.json"));
   CHECK(read_text(folder.path() / "test/results.json").find("\"complete\": false") !=

@@ -1,12 +1,14 @@
 #include "process.h"
 
 #include <algorithm>
+#include <chrono>
 #include <fstream>
 #include <iterator>
 #include <pty.h>
 #include <stdlib.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
+#include <thread>
 #include <unistd.h>
 
 #include <fmt/format.h>
@@ -63,6 +65,21 @@ Outcome interrupt_pharos(const std::string& arguments, const std::filesystem::pa
   return run_shell(fmt::format("timeout --preserve-status --signal={} {} {} {}", signal, seconds,
                                PHAROS_PROGRAM, arguments),
                    folder);
+}
+
+Outcome interrupt_pharos_once(const std::string& file, const std::string& arguments,
+                              const std::filesystem::path& folder, const char* signal) {
+  return run_shell(fmt::format("{{ '{}' {} & n=0; until [ -e '{}' ] || [ $n -ge 2400 ]; do "
+                               "sleep 0.05; n=$((n+1)); done; kill -{} $!; wait $!; }}",
+                               PHAROS_PROGRAM, arguments, file, signal),
+                   folder);
+}
+
+bool appears(const std::filesystem::path& file) {
+  for (int i = 0; i < 2400 && !std::filesystem::exists(file); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  return std::filesystem::exists(file);
 }
 
 Outcome run_pharos_on_terminal(const std::string& arguments, const std::filesystem::path& folder) {

@@ -26,6 +26,12 @@ Outcome run_pharos(const std::string& arguments, const std::filesystem::path& fo
 /// As above, with `signal` ("INT", "TERM") after `seconds`.
 Outcome interrupt_pharos(const std::string& arguments, const std::filesystem::path& folder,
                          double seconds, const char* signal);
+/// As above, with `signal` once `file` is in `folder`, however long that takes on a busy machine
+/// (at most two minutes).
+Outcome interrupt_pharos_once(const std::string& file, const std::string& arguments,
+                              const std::filesystem::path& folder, const char* signal);
+/// Waits for a file for at most two minutes; whether it is there.
+bool appears(const std::filesystem::path& file);
 
 /// Runs `pharos ARGUMENTS` on a terminal of its own, which takes output and messages alike: `out`
 /// is all that it received, `err` is empty.
