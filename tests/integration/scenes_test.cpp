@@ -5,6 +5,8 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include <pharos/experiments/plan.h>
+
 #include "renders.h"
 
 namespace pharos::testing {
@@ -43,6 +45,18 @@ TEST_CASE("every config loads and renders something") {
     ++configs;
   }
   CHECK(configs >= 18);
+}
+
+TEST_CASE("every experiment can be planned") {
+  int experiments = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(kConfigs / "experiments")) {
+    CAPTURE(entry.path().string());
+    const ExperimentConfig config = load_experiment(entry.path(), {}, registry());
+    CHECK(plan_experiment(config, registry()).cells.size() ==
+          config.scenes.size() * config.methods.size());
+    ++experiments;
+  }
+  CHECK(experiments >= 3);
 }
 
 TEST_CASE("furnace: nothing can be seen, anywhere in the image") {
