@@ -105,7 +105,7 @@ void save_segment(const Segment& s, std::ostream& out) {
 Segment load_segment(std::istream& in) {
   Segment s{.origin = load_vector(in), .direction = load_vector(in)};
   s.length = load_number<float>(in);  // infinite where it left the scene
-  if (!(s.length > 0)) fail();
+  if (!(s.length >= 0)) fail();
   s.contribution = load_finite<float>(in);
   s.unguided_pdf = load_finite<float>(in);
   s.guided_pdf = load_finite<float>(in);
