@@ -5,9 +5,9 @@
 namespace pharos::focal {
 
 double FocalDensity::directional_density(Point3 from, Vec3 direction) const {
-  const Line line(from, direction);
-  return converging.directional_density(line, 0, kInfinity) +
-         diverging.directional_density(line, -kInfinity, 0);
+  const Line line(converging.box(), from, direction);
+  return converging.directional_density(line, Side::ahead) +
+         diverging.directional_density(line, Side::behind);
 }
 
 std::optional<Vec3> FocalDensity::sample_direction(Point3 from, float sign, Vec2 u, float v) const {

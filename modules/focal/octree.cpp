@@ -30,14 +30,18 @@ bool Box::contains(Point3 p) const {
   return true;
 }
 
-Line::Line(Point3 from, Vec3 direction) {
+Line::Line(const Box& box, Point3 from, Vec3 direction) {
   // Along a zero component the line meets planes at no distance that matters. Where it lies within
   // a plane between cells, what is ahead of the origin counts to the upper cell and what is behind
   // to the lower one: never to both.
   constexpr double kParallel = 1e60;
   for (int axis = 0; axis < 3; ++axis) {
-    origin[axis] = from[axis];
-    reciprocal[axis] = direction[axis] != 0 ? 1.0 / direction[axis] : kParallel;
+    const double reciprocal = direction[axis] != 0 ? 1.0 / direction[axis] : kParallel;
+    const double size = box.size[axis] * reciprocal;
+    const double low = (box.low[axis] - from[axis]) * reciprocal;
+    entry[axis] = low + std::min(size, 0.0);
+    width[axis] = std::abs(size);
+    downwards[axis] = size < 0;
   }
 }
 
@@ -92,15 +96,23 @@ double Octree::density(Point3 p) const {
   }
 }
 
-double Octree::directional_density(const Line& line, double begin, double end) const {
-  Lanes sums{};
-  traverse(line, begin, end, [&](std::uint32_t, const Node& node, const Spans& spans) {
-    const Lanes &t0 = spans.begin, &t1 = spans.end;
+double Octree::directional_density(const Line& line, Side side) const {
+  Quad sum{};
+  const auto add = [&](std::uint32_t, const Node& node, const Spans& spans) {
+    const Lanes lengths = spans.lengths(), densities = node.densities();
     // t1^3 - t0^3, without its cancellation.
-    const Lanes cubes = larger(t1 - t0, Lanes{}) * (t1 * t1 + t1 * t0 + t0 * t0);
-    sums = sums + node.densities() * cubes;
-  });
-  return sums.sum() / 3;
+    const auto cubes = [](const Quad& length, const Quad& t0, const Quad& t1) {
+      return length * (t1 * (t1 + t0) + t0 * t0);
+    };
+    sum = sum + (densities.lower * cubes(lengths.lower, spans.begin.lower, spans.end.lower) +
+                 densities.upper * cubes(lengths.upper, spans.begin.upper, spans.end.upper));
+  };
+  if (side == Side::ahead) {
+    traverse<Side::ahead>(line, add);
+  } else {
+    traverse<Side::behind>(line, add);
+  }
+  return sum.sum() / 3;
 }
 
 Double3 Octree::sample(const Double3& u) const {

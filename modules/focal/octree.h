@@ -30,22 +30,28 @@ struct Box {
   friend bool operator==(const Box&, const Box&) = default;
 };
 
-/// A line with the reciprocals that crossings need. Distances along it are in scene units, as the
-/// direction is a unit vector; before the origin they are negative.
+/// A line as a box sees it. Distances along it are in scene units, as the direction is a unit
+/// vector; before the origin they are negative.
 struct Line {
-  Line(Point3 from, Vec3 direction);
+  Line(const Box& box, Point3 from, Vec3 direction);
 
-  Double3 origin, reciprocal;
+  Double3 entry;                  ///< where it enters the slab of the box, by axis
+  Double3 width;                  ///< how long it stays in there, by axis
+  std::array<bool, 3> downwards;  ///< by axis
 };
 
+/// The two halves of a line at its origin.
+enum class Side { ahead, behind };
+
 /// Stretches of a line within the eight children of a node [scene units]; a child that the line
-/// misses has begin >= end.
+/// misses has end < begin.
 struct Spans {
   Lanes begin, end;
 
-  void limit(const Lanes& low, const Lanes& high) {
-    begin = larger(begin, low);
-    end = smaller(end, high);
+  /// At least 0.
+  Lanes lengths() const {
+    const Lanes signed_lengths = end - begin;
+    return {larger(signed_lengths.lower, Quad{}), larger(signed_lengths.upper, Quad{})};
   }
 };
 
@@ -95,19 +101,19 @@ class Octree {
 
   /// The density at a point [1/scene unit^3], 0 outside.
   double density(Point3 p) const;
-  /// The integral of density t^2 dt over `line` between distances [1/sr]: the density of directions
-  /// that point to (or away from) points drawn from the tree (Rath et al. 2023, eq. 4, 6 and 7).
-  double directional_density(const Line& line, double begin, double end) const;
+  /// The integral of density t^2 dt over a side of `line`, a line through box() [1/sr]: the density
+  /// of directions that point to (or, behind, away from) points drawn from the tree (Rath et al.
+  /// 2023, eq. 4, 6 and 7).
+  double directional_density(const Line& line, Side side) const;
   /// A point drawn with density() / mass() from numbers in [0, 1): hierarchical sample warping
   /// (McCool and Harwood 1997).
   Double3 sample(const Double3& u) const;
 
-  /// Calls `visit(i, node, spans)` for every node i that `line` crosses between distances `begin`
-  /// and `end`, with the stretches within its children. In no particular but always the same order.
+  /// Calls `visit(i, node, spans)` for every node i that a side of `line` (of a line through box())
+  /// crosses, with the stretches within its children. In no particular but always the same order.
   /// Inlined, so that sums of visitors stay in registers.
-  template <class Visit>
-  [[gnu::always_inline]] void traverse(const Line& line, double begin, double end,
-                                       Visit&& visit) const;
+  template <Side side, class Visit>
+  [[gnu::always_inline]] void traverse(const Line& line, Visit&& visit) const;
 
  private:
   struct Steps;
@@ -120,14 +126,11 @@ class Octree {
     float x = 0.5f, y[2] = {0.5f, 0.5f}, z[4] = {0.5f, 0.5f, 0.5f, 0.5f};
   };
 
-  /// Makes the root the only child of `front`.
-  Steps enter(const Line& line, Front& front) const;
   /// Visits up to eight of the `pending` nodes of `front`, and takes them off. Their children go to
   /// `next`; returns those of them that are to be visited, as bits.
-  template <class Visit>
+  template <Side side, class Visit>
   [[gnu::always_inline]] std::uint64_t cross(const Front& front, std::uint64_t& pending,
-                                             const Steps& steps, const Spans& whole, Front& next,
-                                             Visit& visit) const;
+                                             const Steps& steps, Front& next, Visit& visit) const;
 
   Box box_;
   std::vector<Node> nodes_;
@@ -135,91 +138,103 @@ class Octree {
   double mass_ = 0;
 };
 
-/// What the crossings of all nodes of one level have in common.
+/// What the crossings of all nodes of one level have in common. The children below one another
+/// along z are computed together: x and y are the same for them.
 struct Octree::Steps {
-  Lanes half[3];    ///< width of a child along the line, by axis [scene units]
-  Lanes beyond[3];  ///< how much later the line enters each child than its node, by axis
+  explicit Steps(const Line& line);
+
+  Quad half_x, half_y, half_z;  ///< width of a child along the line [scene units]
+  Quad x, y, lower_z,
+      upper_z;  ///< how much later the line enters each child's slabs than its node's
 
   void scale(double factor) {
-    for (int axis = 0; axis < 3; ++axis) {
-      half[axis] = half[axis] * Lanes::all(factor);
-      beyond[axis] = beyond[axis] * Lanes::all(factor);
+    for (Quad* quad : {&half_x, &half_y, &half_z, &x, &y, &lower_z, &upper_z}) {
+      *quad = *quad * Quad::all(factor);
     }
   }
 };
 
 /// The children of up to eight nodes that a line crosses on one level.
 struct alignas(64) Octree::Front {
-  double planes[3][64];        ///< where the line enters their slabs, by axis
+  double x[64], y[64], z[64];  ///< where the line enters their slabs
   std::uint32_t children[64];  ///< as in nodes
   std::uint64_t pending;       ///< those that have yet to be visited
 };
 
-inline Octree::Steps Octree::enter(const Line& line, Front& front) const {
-  // All crossings are computed from the planes through which the line enters the box, one for each
-  // axis, and half a width further for children beyond the middle.
-  Steps steps;
-  for (unsigned axis = 0; axis < 3; ++axis) {
-    const double size = box_.size[axis] * line.reciprocal[axis];
-    const double low = (box_.low[axis] - line.origin[axis]) * line.reciprocal[axis];
-    front.planes[axis][0] = low + std::min(size, 0.0);
-    steps.half[axis] = Lanes::all(0.5 * std::abs(size));
-    steps.beyond[axis] = Lanes::load(kBeyond[axis][size < 0 ? 1 : 0]) * steps.half[axis];
-  }
-  front.children[0] = 0;
-  return steps;
+inline Octree::Steps::Steps(const Line& line)
+    : half_x(Quad::all(0.5 * line.width[0])),
+      half_y(Quad::all(0.5 * line.width[1])),
+      half_z(Quad::all(0.5 * line.width[2])) {
+  // The children that a line enters last along an axis are those of the upper half, or for lines
+  // that go downwards those of the lower half.
+  alignas(32) static constexpr double kLastX[2][4] = {{0, 1, 0, 1}, {1, 0, 1, 0}};
+  alignas(32) static constexpr double kLastY[2][4] = {{0, 0, 1, 1}, {1, 1, 0, 0}};
+  x = half_x * Quad::load(kLastX[line.downwards[0]]);
+  y = half_y * Quad::load(kLastY[line.downwards[1]]);
+  lower_z = half_z * Quad::all(line.downwards[2] ? 1 : 0);
+  upper_z = half_z * Quad::all(line.downwards[2] ? 0 : 1);
 }
 
-template <class Visit>
+template <Side side, class Visit>
 inline std::uint64_t Octree::cross(const Front& front, std::uint64_t& pending, const Steps& steps,
-                                   const Spans& whole, Front& next, Visit& visit) const {
+                                   Front& next, Visit& visit) const {
   std::uint64_t found = 0;
-  for (int slot = 0; pending != 0 && slot < 64; slot += 8, pending &= pending - 1) {
-    const int at = std::countr_zero(pending);
+  for (unsigned slot = 0; pending != 0 && slot < 64; slot += 8, pending &= pending - 1) {
+    const auto at = static_cast<unsigned>(std::countr_zero(pending));
     const std::uint32_t i = front.children[at] & ~kInner;
-    const Node node = nodes_[i];
-    Spans spans = whole;
-    for (int axis = 0; axis < 3; ++axis) {
-      const Lanes near = Lanes::all(front.planes[axis][at]) + steps.beyond[axis];
-      near.store(&next.planes[axis][slot]);
-      spans.limit(near, near + steps.half[axis]);
-    }
+    const Node& node = nodes_[i];
+    const Quad x = Quad::all(front.x[at]) + steps.x, y = Quad::all(front.y[at]) + steps.y;
+    const Quad z = Quad::all(front.z[at]);
+    const Quad lower_z = z + steps.lower_z, upper_z = z + steps.upper_z;
+    Quad begin = larger(x, y), end = smaller(x + steps.half_x, y + steps.half_y);
+    if constexpr (side == Side::ahead) begin = larger(begin, Quad{});
+    if constexpr (side == Side::behind) end = smaller(end, Quad{});
+    const Spans spans{{larger(begin, lower_z), larger(begin, upper_z)},
+                      {smaller(end, lower_z + steps.half_z), smaller(end, upper_z + steps.half_z)}};
+    // All that a child may need, at its own place: which will be visited is not known yet.
+    for (const unsigned half : {0u, 4u})
+      x.store(&next.x[slot + half]), y.store(&next.y[slot + half]);
+    lower_z.store(&next.z[slot]);
+    upper_z.store(&next.z[slot + 4]);
     std::copy_n(node.children.begin(), 8, &next.children[slot]);
     visit(i, node, spans);
-    found |= std::uint64_t{less_bits(spans.begin, spans.end) & node.inner_bits()} << slot;
+    const unsigned crossed = ~negative_bits(spans.end - spans.begin) & node.inner_bits();
+    found |= std::uint64_t{crossed} << slot;
   }
   return found;
 }
 
-template <class Visit>
-inline void Octree::traverse(const Line& line, double begin, double end, Visit&& visit) const {
+template <Side side, class Visit>
+inline void Octree::traverse(const Line& line, Visit&& visit) const {
   // Level by level, as nodes of one level can be worked on at once. Where the children of a node
   // are put depends on the number of nodes before it alone, so that the processor need not wait for
   // what these hold; a mask tells which children are to be visited. More than eight nodes of a
   // level are taken in several rounds.
   Front fronts[kMostLevels + 1];
-  Steps steps = enter(line, fronts[0]);
-  const Spans whole{Lanes::all(begin), Lanes::all(end)};
+  Front* front = fronts;
+  front->x[0] = line.entry[0];
+  front->y[0] = line.entry[1];
+  front->z[0] = line.entry[2];
+  front->children[0] = 0;
+  Steps steps(line);
   std::uint32_t unfinished = 0;  // levels with nodes left for another round
-  int level = 0;
   for (std::uint64_t pending = 1;;) {
-    const std::uint64_t found =
-        cross(fronts[level], pending, steps, whole, fronts[level + 1], visit);
+    const std::uint64_t found = cross<side>(*front, pending, steps, front[1], visit);
     if (pending != 0) [[unlikely]] {
-      fronts[level].pending = pending;
-      unfinished |= 1u << level;
+      front->pending = pending;
+      unfinished |= 1u << (front - fronts);
     }
     if (found != 0) {
       pending = found;
-      ++level;
+      ++front;
       steps.scale(0.5);
     } else {
       if (unfinished == 0) return;
-      const int back = std::bit_width(unfinished) - 1;
-      unfinished ^= 1u << back;
-      pending = fronts[back].pending;
-      steps.scale(1u << (level - back));
-      level = back;
+      Front* const back = fronts + (std::bit_width(unfinished) - 1);
+      unfinished ^= 1u << (back - fronts);
+      pending = back->pending;
+      steps.scale(1u << (front - back));
+      front = back;
     }
   }
 }

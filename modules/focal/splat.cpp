@@ -13,52 +13,50 @@ struct Reach {
   double ahead, behind;
 };
 
-/// Adds `amount(node, c, t0, t1)` to every leaf that the line crosses within (begin, end).
-template <class Amount>
+/// Adds `amount(node, c, t0, t1)` to every leaf that a side of the line crosses within (begin,
+/// end).
+template <Side side, class Amount>
 void add_to_leaves(const Octree& octree, const Line& line, double begin, double end,
                    std::vector<double>& sums, Amount&& amount) {
   if (!(begin < end)) return;
-  octree.traverse(
-      line, begin, end, [&](std::uint32_t i, const Octree::Node& node, const Spans& spans) {
-        for (unsigned c = 0; c < 8; ++c) {
-          const bool crossed = node.is_leaf(c) && spans.begin[c] < spans.end[c];
-          if (crossed)
-            sums[8 * std::size_t{i} + c] += amount(node, c, spans.begin[c], spans.end[c]);
-        }
-      });
+  octree.traverse<side>(line, [&](std::uint32_t i, const Octree::Node& node, const Spans& spans) {
+    for (unsigned c = 0; c < 8; ++c) {
+      const double t0 = std::max(spans.begin[c], begin), t1 = std::min(spans.end[c], end);
+      if (node.is_leaf(c) && t0 < t1) sums[8 * std::size_t{i} + c] += amount(node, c, t0, t1);
+    }
+  });
 }
 
 /// Length of the line within the box between two distances.
-double length_within(const Box& box, const Line& line, double begin, double end) {
+double length_within(const Line& line, double begin, double end) {
   for (int axis = 0; axis < 3; ++axis) {
-    const double a = (box.low[axis] - line.origin[axis]) * line.reciprocal[axis];
-    const double b = a + box.size[axis] * line.reciprocal[axis];
-    begin = std::max(begin, std::min(a, b));
-    end = std::min(end, std::max(a, b));
+    begin = std::max(begin, line.entry[axis]);
+    end = std::min(end, line.entry[axis] + line.width[axis]);
   }
   return std::max(end - begin, 0.0);
 }
 
 /// Splats `contribution` along the line between two distances, by length over `unit`, or over all
 /// of the length there where `unit` is 0.
+template <Side side>
 void splat_length(const Octree& octree, const Line& line, double begin, double end,
                   double contribution, double unit, std::vector<double>& sums) {
-  if (unit == 0) unit = length_within(octree.box(), line, begin, end);
+  if (unit == 0) unit = length_within(line, begin, end);
   if (!(unit > 0)) return;
   const double scale = contribution / unit;
-  add_to_leaves(
+  add_to_leaves<side>(
       octree, line, begin, end, sums,
       [&](const Octree::Node&, unsigned, double t0, double t1) { return scale * (t1 - t0); });
 }
 
 void splat_length(const Segment& segment, const FocalDensity& density, double unit,
                   FocalSums& sums) {
-  const Line line(segment.origin, segment.direction);
+  const Line line(density.converging.box(), segment.origin, segment.direction);
   const Reach reach(segment);
-  splat_length(density.converging, line, 0, reach.ahead, segment.contribution, unit,
-               sums.converging);
-  splat_length(density.diverging, line, reach.behind, 0, segment.contribution, unit,
-               sums.diverging);
+  splat_length<Side::ahead>(density.converging, line, 0, reach.ahead, segment.contribution, unit,
+                            sums.converging);
+  splat_length<Side::behind>(density.diverging, line, reach.behind, 0, segment.contribution, unit,
+                             sums.diverging);
 }
 
 void splat_narrowed(const Segment& segment, const FocalDensity& density, bool mis_compensation,
@@ -69,13 +67,13 @@ void splat_narrowed(const Segment& segment, const FocalDensity& density, bool mi
   const double pdf = unguided * double{segment.unguided_pdf} + (1 - unguided) * guided;
   if (!(own > 0) || !(pdf > 0)) return;
   const double scale = (1 - unguided) * double{segment.contribution} / pdf;
-  const Line line(segment.origin, segment.direction);
+  const Line line(density.converging.box(), segment.origin, segment.direction);
   const Reach reach(segment);
   const auto amount = [&](const Octree::Node& node, unsigned c, double t0, double t1) {
     return scale * node.density(c) * (t1 - t0) * (t1 * t1 + t1 * t0 + t0 * t0) / 3;
   };
-  add_to_leaves(density.converging, line, 0, reach.ahead, sums.converging, amount);
-  add_to_leaves(density.diverging, line, reach.behind, 0, sums.diverging, amount);
+  add_to_leaves<Side::ahead>(density.converging, line, 0, reach.ahead, sums.converging, amount);
+  add_to_leaves<Side::behind>(density.diverging, line, reach.behind, 0, sums.diverging, amount);
 }
 
 bool meets_whole_line(const RecordedVertex& end, const ExtentRule& rule) {

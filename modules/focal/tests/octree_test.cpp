@@ -14,20 +14,21 @@ namespace {
 using namespace testing;
 
 /// The integral of density t^2 over the line, leaf by leaf without any traversal.
-double summed_over_leaves(const Octree& octree, std::uint32_t node, const Box& box,
-                          const Line& line, double begin, double end) {
+double summed_over_leaves(const Octree& octree, std::uint32_t node, const Box& box, Point3 from,
+                          Vec3 direction, double begin, double end) {
   double sum = 0;
   for (unsigned c = 0; c < 8; ++c) {
     const Box cell = box.child(c);
     if (!octree.nodes()[node].is_leaf(c)) {
-      sum += summed_over_leaves(octree, octree.nodes()[node].index(c), cell, line, begin, end);
+      sum += summed_over_leaves(octree, octree.nodes()[node].index(c), cell, from, direction, begin,
+                                end);
       continue;
     }
     double t0 = begin, t1 = end;
     for (int axis = 0; axis < 3; ++axis) {
-      const double a = (cell.low[axis] - line.origin[axis]) * line.reciprocal[axis];
-      const double b =
-          (cell.low[axis] + cell.size[axis] - line.origin[axis]) * line.reciprocal[axis];
+      const double reciprocal = 1.0 / direction[axis];
+      const double a = (cell.low[axis] - from[axis]) * reciprocal;
+      const double b = (cell.low[axis] + cell.size[axis] - from[axis]) * reciprocal;
       t0 = std::max(t0, std::min(a, b));
       t1 = std::min(t1, std::max(a, b));
     }
@@ -58,10 +59,12 @@ TEST_CASE("octree: the traversal equals the sum over all leaves") {
       const Vec3 direction = i % 2 == 0
                                  ? warp::sphere_from_square(random.next_2d())
                                  : normalize(point_near(random, {0.1f, 1.3f, 3.7f}, 0.03f) - from);
-      const Line line(from, direction);
-      for (const auto& [begin, end] : {std::pair{0.0, 1e30}, {-1e30, 0.0}}) {
-        const double walked = octree.directional_density(line, begin, end);
-        const double summed = summed_over_leaves(octree, 0, octree.box(), line, begin, end);
+      const Line line(octree.box(), from, direction);
+      for (const Side side : {Side::ahead, Side::behind}) {
+        const double begin = side == Side::ahead ? 0 : -1e30, end = side == Side::ahead ? 1e30 : 0;
+        const double walked = octree.directional_density(line, side);
+        const double summed =
+            summed_over_leaves(octree, 0, octree.box(), from, direction, begin, end);
         worst = std::max(worst, std::abs(walked - summed) / std::max(summed, 1e-20));
       }
     }
@@ -85,17 +88,17 @@ TEST_CASE("octree: lines within planes between cells count once") {
     const double reach = 0.5 * box.size[axis];
     const double expected = density * reach * reach * reach / 3;
     for (const float sign : {1.0f, -1.0f}) {
-      const Line line(at(0.5f, 0.5f, 0.5f), sign * direction);
-      CHECK(octree.directional_density(line, 0, kInfinity) == doctest::Approx(expected));
-      CHECK(octree.directional_density(line, -kInfinity, 0) == doctest::Approx(expected));
+      const Line line(box, at(0.5f, 0.5f, 0.5f), sign * direction);
+      CHECK(octree.directional_density(line, Side::ahead) == doctest::Approx(expected));
+      CHECK(octree.directional_density(line, Side::behind) == doctest::Approx(expected));
     }
   }
   // From a face straight inwards, and straight away.
-  const Line inwards(at(0, 0.3f, 0.3f), {1, 0, 0});
-  CHECK(octree.directional_density(inwards, 0, kInfinity) ==
+  const Line inwards(box, at(0, 0.3f, 0.3f), {1, 0, 0});
+  CHECK(octree.directional_density(inwards, Side::ahead) ==
         doctest::Approx(density * std::pow(box.size[0], 3) / 3));
-  CHECK(octree.directional_density(inwards, -kInfinity, 0) == doctest::Approx(0));
-  CHECK(octree.directional_density(Line(at(-1, 0.3f, 0.3f), {-1, 0, 0}), 0, kInfinity) == 0);
+  CHECK(octree.directional_density(inwards, Side::behind) == doctest::Approx(0));
+  CHECK(octree.directional_density(Line(box, at(-1, 0.3f, 0.3f), {-1, 0, 0}), Side::ahead) == 0);
 }
 
 TEST_CASE("octree: points are drawn by density") {
