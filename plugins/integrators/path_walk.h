@@ -300,7 +300,10 @@ class PathWalk {
       value *= medium->transmittance(whole, light.distance);
       resolved.medium_density = medium->pass_probability(whole, light.distance);
     }
-    const StepDensity density = step_density(guidance_, resolved, scatter.pdf);
+    // No direction meets a light without extent: its density is for the record alone.
+    const bool wants_density = Recorder::kRecords || !light.discrete;
+    const StepDensity density =
+        wants_density ? step_density(guidance_, resolved, scatter.pdf) : StepDensity{};
     const float weight =
         light.discrete ? 1.0f : mis_weight(settings_.mis, light.pdf, density.total);
     radiance_ += weight * throughput_ * value;
