@@ -1,0 +1,199 @@
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+#include <Eigen/Core>
+#include <fmt/format.h>
+
+#include <pharos/core/error.h>
+#include <pharos/statistics/point_sets.h>
+
+namespace pharos::statistics {
+namespace {
+
+void check_points(std::span<const Vec2> points) {
+  if (points.empty()) throw InputError("expected at least one point, found none");
+  for (const Vec2 p : points) {
+    if (p.x >= 0 && p.x < 1 && p.y >= 0 && p.y < 1) continue;
+    throw InputError(fmt::format("expected points in [0, 1)^2, found ({}, {})", p.x, p.y));
+  }
+}
+
+/// The cell of u in [0,1) among 2^bits equal ones.
+std::size_t cell_of(float u, int bits) {
+  return static_cast<std::size_t>(std::ldexp(u, bits));
+}
+
+/// Whether each of the 2^a by 2^b cells holds as many points as any other.
+bool fills_evenly(std::span<const Vec2> points, int a, int b, std::vector<std::uint32_t>& counts) {
+  const std::size_t share = points.size() >> (a + b);
+  counts.assign(std::size_t{1} << (a + b), 0);
+  for (const Vec2 p : points) {
+    if (++counts[(cell_of(p.y, b) << a) + cell_of(p.x, a)] > share) return false;
+  }
+  return true;
+}
+
+/// Points whose waves are multiplied at once: few enough to stay in the cache.
+constexpr Eigen::Index kBlock = 256;
+
+/// Cosines and sines of 2 pi f u for u of many points (rows) and f from 0 to the largest
+/// (columns).
+struct Waves {
+  Eigen::ArrayXXd cosines, sines;
+
+  explicit Waves(int max_frequency)
+      : cosines(kBlock, max_frequency + 1), sines(kBlock, max_frequency + 1) {}
+
+  /// Each frequency's waves are those before times the first; unused rows hold zero.
+  void fill(std::span<const Vec2> points, float Vec2::*component) {
+    const auto rows = static_cast<Eigen::Index>(points.size());
+    Eigen::ArrayXd angle = Eigen::ArrayXd::Zero(kBlock), used = Eigen::ArrayXd::Zero(kBlock);
+    for (Eigen::Index i = 0; i < rows; ++i) {
+      angle(i) = 2 * std::numbers::pi * points[static_cast<std::size_t>(i)].*component;
+    }
+    used.head(rows) = 1;
+    const Eigen::ArrayXd c = angle.cos(), s = angle.sin();
+    cosines.col(0) = used;
+    sines.col(0) = 0;
+    for (Eigen::Index f = 1; f < cosines.cols(); ++f) {
+      cosines.col(f) = cosines.col(f - 1) * c - sines.col(f - 1) * s;
+      sines.col(f) = sines.col(f - 1) * c + cosines.col(f - 1) * s;
+    }
+  }
+};
+
+/// Sums over points of the products of the waves of x (rows: frequencies) and y (columns).
+struct Products {
+  Eigen::MatrixXd cos_cos, sin_sin, cos_sin, sin_cos;
+
+  explicit Products(int max_frequency) {
+    for (Eigen::MatrixXd* m : {&cos_cos, &sin_sin, &cos_sin, &sin_cos}) {
+      m->setZero(max_frequency + 1, max_frequency + 1);
+    }
+  }
+  void add(const Waves& x, const Waves& y) {
+    cos_cos.noalias() += x.cosines.matrix().transpose() * y.cosines.matrix();
+    sin_sin.noalias() += x.sines.matrix().transpose() * y.sines.matrix();
+    cos_sin.noalias() += x.cosines.matrix().transpose() * y.sines.matrix();
+    sin_cos.noalias() += x.sines.matrix().transpose() * y.cosines.matrix();
+  }
+  /// The squared modulus of the sum of exp(-2 pi i (x, y).p) for x >= 0, by the angle sum formulas.
+  double power(Eigen::Index x, Eigen::Index y) const {
+    const Eigen::Index up = std::abs(y);
+    const double sign = y < 0 ? -1 : 1;
+    const double real = cos_cos(x, up) - sign * sin_sin(x, up);
+    const double imaginary = sign * cos_sin(x, up) + sin_cos(x, up);
+    return real * real + imaginary * imaginary;
+  }
+};
+
+}  // namespace
+
+double star_discrepancy(std::span<const Vec2> points) {
+  check_points(points);
+  std::vector<Vec2> by_x(points.begin(), points.end());
+  std::ranges::sort(by_x, {}, &Vec2::x);
+  const double share = 1.0 / static_cast<double>(points.size());
+  // The y of the points taken so far, sorted, between 0 and 1.
+  std::vector<double> heights{0, 1};
+  double largest = 0;
+  for (std::size_t taken = 0; taken <= by_x.size(); ++taken) {
+    const double left = taken == 0 ? 0 : by_x[taken - 1].x;
+    const double right = taken == by_x.size() ? 1 : by_x[taken].x;
+    if (taken > 0) {
+      const double y = by_x[taken - 1].y;
+      heights.insert(std::upper_bound(heights.begin(), heights.end() - 1, y), y);
+    }
+    for (std::size_t below = 0; below <= taken; ++below) {
+      const double inside = share * static_cast<double>(below);
+      largest = std::max({largest, std::abs(inside - left * heights[below]),
+                          std::abs(inside - right * heights[below + 1])});
+    }
+  }
+  return largest;
+}
+
+int net_quality(std::span<const Vec2> points) {
+  check_points(points);
+  if (!std::has_single_bit(points.size())) {
+    throw InputError(
+        fmt::format("expected a power of two of points for a net, found {}", points.size()));
+  }
+  const int m = std::countr_zero(points.size());
+  std::vector<std::uint32_t> counts;
+  const auto is_net = [&](int t) {
+    for (int a = 0; a <= m - t; ++a) {
+      if (!fills_evenly(points, a, m - t - a, counts)) return false;
+    }
+    return true;
+  };
+  int t = 0;
+  while (!is_net(t)) ++t;
+  return t;
+}
+
+bool fills_elementary_intervals(std::span<const Vec2> points) {
+  return net_quality(points) == 0;
+}
+
+PowerSpectrum::PowerSpectrum(int max_frequency) : max_frequency_(max_frequency) {
+  if (max_frequency < 1) {
+    throw InputError(fmt::format("expected a positive frequency, found {}", max_frequency));
+  }
+  const auto edge = static_cast<std::size_t>(max_frequency) + 1;
+  sums_.resize(edge * (2 * edge - 1));
+}
+
+void PowerSpectrum::add(std::span<const Vec2> points) {
+  check_points(points);
+  Waves x(max_frequency_), y(max_frequency_);
+  Products products(max_frequency_);
+  for (std::size_t start = 0; start < points.size(); start += kBlock) {
+    const auto block = points.subspan(start, std::min<std::size_t>(kBlock, points.size() - start));
+    x.fill(block, &Vec2::x);
+    y.fill(block, &Vec2::y);
+    products.add(x, y);
+  }
+  const double share = 1.0 / static_cast<double>(points.size());
+  std::size_t place = 0;
+  for (int fx = 0; fx <= max_frequency_; ++fx) {
+    for (int fy = -max_frequency_; fy <= max_frequency_; ++fy) {
+      sums_[place++] += share * products.power(fx, fy);
+    }
+  }
+  ++count_;
+}
+
+double PowerSpectrum::at(int x, int y) const {
+  if (std::max(std::abs(x), std::abs(y)) > max_frequency_) {
+    throw InputError(fmt::format("expected a frequency from -{0} to {0}, found ({1}, {2})",
+                                 max_frequency_, x, y));
+  }
+  if ((x == 0 && y == 0) || count_ == 0) return 0;
+  if (x < 0) return at(-x, -y);
+  const int column = y + max_frequency_;
+  const auto place = static_cast<std::size_t>(x * (2 * max_frequency_ + 1) + column);
+  return sums_[place] / static_cast<double>(count_);
+}
+
+std::vector<double> PowerSpectrum::ring_means() const {
+  std::vector<double> means(static_cast<std::size_t>(max_frequency_) + 1);
+  std::vector<std::size_t> counts(means.size());
+  for (int x = -max_frequency_; x <= max_frequency_; ++x) {
+    for (int y = -max_frequency_; y <= max_frequency_; ++y) {
+      const auto ring = static_cast<std::size_t>(std::lround(std::hypot(x, y)));
+      if (ring >= means.size()) continue;
+      means[ring] += at(x, y);
+      ++counts[ring];
+    }
+  }
+  for (std::size_t ring = 0; ring < means.size(); ++ring) {
+    means[ring] /= static_cast<double>(counts[ring]);
+  }
+  return means;
+}
+
+}  // namespace pharos::statistics
