@@ -147,4 +147,14 @@ Cases cases_of(const Registry& registry, const PluginInfo& plugin, const fs::pat
   return std::move(builder.cases);
 }
 
+std::vector<Subject> first_cases(const Registry& registry, std::string_view contract,
+                                 const fs::path& folder) {
+  std::vector<Subject> all;
+  for (const std::string& name : registry.names(contract)) {
+    Cases cases = cases_of(registry, *registry.find(contract, name), folder);
+    if (!cases.subjects.empty()) all.push_back(std::move(cases.subjects.front()));
+  }
+  return all;
+}
+
 }  // namespace pharos::conformance

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <pharos/config/registry.h>
@@ -44,5 +45,10 @@ struct Cases {
 /// other value of a choice or switch. Relative paths are those of `folder`.
 Cases cases_of(const Registry& registry, const PluginInfo& plugin,
                const std::filesystem::path& folder);
+
+/// The first case of every plugin of a contract, by name: with its defaults or, where it has none,
+/// the first example it states. Plugins without a case are left out.
+std::vector<Subject> first_cases(const Registry& registry, std::string_view contract,
+                                 const std::filesystem::path& folder);
 
 }  // namespace pharos::conformance

@@ -25,5 +25,6 @@ std::vector<Measurement> bench_rays(int repeats);
 std::vector<Measurement> bench_threads(int repeats);
 std::vector<Measurement> bench_startup(int repeats);
 std::vector<Measurement> bench_guiding(int repeats);
+std::vector<Measurement> bench_samplers(int repeats);
 
 }  // namespace pharos::bench

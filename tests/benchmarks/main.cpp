@@ -49,7 +49,8 @@ int run(const Options& options) {
   const std::vector<std::pair<std::string, Benchmark>> benchmarks{{"startup", bench_startup},
                                                                   {"rays", bench_rays},
                                                                   {"threads", bench_threads},
-                                                                  {"guiding", bench_guiding}};
+                                                                  {"guiding", bench_guiding},
+                                                                  {"samplers", bench_samplers}};
   std::vector<Measurement> all;
   for (const auto& [name, benchmark] : benchmarks) {
     if (!options.filter.empty() && name.find(options.filter) == std::string::npos) continue;
