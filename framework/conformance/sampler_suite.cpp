@@ -71,8 +71,8 @@ std::vector<Dimension> dimensions() {
 }
 
 std::string text(Dimension d) {
-  return fmt::format("purpose {}, bounce {}, branch {}", static_cast<int>(d.purpose), d.bounce,
-                     d.branch);
+  return fmt::format("purpose {}, bounce {}, branch {}", static_cast<int>(d.purpose()), d.bounce(),
+                     d.branch());
 }
 
 /// One number of each dimension from every pixel, its sample number running along.

@@ -55,7 +55,7 @@ class FaultySampler final : public Sampler {
       return value_2d(stream, d).x;
     }
     Vec2 value_2d(const SampleStream& stream, Dimension d) const override {
-      if (fault_ == SamplerFault::same_for_all_bounces) d.bounce = 0;
+      if (fault_ == SamplerFault::same_for_all_bounces) d = {d.purpose(), 0, d.branch()};
       Vec2 u = keyed_numbers(stream.state(), d);
       if (fault_ == SamplerFault::squared) u.x = std::pow(u.x, 1.1f);
       if (fault_ == SamplerFault::one && u.x > 0.9999f) u.x = 1;

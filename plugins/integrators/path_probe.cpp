@@ -60,11 +60,11 @@ class PathProbe final : public IntegrandProbe {
     const IterationContext context{.sampler = sampler, .seed = key.seed};
     Arena arena;
     RenderCounters counters;
-    if (dimension.purpose == Purpose::light_position) {
+    if (dimension.purpose() == Purpose::light_position) {
       // A light sample at vertex b belongs to paths of b + 1 segments.
-      LightProbeRecorder recorder({dimension.bounce, dimension.branch});
+      LightProbeRecorder recorder({dimension.bounce(), dimension.branch()});
       PathWalk walk(shared_, context, stream, arena, counters, recorder);
-      walk.run(static_cast<std::uint16_t>(dimension.bounce + 1));
+      walk.run(static_cast<std::uint16_t>(dimension.bounce() + 1));
       return recorder.sum();
     }
     SilentRecorder recorder;
