@@ -39,6 +39,7 @@ int run(int argc, char** argv) {
   add_compare_command(app, exit_code);
   add_experiment_command(app, exit_code);
   add_inspect_command(app, exit_code);
+  add_points_command(app, exit_code);
   add_import_command(app, exit_code);
   try {
     check_command(app, argc, argv);

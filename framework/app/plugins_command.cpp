@@ -124,8 +124,8 @@ void add_plugins_command(CLI::App& app, int&) {
   command->add_option("name", *wanted, "A contract or a plugin");
   command->add_flag("--markdown", *markdown, "Print the reference of all plugins as Markdown");
   command->add_option("--previews", *previews,
-                      "Render pictures of BSDFs, emitters and shapes into this folder, which holds "
-                      "their scenes");
+                      "Make pictures of BSDFs, emitters, shapes and samplers in this folder, which "
+                      "holds their scenes");
   command->callback([wanted, markdown, previews] {
     const Registry registry = load_default_modules();
     if (!previews->empty()) render_previews(registry, *previews);

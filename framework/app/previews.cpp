@@ -8,6 +8,8 @@
 #include <pharos/rendering/render_job.h>
 #include <pharos/scene/emitter.h>
 
+#include "sampler_pictures.h"
+
 namespace pharos {
 namespace {
 
@@ -56,6 +58,15 @@ void render_preview(const PluginInfo& plugin, const ConfigNode& node, const Regi
             loaded.config.output.filmic);
 }
 
+/// The points of each sampler beside their spectrum.
+void draw_samplers(const Registry& registry, const fs::path& folder) {
+  for (const NamedSampler& s : pictured_samplers(registry)) {
+    log_info(fmt::format("preview of the sampler '{}'", s.name));
+    const PluginInfo& plugin = *registry.find(Sampler::contract_name, s.name);
+    write_png(sampler_pictures(std::span(&s, 1)), folder / preview_name(plugin), 0, false);
+  }
+}
+
 }  // namespace
 
 std::string preview_name(const PluginInfo& plugin) {
@@ -72,6 +83,7 @@ void render_previews(const Registry& registry, const fs::path& folder) {
       render_preview(plugin, plugin_node(plugin, chosen, files.path()), registry, folder);
     }
   }
+  draw_samplers(registry, folder);
 }
 
 }  // namespace pharos

@@ -14,8 +14,8 @@ std::string preview_name(const PluginInfo& plugin);
 /// `bsdf.yaml`, `shape.yaml`, `emitter.yaml` and, for emitters that need a shape,
 /// `emitter-on-shape.yaml`; in them a mapping with the key `preview` stands for the plugin, with
 /// what else the mapping says. Its `settings.yaml` states by contract and name with which settings
-/// a plugin is shown; others are shown with their first example or their defaults. Throws
-/// InputError.
+/// a plugin is shown; others are shown with their first example or their defaults. Of samplers it
+/// draws sampler_pictures(). Throws InputError.
 void render_previews(const Registry& registry, const std::filesystem::path& folder);
 
 }  // namespace pharos
