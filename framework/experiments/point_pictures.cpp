@@ -50,7 +50,7 @@ Image points_picture(std::span<const Vec2> points, int edge) {
   draw_frame(image, kEdge);
   const auto size = static_cast<float>(edge);
   const float spacing = size / std::sqrt(static_cast<float>(points.size()));
-  const float radius = std::clamp(0.13f * spacing, kLeastRadius, size / 100);
+  const float radius = std::max(kLeastRadius, std::min(0.13f * spacing, size / 100));
   for (const Vec2 p : points) {
     draw_disk(image, {size * p.x, size * (1 - p.y)}, radius, kInk);
   }
