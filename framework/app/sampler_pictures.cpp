@@ -1,5 +1,7 @@
 #include "sampler_pictures.h"
 
+#include <algorithm>
+
 #include <pharos/conformance/subjects.h>
 #include <pharos/experiments/sampled_points.h>
 
@@ -17,18 +19,21 @@ std::vector<NamedSampler> pictured_samplers(const Registry& registry) {
 
 Image sampler_pictures(std::span<const NamedSampler> samplers,
                        const SamplerPictureOptions& options) {
-  std::vector<Image> points, spectra;
-  for (const NamedSampler& s : samplers) {
-    points.push_back(points_picture(
-        sampled_points(*s.sampler, options.dimension, options.count, options.seed), options.edge));
-    spectra.push_back(
-        spectrum_picture(expected_spectrum(*s.sampler, options.dimension, options.count,
+  constexpr std::size_t kMostColumns = 5;
+  const auto columns = std::min(samplers.size(), kMostColumns);
+  const std::size_t rows = columns == 0 ? 0 : (samplers.size() + columns - 1) / columns;
+  std::vector<Image> pictures(2 * columns * rows);
+  for (std::size_t i = 0; i < samplers.size(); ++i) {
+    const std::size_t place = i / columns * 2 * columns + i % columns;
+    const Sampler& sampler = *samplers[i].sampler;
+    pictures[place] = points_picture(
+        sampled_points(sampler, options.dimension, options.count, options.seed), options.edge);
+    pictures[place + columns] =
+        spectrum_picture(expected_spectrum(sampler, options.dimension, options.count,
                                            options.realisations, options.max_frequency),
-                         options.edge));
+                         options.edge);
   }
-  const int columns = samplers.size() == 1 ? 2 : static_cast<int>(samplers.size());
-  points.insert(points.end(), spectra.begin(), spectra.end());
-  return contact_sheet(points, columns);
+  return contact_sheet(pictures, samplers.size() == 1 ? 2 : static_cast<int>(columns));
 }
 
 }  // namespace pharos

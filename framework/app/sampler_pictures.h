@@ -32,8 +32,8 @@ struct SamplerPictureOptions {
 };
 
 /// The points of one pixel beside their expected power spectrum; of several samplers a column each,
-/// points above, spectrum below. To be written without any tone curve. Samplers must not need a
-/// probe.
+/// points above, spectrum below, five columns side by side. To be written without any tone curve.
+/// Samplers must not need a probe.
 Image sampler_pictures(std::span<const NamedSampler> samplers,
                        const SamplerPictureOptions& options = {});
 

@@ -21,7 +21,8 @@ inline constexpr double kLowestPower = 0.01, kHighestPower = 10;
 /// middle and itself of the lowest colour, x to the right, y up.
 Image spectrum_picture(const statistics::PowerSpectrum& spectrum, int edge);
 
-/// Pictures of one size in rows of `columns` each, white between them.
+/// Pictures of the size of the first in rows of `columns` each, white between them and where one is
+/// empty.
 Image contact_sheet(std::span<const Image> pictures, int columns);
 
 }  // namespace pharos

@@ -24,7 +24,7 @@ struct View {
 
 /// Diffuse light that goes to and fro.
 View cornell_box() {
-  return {"cornell-box", fmt::format("{}/cornell-box/scene.yaml", PHAROS_SCENES), 32};
+  return {"cornell-box", fmt::format("{}/cornell-box/scene.yaml", PHAROS_SCENES), 64};
 }
 
 /// Lamps of all sizes, and lobes that are wide and narrow.

@@ -92,6 +92,8 @@ TEST_CASE("contact sheet: row by row, white where there is nothing") {
   CHECK(sheet.rgb(0, low) == Rgb(0.2f));
   CHECK(sheet.rgb(right, low) == Rgb(1));
   CHECK(sheet.rgb(4, 0) == Rgb(1));
+  pictures[1] = {};
+  CHECK(contact_sheet(pictures, 2).rgb(right, 1) == Rgb(1));
   CHECK(contact_sheet({}, 2).empty());
 }
 
