@@ -159,11 +159,15 @@ TEST_CASE("net quality: of a regular grid of 2^(2k) points it is k") {
 
 TEST_CASE("net quality: points at one place, one point moved to another cell") {
   CHECK(net_quality(Points(64, Vec2{0.3f, 0.6f})) == 6);
-  Points points = sobol(64);
-  CHECK(fills_elementary_intervals(points));
-  // To the same column, one row of 1/64 further: intervals that are one row high notice.
-  points[10].y = std::fmod(points[10].y + 1.0f / 64, 1.0f);
-  CHECK_FALSE(fills_elementary_intervals(points));
+  CHECK(fills_elementary_intervals(sobol(64)));
+  // To the other half of its column or row of 2/64: only the thinnest intervals of one axis notice.
+  for (float Vec2::*axis : {&Vec2::x, &Vec2::y}) {
+    Points points = sobol(64);
+    float& value = points[10].*axis;
+    value += std::fmod(value, 2.0f / 64) < 1.0f / 64 ? 1.0f / 64 : -1.0f / 64;
+    CHECK_FALSE(fills_elementary_intervals(points));
+    CHECK(net_quality(points) == 1);
+  }
 }
 
 TEST_CASE("power spectrum: that of the definition, symmetric") {
