@@ -2,9 +2,9 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <numbers>
 
-#include <Eigen/Core>
 #include <fmt/format.h>
 
 #include <pharos/core/error.h>
@@ -37,55 +37,66 @@ bool fills_evenly(std::span<const Vec2> points, int a, int b, std::vector<std::u
 }
 
 /// Points whose waves are multiplied at once: few enough to stay in the cache.
-constexpr Eigen::Index kBlock = 256;
+constexpr std::size_t kBlock = 64;
 
-/// Cosines and sines of 2 pi f u for u of many points (rows) and f from 0 to the largest
+/// Cosines and sines of 2 pi f u for u of a block of points (rows) and f from 0 to the largest
 /// (columns).
 struct Waves {
-  Eigen::ArrayXXd cosines, sines;
+  std::size_t columns;
+  std::vector<double> cosines, sines;
 
   explicit Waves(int max_frequency)
-      : cosines(kBlock, max_frequency + 1), sines(kBlock, max_frequency + 1) {}
+      : columns(static_cast<std::size_t>(max_frequency) + 1),
+        cosines(kBlock * columns),
+        sines(kBlock * columns) {}
 
-  /// Each frequency's waves are those before times the first; unused rows hold zero.
+  /// Each frequency's waves are those before times the first.
   void fill(std::span<const Vec2> points, float Vec2::*component) {
-    const auto rows = static_cast<Eigen::Index>(points.size());
-    Eigen::ArrayXd angle = Eigen::ArrayXd::Zero(kBlock), used = Eigen::ArrayXd::Zero(kBlock);
-    for (Eigen::Index i = 0; i < rows; ++i) {
-      angle(i) = 2 * std::numbers::pi * points[static_cast<std::size_t>(i)].*component;
-    }
-    used.head(rows) = 1;
-    const Eigen::ArrayXd c = angle.cos(), s = angle.sin();
-    cosines.col(0) = used;
-    sines.col(0) = 0;
-    for (Eigen::Index f = 1; f < cosines.cols(); ++f) {
-      cosines.col(f) = cosines.col(f - 1) * c - sines.col(f - 1) * s;
-      sines.col(f) = sines.col(f - 1) * c + cosines.col(f - 1) * s;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const double angle = 2 * std::numbers::pi * points[i].*component;
+      const double c = std::cos(angle), s = std::sin(angle);
+      double* cosine = &cosines[i * columns];
+      double* sine = &sines[i * columns];
+      cosine[0] = 1, sine[0] = 0;
+      for (std::size_t f = 1; f < columns; ++f) {
+        cosine[f] = cosine[f - 1] * c - sine[f - 1] * s;
+        sine[f] = sine[f - 1] * c + cosine[f - 1] * s;
+      }
     }
   }
 };
 
 /// Sums over points of the products of the waves of x (rows: frequencies) and y (columns).
 struct Products {
-  Eigen::MatrixXd cos_cos, sin_sin, cos_sin, sin_cos;
+  std::size_t edge;
+  std::vector<double> cos_cos, sin_sin, cos_sin, sin_cos;
 
-  explicit Products(int max_frequency) {
-    for (Eigen::MatrixXd* m : {&cos_cos, &sin_sin, &cos_sin, &sin_cos}) {
-      m->setZero(max_frequency + 1, max_frequency + 1);
+  explicit Products(int max_frequency) : edge(static_cast<std::size_t>(max_frequency) + 1) {
+    for (std::vector<double>* all : {&cos_cos, &sin_sin, &cos_sin, &sin_cos}) {
+      all->resize(edge * edge);
     }
   }
-  void add(const Waves& x, const Waves& y) {
-    cos_cos.noalias() += x.cosines.matrix().transpose() * y.cosines.matrix();
-    sin_sin.noalias() += x.sines.matrix().transpose() * y.sines.matrix();
-    cos_sin.noalias() += x.cosines.matrix().transpose() * y.sines.matrix();
-    sin_cos.noalias() += x.sines.matrix().transpose() * y.cosines.matrix();
+  void add(const Waves& x, const Waves& y, std::size_t points) {
+    for (std::size_t row = 0; row < edge; ++row) {
+      double *cc = &cos_cos[row * edge], *ss = &sin_sin[row * edge];
+      double *cs = &cos_sin[row * edge], *sc = &sin_cos[row * edge];
+      for (std::size_t i = 0; i < points; ++i) {
+        const double c = x.cosines[i * edge + row], s = x.sines[i * edge + row];
+        const double *cosine = &y.cosines[i * edge], *sine = &y.sines[i * edge];
+        for (std::size_t f = 0; f < edge; ++f) cc[f] += c * cosine[f];
+        for (std::size_t f = 0; f < edge; ++f) ss[f] += s * sine[f];
+        for (std::size_t f = 0; f < edge; ++f) cs[f] += c * sine[f];
+        for (std::size_t f = 0; f < edge; ++f) sc[f] += s * cosine[f];
+      }
+    }
   }
   /// The squared modulus of the sum of exp(-2 pi i (x, y).p) for x >= 0, by the angle sum formulas.
-  double power(Eigen::Index x, Eigen::Index y) const {
-    const Eigen::Index up = std::abs(y);
+  double power(int x, int y) const {
+    const std::size_t place =
+        static_cast<std::size_t>(x) * edge + static_cast<std::size_t>(std::abs(y));
     const double sign = y < 0 ? -1 : 1;
-    const double real = cos_cos(x, up) - sign * sin_sin(x, up);
-    const double imaginary = sign * cos_sin(x, up) + sin_cos(x, up);
+    const double real = cos_cos[place] - sign * sin_sin[place];
+    const double imaginary = sign * cos_sin[place] + sin_cos[place];
     return real * real + imaginary * imaginary;
   }
 };
@@ -152,10 +163,10 @@ void PowerSpectrum::add(std::span<const Vec2> points) {
   Waves x(max_frequency_), y(max_frequency_);
   Products products(max_frequency_);
   for (std::size_t start = 0; start < points.size(); start += kBlock) {
-    const auto block = points.subspan(start, std::min<std::size_t>(kBlock, points.size() - start));
+    const auto block = points.subspan(start, std::min(kBlock, points.size() - start));
     x.fill(block, &Vec2::x);
     y.fill(block, &Vec2::y);
-    products.add(x, y);
+    products.add(x, y, block.size());
   }
   const double share = 1.0 / static_cast<double>(points.size());
   std::size_t place = 0;
