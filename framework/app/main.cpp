@@ -38,6 +38,7 @@ int run(int argc, char** argv) {
   add_conformance_command(app, exit_code);
   add_compare_command(app, exit_code);
   add_experiment_command(app, exit_code);
+  add_convergence_command(app, exit_code);
   add_inspect_command(app, exit_code);
   add_points_command(app, exit_code);
   add_import_command(app, exit_code);

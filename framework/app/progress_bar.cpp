@@ -35,18 +35,24 @@ void ProgressBar::clear() {
 }
 
 void ProgressBar::show(const Progress& p) {
-  if (!on_terminal_ || p.seconds - last_drawn_ < kRedrawSeconds) return;
-  last_drawn_ = p.seconds;
-  drawn_ = true;
-  const int filled = static_cast<int>(p.fraction * kBarWidth);
   const std::string iteration =
       p.iteration_count > 1 ? fmt::format("{} {}/{}  ", p.training ? "training" : "rendering",
                                           p.iteration + 1, p.iteration_count)
                             : "";
-  const double left = p.fraction > 0 ? p.seconds * (1 / p.fraction - 1) : 0;
-  fmt::print(stderr, "\r\x1b[K{}[{:=<{}}{: <{}}] {:3.0f}%  {:.1f} spp  {:.2f} Mrays/s  {} left",
-             iteration, "", filled, "", kBarWidth - filled, 100 * p.fraction, p.samples_per_pixel,
-             static_cast<double>(p.rays) / p.seconds * 1e-6, clock_text(left));
+  show(p.fraction, p.seconds, iteration,
+       fmt::format("  {:.1f} spp  {:.2f} Mrays/s", p.samples_per_pixel,
+                   static_cast<double>(p.rays) / p.seconds * 1e-6));
+}
+
+void ProgressBar::show(double fraction, double seconds, const std::string& before,
+                       const std::string& after) {
+  if (!on_terminal_ || seconds - last_drawn_ < kRedrawSeconds) return;
+  last_drawn_ = seconds;
+  drawn_ = true;
+  const int filled = static_cast<int>(fraction * kBarWidth);
+  const double left = fraction > 0 ? seconds * (1 / fraction - 1) : 0;
+  fmt::print(stderr, "\r\x1b[K{}[{:=<{}}{: <{}}] {:3.0f}%{}  {} left", before, "", filled, "",
+             kBarWidth - filled, 100 * fraction, after, clock_text(left));
   std::fflush(stderr);
 }
 

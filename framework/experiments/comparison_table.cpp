@@ -1,30 +1,12 @@
-#include <algorithm>
 #include <functional>
 
 #include <fmt/format.h>
 
 #include <pharos/experiments/comparison.h>
+#include <pharos/experiments/text_table.h>
 
 namespace pharos {
 namespace {
-
-using Row = std::vector<std::string>;
-
-/// Rows of one length as lines of columns, two spaces apart.
-std::string aligned(const std::vector<Row>& rows) {
-  std::string text;
-  for (const Row& row : rows) {
-    std::string line;
-    for (std::size_t c = 0; c < row.size(); ++c) {
-      std::size_t width = 0;
-      for (const Row& other : rows) width = std::max(width, fmt::formatted_size("{}", other[c]));
-      line += fmt::format("{:<{}}  ", row[c], width);
-    }
-    line.erase(line.find_last_not_of(' ') + 1);
-    text += line + '\n';
-  }
-  return text;
-}
 
 std::string cell(const Comparison& comparison, std::size_t i, Metric metric) {
   std::string text = fmt::format("{:.4g}", comparison.images[i].errors[metric]);
@@ -38,9 +20,9 @@ std::string or_dash(const std::optional<double>& value) {
 }
 
 /// A row of what is known of the images, left out when nothing is.
-void add_fact(std::vector<Row>& rows, const Comparison& comparison, const std::string& title,
+void add_fact(std::vector<TextRow>& rows, const Comparison& comparison, const std::string& title,
               const std::function<std::optional<double>(const MeasuredImage&)>& fact) {
-  Row row{title};
+  TextRow row{title};
   bool known = false;
   for (const MeasuredImage& image : comparison.images) {
     const auto value = fact(image);
@@ -61,11 +43,11 @@ std::string reference_line(const ImageFile& reference) {
 }  // namespace
 
 std::string comparison_table(const Comparison& comparison) {
-  std::vector<Row> rows{{""}};
+  std::vector<TextRow> rows{{""}};
   for (const MeasuredImage& image : comparison.images) rows[0].push_back(image.source.label);
   for (const MetricInfo& info : metric_infos()) {
-    Row row{info.unit.empty() ? std::string(info.title)
-                              : fmt::format("{} [{}]", info.title, info.unit)};
+    TextRow row{info.unit.empty() ? std::string(info.title)
+                                  : fmt::format("{} [{}]", info.title, info.unit)};
     for (std::size_t i = 0; i < comparison.images.size(); ++i) {
       row.push_back(cell(comparison, i, info.metric));
     }

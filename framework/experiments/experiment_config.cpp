@@ -1,48 +1,20 @@
 #include <algorithm>
-#include <cctype>
-#include <set>
 
 #include <fmt/format.h>
 
+#include <pharos/experiments/entry_names.h>
 #include <pharos/experiments/experiment_config.h>
 
 namespace pharos {
 namespace {
 
-constexpr const char* kNameRule = "letters, digits, '.', '_', '+' and '-', not '.' first";
-
-/// Names of scenes and methods are also those of folders.
-bool is_name(const std::string& name) {
-  return !name.empty() && name.size() <= 100 && name[0] != '.' &&
-         std::all_of(name.begin(), name.end(), [](unsigned char c) {
-           return c < 128 && (std::isalnum(c) != 0 || c == '.' || c == '_' || c == '+' || c == '-');
-         });
-}
-
 bool is_even(std::uint32_t n) {
   return n % 2 == 0;
 }
 
-/// The names of a list's entries, each once.
-template <class Entry>
-std::vector<std::string> names_of(const std::vector<Entry>& entries, const ConfigNode& root,
-                                  const char* key) {
-  std::vector<std::string> names;
-  const ConfigNode* list = root.find(key);
-  for (std::size_t i = 0; i < entries.size(); ++i) {
-    if (std::find(names.begin(), names.end(), entries[i].name) != names.end()) {
-      list->items()[i].fail(
-          fmt::format("the name '{}' stands twice in '{}'", entries[i].name, key));
-    }
-    names.push_back(entries[i].name);
-  }
-  if (names.empty()) root.fail(fmt::format("expected at least one entry in '{}'", key));
-  return names;
-}
-
 /// Whether a name is that of a method: the reference has its own place among the images.
 bool is_method_name(const std::string& name) {
-  return is_name(name) && name != "reference";
+  return is_entry_name(name) && name != "reference";
 }
 
 void check_reference(const ReferenceSettings& reference, const ConfigNode* node) {
@@ -67,12 +39,7 @@ void check_together(const ExperimentConfig& config, const ConfigNode& root) {
   if (config.budget.spp.has_value() == config.budget.seconds.has_value()) {
     root.find("budget")->fail("expected either 'spp' or 'seconds'");
   }
-  if (!config.baseline.empty() &&
-      std::find(methods.begin(), methods.end(), config.baseline) == methods.end()) {
-    root.find("baseline")
-        ->fail(fmt::format("expected a method, one of {}, found '{}'{}", quoted_list(methods),
-                           config.baseline, suggestion(config.baseline, methods)));
-  }
+  if (!config.baseline.empty()) check_baseline(config.baseline, methods, "method", root);
   check_reference(config.reference, root.find("reference"));
   for (std::size_t i = 0; i < config.scenes.size(); ++i) {
     const ConfigNode& node = root.find("scenes")->items()[i];
@@ -100,7 +67,9 @@ void ReferenceSettings::describe(Schema<ReferenceSettings>& s) {
 }
 
 void ExperimentScene::describe(Schema<ExperimentScene>& s) {
-  s.field("name", &ExperimentScene::name, "Name in tables").required().check(kNameRule, is_name);
+  s.field("name", &ExperimentScene::name, "Name in tables")
+      .required()
+      .check(kEntryNameRule, is_entry_name);
   s.field("config", &ExperimentScene::config, "Render config").required();
   s.field("settings", &ExperimentScene::settings, "Laid over it");
   s.field("reference", &ExperimentScene::reference, "Instead of the experiment's");
@@ -109,7 +78,7 @@ void ExperimentScene::describe(Schema<ExperimentScene>& s) {
 void ExperimentMethod::describe(Schema<ExperimentMethod>& s) {
   s.field("name", &ExperimentMethod::name, "Name in tables")
       .required()
-      .check(std::string(kNameRule) + ", not 'reference'", is_method_name);
+      .check(std::string(kEntryNameRule) + ", not 'reference'", is_method_name);
   s.field("settings", &ExperimentMethod::settings, "Laid over every scene's config");
 }
 

@@ -47,7 +47,7 @@ struct ReportTable {
 struct ReportCurve {
   std::string scene, method;  ///< the method is one of Report::methods
   std::string metric;         ///< key of a table
-  std::string axis;           ///< "samples" [samples a pixel] or "seconds" [s]
+  std::string axis;           ///< "samples" [samples a pixel], "seconds" [s] or "points" [1]
   struct Point {
     double x = 0, y = 0;
     std::optional<Interval> interval;
@@ -90,6 +90,7 @@ struct ReportText {
 struct Report {
   std::string title;
   std::string description;
+  std::string subject = "scene";  ///< what rows and charts are of, such as "integrand"
   std::vector<std::pair<std::string, std::string>> facts;  ///< version, machine, budget, …
   std::vector<std::string> methods;
   std::string baseline;  ///< one of `methods`; "" for none

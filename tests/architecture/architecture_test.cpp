@@ -13,9 +13,9 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The framework's folders from bottom to top: each includes itself and those before it.
-const std::vector<std::string> kLayers{"core",        "statistics", "config",    "scene",
-                                       "sampling",    "guiding",    "rendering", "experiments",
-                                       "conformance", "app"};
+const std::vector<std::string> kLayers{"core",       "statistics",  "config",    "scene",
+                                       "sampling",   "guiding",     "rendering", "experiments",
+                                       "laboratory", "conformance", "app"};
 
 std::size_t layer(const std::string& folder) {
   return static_cast<std::size_t>(std::find(kLayers.begin(), kLayers.end(), folder) -

@@ -1,6 +1,6 @@
-// Errors over the work done: a chart for each scene, of the chosen metric and axis.
+// Errors over the work done: a chart for each scene (or other subject), of the chosen metric and axis.
 
-const kAxisTitles = { samples: "samples a pixel", seconds: "seconds" };
+const kAxisTitles = { samples: "samples a pixel", seconds: "seconds", points: "points" };
 let charts = [];
 
 const chosenCurves = (metric, axis) =>

@@ -112,6 +112,7 @@ std::string escaped(const std::string& text, Replacement&& replacement) {
 PageData page_data(const Report& report) {
   PageData data;
   Json page = {{"title", report.title}, {"description", report.description}};
+  page["subject"] = report.subject;
   page["methods"] = report.methods;
   page["baseline"] = report.baseline;
   for (const char* list : {"facts", "tables", "curves", "scenes", "texts"}) {

@@ -30,8 +30,9 @@ void check_curve(const ReportCurve& curve, const Report& report) {
   require(
       std::find(report.methods.begin(), report.methods.end(), curve.method) != report.methods.end(),
       of + "belongs to no method; there are " + quoted_list(report.methods));
-  require(curve.axis == "samples" || curve.axis == "seconds",
-          of + "has the axis '" + curve.axis + "', expected 'samples' or 'seconds'");
+  const std::vector<std::string> axes{"samples", "seconds", "points"};
+  require(std::find(axes.begin(), axes.end(), curve.axis) != axes.end(),
+          of + "has the axis '" + curve.axis + "', expected one of " + quoted_list(axes));
   require(std::any_of(report.tables.begin(), report.tables.end(),
                       [&](const ReportTable& table) { return table.key == curve.metric; }),
           of + "has the metric '" + curve.metric + "', which is no table's key");

@@ -36,9 +36,11 @@ function tableRow(row, table) {
     ...row.cells.map((cell, i) => tableCell(cell, best, report.methods[i] === report.baseline)));
 }
 
+const capital = (text) => text[0].toUpperCase() + text.slice(1);
+
 /** A definition as a sentence: with a capital and a full stop. */
 function sentence(text) {
-  return text[0].toUpperCase() + text.slice(1) + (/[.!?]$/.test(text) ? "" : ".");
+  return capital(text) + (/[.!?]$/.test(text) ? "" : ".");
 }
 
 /** What the small print of the cells means. */
@@ -63,7 +65,7 @@ function measureTable(table) {
   return make("div", { className: "measure-block" },
     make("div", { className: "scroll", tabIndex: 0 },
       make("table", { className: "measure" }, caption,
-        make("thead", {}, make("tr", {}, make("th", { scope: "col" }, "Scene"), ...heads)),
+        make("thead", {}, make("tr", {}, make("th", { scope: "col" }, capital(report.subject)), ...heads)),
         make("tbody", {}, ...table.rows.map((row) => tableRow(row, table))))),
     make("p", { className: "note" }, legendOf(table)));
 }

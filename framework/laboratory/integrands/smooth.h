@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cmath>
+#include <numbers>
+
+#include <pharos/config/schema.h>
+#include <pharos/laboratory/integrand.h>
+
+namespace pharos::laboratory {
+
+/// smooth: the Gaussian exp(-|p - centre|^2 / (2 width^2)) on the torus, all its periodic images
+/// added, so that no border shows. The square sees each part of the Gaussian on the plane once: the
+/// mean is 2 pi width^2.
+class Smooth {
+ public:
+  struct Settings {
+    Vec2 centre{0.5f, 0.5f};
+    double width = 0.15;
+    static void describe(Schema<Settings>& schema);
+  };
+
+  explicit Smooth(const Settings& settings)
+      : centre_{settings.centre.x, settings.centre.y}, width_(settings.width) {}
+
+  double operator()(PlanePoint p) const {
+    return along_axis(p.x - centre_.x) * along_axis(p.y - centre_.y);
+  }
+  double mean() const { return 2 * std::numbers::pi * width_ * width_; }
+
+ private:
+  /// The images further off than two and a half sides add less than 1e-21 at the largest width.
+  double along_axis(double d) const {
+    d -= std::round(d);
+    double sum = 0;
+    for (int image = -2; image <= 2; ++image) {
+      const double t = (d + image) / width_;
+      sum += std::exp(-0.5 * t * t);
+    }
+    return sum;
+  }
+
+  PlanePoint centre_;
+  double width_;
+};
+
+}  // namespace pharos::laboratory
