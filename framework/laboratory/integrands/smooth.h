@@ -20,7 +20,9 @@ class Smooth {
   };
 
   explicit Smooth(const Settings& settings)
-      : centre_{settings.centre.x, settings.centre.y}, width_(settings.width) {}
+      : centre_{settings.centre.x, settings.centre.y},
+        width_(settings.width),
+        images_(static_cast<int>(0.5 + kReach * settings.width)) {}
 
   double operator()(PlanePoint p) const {
     return along_axis(p.x - centre_.x) * along_axis(p.y - centre_.y);
@@ -28,11 +30,13 @@ class Smooth {
   double mean() const { return 2 * std::numbers::pi * width_ * width_; }
 
  private:
-  /// The images further off than two and a half sides add less than 1e-21 at the largest width.
+  /// Images that are further off everywhere than this [widths] add less than 1e-16.
+  static constexpr double kReach = 8.6;
+
   double along_axis(double d) const {
     d -= std::round(d);
     double sum = 0;
-    for (int image = -2; image <= 2; ++image) {
+    for (int image = -images_; image <= images_; ++image) {
       const double t = (d + image) / width_;
       sum += std::exp(-0.5 * t * t);
     }
@@ -41,6 +45,7 @@ class Smooth {
 
   PlanePoint centre_;
   double width_;
+  int images_;  ///< to either side
 };
 
 }  // namespace pharos::laboratory

@@ -127,12 +127,16 @@ TEST_CASE("all numbers are the same for any number of threads") {
   for (const std::string& table : tables) CHECK(table == tables[0]);
 }
 
-TEST_CASE("sets depend on seed, number of points and realisation; shifts keep differences") {
+/// For sets of 16 points.
+std::unique_ptr<const PreparedSampler> prepared_sampler(const char* name) {
   const Registry all = registry();
   BuildContext context{all};
   ConfigNode resolved;
-  const auto sampler = all.build<Sampler>(ConfigNode::scalar("sobol"), context, resolved);
-  const auto prepared = prepare(*sampler, 1, 4);
+  return prepare(*all.build<Sampler>(ConfigNode::scalar(name), context, resolved), 1, 4);
+}
+
+TEST_CASE("sets depend on seed, number of points and realisation") {
+  const auto prepared = prepared_sampler("sobol");
   const std::vector<Vec2> points = point_set(*prepared, {1, 4, 0});
   REQUIRE(points.size() == 16);
   CHECK(statistics::fills_elementary_intervals(points));
@@ -140,17 +144,40 @@ TEST_CASE("sets depend on seed, number of points and realisation; shifts keep di
   CHECK(points != point_set(*prepared, {2, 4, 0}));
   CHECK(points != point_set(*prepared, {1, 4, 1}));
   CHECK(points[0] != point_set(*prepared, {1, 5, 0})[0]);
-  const std::vector<PlanePoint> shifted = shifted_point_set(*prepared, {1, 4, 0});
+}
+
+/// What a set of points was shifted by, which must be the same for all of its points.
+PlanePoint shift_of(const PreparedSampler& prepared, const SetKey& key) {
+  const std::vector<Vec2> points = point_set(prepared, key);
+  const std::vector<PlanePoint> shifted = shifted_point_set(prepared, key);
+  REQUIRE(shifted.size() == points.size());
   const auto offset = [&](std::size_t i) {
     const double x = shifted[i].x - points[i].x, y = shifted[i].y - points[i].y;
-    CHECK(shifted[i].x < 1);
-    CHECK(shifted[i].y < 1);
     return PlanePoint{x - std::floor(x), y - std::floor(y)};
   };
-  for (std::size_t i = 1; i < points.size(); ++i) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    CHECK(shifted[i].x < 1);
+    CHECK(shifted[i].y < 1);
     CHECK(offset(i).x == doctest::Approx(offset(0).x).epsilon(1e-12));
     CHECK(offset(i).y == doctest::Approx(offset(0).y).epsilon(1e-12));
   }
+  return offset(0);
+}
+
+TEST_CASE("shifts are uniform, of a realisation each, the same for every sampler") {
+  const auto sobol = prepared_sampler("sobol"), independent = prepared_sampler("independent");
+  PlanePoint sum;
+  for (std::uint64_t r = 0; r < 400; ++r) {
+    const PlanePoint shift = shift_of(*sobol, {1, 4, r});
+    CHECK(shift.x == doctest::Approx(shift_of(*independent, {1, 4, r}).x).epsilon(1e-12));
+    sum = {sum.x + shift.x, sum.y + shift.y};
+  }
+  // The standard error of the mean of 400 uniform numbers is 0.0144.
+  CHECK(std::abs(sum.x / 400 - 0.5) < 0.05);
+  CHECK(std::abs(sum.y / 400 - 0.5) < 0.05);
+  const PlanePoint first = shift_of(*sobol, {1, 4, 0});
+  CHECK(std::abs(first.x - first.y) > 1e-3);
+  CHECK(std::abs(first.x - shift_of(*sobol, {1, 4, 1}).x) > 1e-3);
 }
 
 TEST_CASE("by default all registered samplers are measured, ratios are to the independent one") {
