@@ -2,6 +2,7 @@
 #include <pharos/laboratory/integrands/disk.h>
 #include <pharos/laboratory/integrands/edge.h>
 #include <pharos/laboratory/integrands/smooth.h>
+#include <pharos/laboratory/integrands/smooth_disk.h>
 #include <pharos/laboratory/integrands/smooth_edge.h>
 #include <pharos/laboratory/integrands/textured.h>
 #include <pharos/laboratory/integrands/triangle.h>
@@ -13,6 +14,7 @@ void add_integrands(Registry& registry) {
   registry.add<IntegrandOf<Disk>>("disk", "1 in a disk, 0 outside");
   registry.add<IntegrandOf<Edge>>("edge", "1 in the intersection of half planes, 0 outside");
   registry.add<IntegrandOf<Smooth>>("smooth", "A Gaussian on the torus");
+  registry.add<IntegrandOf<SmoothDisk>>("smooth_disk", "A disk blurred along its radius");
   registry.add<IntegrandOf<SmoothEdge>>("smooth_edge", "A straight edge blurred by a Gaussian");
   registry.add<IntegrandOf<Textured>>("textured", "A wave in the intersection of half planes");
   registry.add<IntegrandOf<Triangle>>("triangle", "1 in a triangle, 0 outside");

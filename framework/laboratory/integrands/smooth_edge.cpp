@@ -1,24 +1,7 @@
 #include <pharos/laboratory/integrands/smooth_edge.h>
+#include <pharos/laboratory/normal_integrals.h>
 
 namespace pharos::laboratory {
-namespace {
-
-double phi(double z) {
-  return std::exp(-0.5 * z * z) / std::sqrt(2 * std::numbers::pi);
-}
-/// The distribution of the standard normal, its integral from minus infinity, and that one's.
-double distribution(double z) {
-  return 0.5 * std::erfc(-z / std::numbers::sqrt2);
-}
-double first_integral(double z) {
-  return z * distribution(z) + phi(z);
-}
-double second_integral(double z) {
-  return 0.5 * ((z * z + 1) * distribution(z) + z * phi(z));
-}
-
-}  // namespace
-
 void SmoothEdge::Settings::describe(Schema<Settings>& s) {
   s.field("angle", &Settings::angle,
           "Direction of the edge's outward normal, from the x axis towards the y axis")

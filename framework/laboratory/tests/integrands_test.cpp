@@ -75,13 +75,15 @@ TEST_CASE("means of textured edges are those of a fine grid") {
 }
 
 TEST_CASE("means of smooth integrands are those of quadrature") {
-  for (const char* yaml : {"{ type: smooth_edge }", "{ type: smooth_edge, angle: 0, offset: 0.2 }",
-                           "{ type: smooth_edge, angle: 270, offset: -0.1, width: 0.3 }",
-                           "{ type: smooth_edge, angle: 45, offset: 0.5, width: 1 }",
-                           "{ type: smooth_edge, angle: 179.999, offset: 0.1, width: 0.05 }",
-                           "{ type: smooth_edge, angle: 100, offset: 0.1, width: 0.01 }",
-                           "{ type: smooth }", "{ type: smooth, width: 0.25, centre: [0.1, 0.9] }",
-                           "{ type: smooth, width: 0.02, centre: [0, 0.99] }"}) {
+  for (const char* yaml :
+       {"{ type: smooth_edge }", "{ type: smooth_edge, angle: 0, offset: 0.2 }",
+        "{ type: smooth_edge, angle: 270, offset: -0.1, width: 0.3 }",
+        "{ type: smooth_edge, angle: 45, offset: 0.5, width: 1 }",
+        "{ type: smooth_edge, angle: 179.999, offset: 0.1, width: 0.05 }",
+        "{ type: smooth_edge, angle: 100, offset: 0.1, width: 0.01 }", "{ type: smooth_disk }",
+        "{ type: smooth_disk, centre: [0.5, 0.45], radius: 0.01, width: 0.07 }", "{ type: smooth }",
+        "{ type: smooth, width: 0.25, centre: [0.1, 0.9] }",
+        "{ type: smooth, width: 0.02, centre: [0, 0.99] }"}) {
     CAPTURE(yaml);
     const Ref<Integrand> f = integrand(yaml);
     const auto value = [&](double x, double y) { return f->value({x, y}); };
@@ -145,6 +147,7 @@ TEST_CASE("integrands that points would not find are refused") {
       std::string::npos);
   CHECK(refusal("{ type: disk, centre: [3, 3] }").find("found nothing") != std::string::npos);
   CHECK(refusal("{ type: disk, radius: 0.8 }").find("found all") != std::string::npos);
+  CHECK(refusal("{ type: smooth_disk, radius: 0.3 }").find("they reach 0.54") != std::string::npos);
   CHECK(refusal("{ type: textured, frequency: [0, 0] }").find("not zero") != std::string::npos);
   CHECK(refusal("{ type: egde }").find("did you mean 'edge'?") != std::string::npos);
 }
