@@ -63,6 +63,14 @@ TEST_CASE("means of shapes are those of a fine grid") {
   }
 }
 
+TEST_CASE("every registered integrand has the mean of a fine grid") {
+  Registry all;
+  add_integrands(all);
+  const std::vector<std::string> names = all.names("integrand");
+  CHECK(names.size() >= 7);
+  for (const std::string& name : names) check_mean(name, 2e-5);
+}
+
 TEST_CASE("means of textured edges are those of a fine grid") {
   for (const char* yaml :
        {"{ type: textured }", "{ type: textured, angles: [120], frequency: [3, 5] }",
