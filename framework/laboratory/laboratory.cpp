@@ -17,6 +17,7 @@ using Estimates = std::vector<std::vector<double>>;
 /// Sets are handed to threads in groups of about as many points.
 constexpr std::uint64_t kPointsOfTask = 16384;
 
+/// All work of one config, from the smallest number of points to the largest.
 class Bench {
  public:
   Bench(const LaboratoryConfig& config, const LaboratoryControl& control)

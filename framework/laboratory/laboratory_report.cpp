@@ -155,7 +155,9 @@ Report laboratory_report(const LaboratoryResults& results) {
       report.curves.push_back(curve_of(results, s, i));
     }
   }
-  report.scenes.push_back(spectra_of(results));
+  if (ReportScene spectra = spectra_of(results); !spectra.pictures.empty()) {
+    report.scenes.push_back(std::move(spectra));
+  }
   report.texts.push_back({"variances.csv", variances_csv(results)});
   report.texts.push_back({"config.yaml", results.config.resolved});
   return report;

@@ -183,10 +183,46 @@ TEST_CASE("shifts are uniform, of a realisation each, the same for every sampler
 TEST_CASE("by default all registered samplers are measured, ratios are to the independent one") {
   const test::TemporaryFolder folder;
   const LaboratoryConfig config = config_of(folder, "");
-  CHECK(config.samplers.size() + config.left_out.size() == registry().names("sampler").size());
+  CHECK(config.samplers.size() == registry().names("sampler").size());
+  CHECK(config.left_out.empty());
   CHECK(config.baseline == "independent");
   CHECK(config.resolved.find("sobol") != std::string::npos);
   CHECK(config_of(folder, kTwo).baseline == "random");
+}
+
+/// Samplers that cannot be had by their names alone: one adapts to a scene, one has a parameter
+/// without a default.
+template <bool Probes>
+class Demanding final : public Sampler {
+ public:
+  struct Settings {
+    int size = 1;
+    static void describe(Schema<Settings>& s) {
+      auto size = s.field("size", &Settings::size, "Of something");
+      if (!Probes) size.required();
+    }
+  };
+  explicit Demanding(const Settings&) {}
+  std::unique_ptr<const PreparedSampler> prepare(const PixelGrid&, const SamplePlan&,
+                                                 const IntegrandProbe*) const override {
+    return nullptr;
+  }
+  bool needs_probe() const override { return Probes; }
+};
+
+TEST_CASE("samplers that need a scene or settings are left out, and refused by name") {
+  const test::TemporaryFolder folder;
+  Registry all = registry();
+  const std::size_t others = all.names("sampler").size();
+  all.add<Demanding<true>>("a_prober", "Needs a scene");
+  all.add<Demanding<false>>("sized", "Needs a setting");
+  const LaboratoryConfig config = load_laboratory(folder.write("all.yaml", kIntegrands), {}, all);
+  CHECK(config.left_out == std::vector<std::string>{"a_prober", "sized"});
+  CHECK(config.samplers.size() == others);
+  const auto named = folder.write(
+      "one.yaml", std::string(kIntegrands) + "samplers:\n  - { name: x, sampler: a_prober }\n");
+  CHECK(test::input_error_in(folder, [&] { load_laboratory(named, {}, all); }) ==
+        "one.yaml:5:5: error: the sampler 'a_prober' adapts to a scene, and there is none here");
 }
 
 TEST_CASE("work that is stopped keeps the numbers that all samplers have") {
