@@ -1,10 +1,27 @@
 #include <pharos/config/module.h>
 
+#include "halton.h"
 #include "independent.h"
+#include "multi_jittered.h"
+#include "pmj02.h"
+#include "sheared.h"
 #include "sobol.h"
+#include "stratified.h"
+#include "toroidal_shift.h"
+#include "z_sobol.h"
 
 PHAROS_MODULE(registry) {
+  registry.add<pharos::HaltonSampler>("halton", "Padded Halton points with Owen scrambling");
   registry.add<pharos::IndependentSampler>("independent", "Independent uniform numbers");
+  registry.add<pharos::MultiJitteredSampler>("multi_jittered",
+                                             "Correlated multi-jittered points in sets");
+  registry.add<pharos::Pmj02Sampler>("pmj02", "Progressive multi-jittered (0,2) sequences");
+  registry.add<pharos::ShearedSampler>("sheared", "Points stratified in lines of a direction");
   registry.add<pharos::SobolSampler>("sobol", "Padded (0,2)-sequences with Owen scrambling");
+  registry.add<pharos::StratifiedSampler>("stratified", "Jittered points, one a cell of a grid");
+  registry.add<pharos::ToroidalShiftSampler>(
+      "toroidal_shift", "The same points in every pixel, each pixel's moved on the torus");
+  registry.add<pharos::ZSobolSampler>("z_sobol",
+                                      "A Sobol' sequence for the image, with errors in blue noise");
   registry.set_default<pharos::Sampler>("sobol");
 }

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 
+#include <pharos/core/random.h>
+
 /// The first two Sobol' dimensions, a (0,2)-sequence in base 2, with hashed Owen scrambling.
 /// Numbers are 32-bit fractions. `reversed` marks bit-reversed ones, whose lowest bit is the first
 /// digit: scrambling and generating are cheap there.
@@ -49,6 +51,11 @@ constexpr std::uint32_t sobol_y_reversed(std::uint32_t index) {
   index ^= (index >> 8) & 0x00ff00ffu;
   index ^= (index >> 16) & 0x0000ffffu;
   return index;
+}
+
+/// The number in [0, 1) whose reversed fraction is the scramble of `reversed` that `seed` picks.
+constexpr float scrambled_number(std::uint32_t reversed, std::uint32_t seed) {
+  return to_unit_float(reverse_bits(scramble_reversed(reversed, seed)));
 }
 
 }  // namespace pharos::owen

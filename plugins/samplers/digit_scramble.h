@@ -1,0 +1,87 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include <pharos/core/random.h>
+
+namespace pharos {
+
+/// Nested random permutations of several digits of a base at once: each digit is permuted in a way
+/// that the digits before it pick. They are drawn into tables; one node of a tree of digits takes
+/// one of the tables and shifts its digits, so all images of a value are equally likely.
+template <std::uint32_t base, std::uint32_t digits>
+class DigitScramble {
+ public:
+  /// base to the power `digits`: how many values are permuted.
+  static constexpr std::uint32_t kCount = [] {
+    std::uint32_t count = 1;
+    for (std::uint32_t i = 0; i < digits; ++i) count *= base;
+    return count;
+  }();
+
+  explicit DigitScramble(std::uint64_t seed) {
+    RandomStream random(seed);
+    for (std::uint32_t t = 0; t < kTables; ++t) {
+      const std::vector<std::uint8_t> images = drawn(random);
+      std::copy(images.begin(), images.end(), images_.begin() + t * kCount);
+    }
+    for (std::uint32_t a = 0; a < kCount; ++a) {
+      for (std::uint32_t b = 0; b < kCount; ++b) sums_[a * kCount + b] = digit_sum(a, b);
+    }
+  }
+
+  /// The image of `value` (its first digit is the most significant one) at the node whose place in
+  /// the tree is `prefix`. `seed` picks the scramble of the whole tree.
+  std::uint32_t operator()(std::uint32_t value, std::uint32_t prefix, std::uint64_t seed) const {
+    std::uint64_t hash = (seed + prefix) * 0x9e3779b97f4a7c15ull;
+    hash = (hash ^ (hash >> 32)) * 0xbf58476d1ce4e5b9ull;
+    const auto choice = static_cast<std::uint32_t>(((hash >> 32) * (kTables * kCount)) >> 32);
+    const std::uint32_t table = choice % kTables, shift = choice / kTables;
+    return sums_[shift * kCount + images_[table * kCount + value]];
+  }
+
+ private:
+  static_assert(kCount <= 256);
+  static constexpr std::uint32_t kTables = 32;
+
+  static std::vector<std::uint8_t> drawn(RandomStream& random) {
+    std::vector<std::uint8_t> images{0};
+    for (std::uint32_t d = 0; d < digits; ++d) {
+      std::vector<std::uint8_t> longer;
+      for (const std::uint8_t image : images) {
+        for (const std::uint32_t digit : random_digits(random)) {
+          longer.push_back(static_cast<std::uint8_t>(image * base + digit));
+        }
+      }
+      images = std::move(longer);
+    }
+    return images;
+  }
+
+  /// All digits in a random order.
+  static std::array<std::uint32_t, base> random_digits(RandomStream& random) {
+    std::array<std::uint32_t, base> order;
+    std::iota(order.begin(), order.end(), 0);
+    for (std::uint32_t i = base; i-- > 1;) std::swap(order[i], order[random() % (i + 1)]);
+    return order;
+  }
+
+  /// The sum of each pair of digits, without carry.
+  static std::uint8_t digit_sum(std::uint32_t a, std::uint32_t b) {
+    std::uint32_t sum = 0, place = 1;
+    for (std::uint32_t d = 0; d < digits; ++d, a /= base, b /= base, place *= base) {
+      sum += (a + b) % base * place;
+    }
+    return static_cast<std::uint8_t>(sum);
+  }
+
+  std::array<std::uint8_t, kTables * kCount> images_;
+  std::array<std::uint8_t, kCount * kCount> sums_;
+};
+
+}  // namespace pharos

@@ -1,0 +1,116 @@
+// halton: each dimension of a pixel is the Halton sequence of bases 2 and 3 (Halton 1960) with a
+// nested scramble of its digits (Owen 1995, "Randomly Permuted (t,m,s)-Nets and (t,s)-Sequences").
+// Of any 2^a 3^b consecutive ones of its points one lies in each of the 2^a by 3^b equal cells of
+// the square.
+//
+// Dimensions are padded: every one has these two bases, not the next primes. Paths ask for numbers
+// by purpose, in hundreds of dimensions, and of large bases only thousands of samples would fill
+// even the first digit. So that padded dimensions are unrelated, each goes through the sequence in
+// an order of its own, with the digits of the index in base 6 permuted, the first digits first:
+// prefixes of 6^k points stay blocks of consecutive points. So 6, 36, 216, 1296 samples are best;
+// between, n = j 6^k are as even as j sets of 6^k. The shuffles are as long as the plan's samples
+// need, 36^4 at most (36^2 with a time budget); further samples begin anew.
+//
+//     { type: halton }
+#include "halton.h"
+
+#include "digit_scramble.h"
+#include "owen.h"
+#include "strata.h"
+
+namespace pharos {
+namespace {
+
+/// Indices are shuffled two digits of base 6 at a time, and number in base 3 are scrambled three
+/// digits at a time, up to four times.
+constexpr std::uint32_t kSixths = 36, kThirds = 27, kMostGroups = 4;
+
+constexpr std::uint32_t power(std::uint32_t base, std::uint32_t exponent) {
+  return exponent == 0 ? 1 : base * power(base, exponent - 1);
+}
+
+/// The three lowest digits of base 3 in the opposite order.
+constexpr std::uint32_t reversed_thirds(std::uint32_t v) {
+  return v % 3 * 9 + v / 3 % 3 * 3 + v / 9;
+}
+
+class PreparedHalton final : public PreparedSampler {
+ public:
+  /// For sets of 36^groups samples.
+  explicit PreparedHalton(std::uint32_t groups)
+      : period_(power(kSixths, groups)),
+        strata_count_(power(kThirds, std::min(groups + 1, kMostGroups))),
+        strata_(strata_count_) {
+    for (std::uint32_t v = 0; v < kThirds; ++v) reversed_[v] = reversed_thirds(v);
+  }
+
+  std::uint64_t begin(const PathKey& key) const override {
+    const std::uint32_t set = key.sample / period_;
+    return (hash_combine(hash_pixel(key), set) << kIndexBits) | (key.sample - set * period_);
+  }
+  float value_1d(const SampleStream& stream, Dimension dimension) const override {
+    const Seeds seeds = seeds_of(stream.state() >> kIndexBits, dimension);
+    return owen::scrambled_number(shuffled(stream, seeds), seeds.x);
+  }
+  Vec2 value_2d(const SampleStream& stream, Dimension dimension) const override {
+    const Seeds seeds = seeds_of(stream.state() >> kIndexBits, dimension);
+    const std::uint32_t index = shuffled(stream, seeds);
+    return {owen::scrambled_number(index, seeds.x), base_3(index, seeds)};
+  }
+
+ private:
+  /// Of the state: the number within the set, below 36^4. The others are a hash of pixel and set.
+  static constexpr int kIndexBits = 21;
+  /// Tells the places of groups apart.
+  static constexpr std::uint64_t kNextPlace = 0x8cb92ba72f3d8dd7ull;
+
+  /// Each group of digits is permuted as those before it, the quotient, say.
+  std::uint32_t shuffled(const SampleStream& stream, const Seeds& seeds) const {
+    auto rest = static_cast<std::uint32_t>(stream.state() & ((1u << kIndexBits) - 1));
+    std::uint64_t seed = (std::uint64_t{seeds.order} << 32) | seeds.more;
+    std::uint32_t image = 0;
+    for (std::uint32_t place = 1; place < period_; place *= kSixths, seed += kNextPlace) {
+      const std::uint32_t before = rest / kSixths;
+      image += place * sixths_(rest - before * kSixths, before, seed);
+      rest = before;
+    }
+    return image;
+  }
+
+  /// The first digits of the number are the last ones of the index.
+  float base_3(std::uint32_t index, const Seeds& seeds) const {
+    std::uint64_t seed = (std::uint64_t{seeds.y} << 32) | seeds.x;
+    std::uint32_t image = 0, before = 0, rest = index;
+    for (std::uint32_t place = 1; place < strata_count_; place *= kThirds, seed += kNextPlace) {
+      const std::uint32_t quotient = rest / kThirds, digits = rest - quotient * kThirds;
+      image = image * kThirds + thirds_(reversed_[digits], before, seed);
+      before += place * digits;
+      rest = quotient;
+    }
+    return strata_.at(image, owen::scramble_reversed(index, seeds.more));
+  }
+
+  std::uint32_t period_, strata_count_;
+  Strata strata_;
+  std::array<std::uint32_t, kThirds> reversed_;
+  DigitScramble<6, 2> sixths_{1};
+  DigitScramble<3, 3> thirds_{2};
+};
+
+/// As many groups of digits as the plan's samples need; with a time budget sets have 36^2 samples.
+std::uint32_t groups_of(const SamplePlan& plan) {
+  if (plan.samples_per_pixel == 0) return 2;
+  std::uint32_t groups = 1;
+  while (groups < kMostGroups && power(kSixths, groups) < plan.samples_per_pixel) ++groups;
+  return groups;
+}
+
+}  // namespace
+
+std::unique_ptr<const PreparedSampler> HaltonSampler::prepare(const PixelGrid&,
+                                                              const SamplePlan& plan,
+                                                              const IntegrandProbe*) const {
+  return std::make_unique<PreparedHalton>(groups_of(plan));
+}
+
+}  // namespace pharos

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+
+#include <pharos/core/random.h>
+#include <pharos/sampling/dimension.h>
+#include <pharos/sampling/sampler.h>
+
+/// Seeds of the hash-based samplers.
+namespace pharos {
+
+/// What all samples of a pixel share: a hash of seed, iteration and index.
+constexpr std::uint64_t hash_pixel(const PathKey& key) {
+  return hash_combine(hash_combine(mix_bits(key.seed), key.iteration), key.index);
+}
+
+/// Four unrelated words of 32 bits for one dimension of what `state` names.
+struct Seeds {
+  std::uint32_t order, x, y, more;
+};
+
+constexpr Seeds seeds_of(std::uint64_t state, Dimension dimension) {
+  const std::uint64_t first = hash_combine(state, dimension.code());
+  const std::uint64_t second = mix_bits(first + 0x9e3779b97f4a7c15ull);
+  return {static_cast<std::uint32_t>(first >> 32), static_cast<std::uint32_t>(first),
+          static_cast<std::uint32_t>(second >> 32), static_cast<std::uint32_t>(second)};
+}
+
+/// A sample's place in sets of a fixed size, packed into a stream's state: a hash of the pixel and
+/// of the set's number in the upper 48 bits, the number within the set in the lower 16.
+class SetPlace {
+ public:
+  /// The largest size of a set.
+  static constexpr std::uint32_t kMostSamples = 1u << 16;
+
+  /// The place of a sample whose sets have `size` samples, 1 to kMostSamples.
+  static constexpr SetPlace of(const PathKey& key, std::uint32_t size) {
+    const std::uint32_t set = key.sample / size;
+    return SetPlace((hash_combine(hash_pixel(key), set) << 16) | (key.sample - set * size));
+  }
+  constexpr explicit SetPlace(std::uint64_t state) : state_(state) {}
+
+  constexpr std::uint64_t state() const { return state_; }
+  constexpr std::uint64_t set_hash() const { return state_ >> 16; }
+  constexpr std::uint32_t index() const { return static_cast<std::uint32_t>(state_ & 0xffffu); }
+
+ private:
+  std::uint64_t state_;
+};
+
+}  // namespace pharos

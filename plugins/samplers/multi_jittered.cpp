@@ -1,0 +1,61 @@
+// multi_jittered: correlated multi-jittered sampling (Kensler 2013, "Correlated Multi-Jittered
+// Sampling", Pixar Technical Memo 13-01). The n = m k samples of a set lie one each in the cells of
+// a grid of m columns and k rows, and also one each in n intervals of equal length of x, and of y:
+// within its column a point's place is that of its row after a permutation of the rows, the same
+// one for all columns, and the other way round. Sharing the permutations keeps neighbours apart.
+// Each dimension of a pixel has permutations, jitter and an order of the cells of its own; samples
+// beyond a set belong to the next one, with permutations of its own.
+//
+// An n that is no product of two similar numbers gets a grid with a few cells to spare, as in
+// `stratified`.
+//
+//     { type: multi_jittered, samples: 16 }
+#include "multi_jittered.h"
+
+#include "strata.h"
+
+namespace pharos {
+namespace {
+
+class PreparedMultiJittered final : public PreparedSampler {
+ public:
+  explicit PreparedMultiJittered(StrataGrid grid) : grid_(grid), cells_(grid.cells()) {}
+
+  std::uint64_t begin(const PathKey& key) const override {
+    return SetPlace::of(key, grid_.cells()).state();
+  }
+  float value_1d(const SampleStream& stream, Dimension dimension) const override {
+    const SetPlace place(stream.state());
+    return stratified_number(place.index(), grid_.cells(), cells_,
+                             seeds_of(place.set_hash(), dimension));
+  }
+  Vec2 value_2d(const SampleStream& stream, Dimension dimension) const override {
+    const SetPlace place(stream.state());
+    const Seeds seeds = seeds_of(place.set_hash(), dimension);
+    const std::uint32_t cell = permuted(place.index(), grid_.cells(), seeds.order);
+    const std::uint32_t row = cell / grid_.columns, column = cell - row * grid_.columns;
+    const std::uint32_t x = column * grid_.rows + permuted(row, grid_.rows, seeds.x);
+    const std::uint32_t y = row * grid_.columns + permuted(column, grid_.columns, seeds.y);
+    const std::uint64_t jitter = jitter_bits(place.index(), seeds);
+    return {cells_.at(x, static_cast<std::uint32_t>(jitter >> 32)),
+            cells_.at(y, static_cast<std::uint32_t>(jitter))};
+  }
+
+ private:
+  StrataGrid grid_;
+  Strata cells_;
+};
+
+}  // namespace
+
+std::unique_ptr<const PreparedSampler> MultiJitteredSampler::prepare(const PixelGrid&,
+                                                                     const SamplePlan& plan,
+                                                                     const IntegrandProbe*) const {
+  return std::make_unique<PreparedMultiJittered>(grid_of(set_size(settings_, plan)));
+}
+
+std::uint32_t MultiJitteredSampler::preferred_samples() const {
+  return settings_.samples ? grid_of(*settings_.samples).cells() : 1;
+}
+
+}  // namespace pharos

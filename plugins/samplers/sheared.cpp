@@ -1,0 +1,70 @@
+// sheared: points that are stratified in lines of a stated direction (Singh and Jarosz 2017,
+// "Convergence Analysis for Anisotropic Monte Carlo Sampling Spectra"). Points like those of
+// multi_jittered fill narrow rows and columns most evenly: they are best for integrands that vary
+// along one axis only, such as an edge along the other. A shear on the torus turns the rows (for
+// directions within 45 degrees of the x axis: y moves by x times the slope) or the columns (for
+// others: x moves by y over the slope) into lines of that direction, the one an edge of the
+// integrand has. It keeps area, so uniform points stay uniform, and for whole slopes no line is
+// broken at the square's border. The other axis keeps its stratification.
+//
+// Only points of `purpose` are sheared, at every vertex; all other numbers are those of `base`.
+//
+//     { type: sheared, base: multi_jittered, direction: 45 }
+#include "sheared.h"
+
+#include <cmath>
+
+#include <pharos/config/registry.h>
+
+#include "torus.h"
+
+namespace pharos {
+namespace {
+
+class PreparedSheared final : public PreparedSampler {
+ public:
+  PreparedSheared(std::unique_ptr<const PreparedSampler> base, double direction, Purpose purpose)
+      : base_(std::move(base)), purpose_(purpose) {
+    const double angle = direction * 3.14159265358979323846 / 180;
+    const bool is_flat = std::abs(std::cos(angle)) >= std::abs(std::sin(angle));
+    (is_flat ? y_by_x_ : x_by_y_) = is_flat ? std::tan(angle) : std::cos(angle) / std::sin(angle);
+  }
+
+  std::uint64_t begin(const PathKey& key) const override { return base_->begin(key); }
+  float value_1d(const SampleStream& stream, Dimension dimension) const override {
+    return base_->value_1d(stream, dimension);
+  }
+  Vec2 value_2d(const SampleStream& stream, Dimension dimension) const override {
+    const Vec2 u = base_->value_2d(stream, dimension);
+    if (dimension.purpose != purpose_) return u;
+    return {wrapped(u.x + x_by_y_ * u.y), wrapped(u.y + y_by_x_ * u.x)};
+  }
+
+ private:
+  std::unique_ptr<const PreparedSampler> base_;
+  Purpose purpose_;
+  double x_by_y_ = 0, y_by_x_ = 0;  ///< one of them is zero
+};
+
+}  // namespace
+
+void ShearedSampler::Settings::describe(Schema<Settings>& s) {
+  s.field("base", &Settings::base, "Sampler of the points that are sheared")
+      .otherwise("multi_jittered");
+  s.field("direction", &Settings::direction, "Of the lines, from the x axis towards the y axis")
+      .unit("degrees")
+      .at_least(-180)
+      .at_most(180);
+  s.field("purpose", &Settings::purpose, "Which points are sheared");
+  s.example("{ direction: 120, purpose: pixel }");
+  s.example("{ base: sobol, direction: -20 }");
+}
+
+std::unique_ptr<const PreparedSampler> ShearedSampler::prepare(const PixelGrid& grid,
+                                                               const SamplePlan& plan,
+                                                               const IntegrandProbe* probe) const {
+  return std::make_unique<PreparedSheared>(settings_.base->prepare(grid, plan, probe),
+                                           settings_.direction, settings_.purpose);
+}
+
+}  // namespace pharos
