@@ -21,9 +21,9 @@ struct Seeds {
 
 constexpr Seeds seeds_of(std::uint64_t state, Dimension dimension) {
   const std::uint64_t first = hash_combine(state, dimension.code());
-  const std::uint64_t second = mix_bits(first + 0x9e3779b97f4a7c15ull);
+  const std::uint64_t second = (first ^ (first >> 29)) * 0x9e3779b97f4a7c15ull;
   return {static_cast<std::uint32_t>(first >> 32), static_cast<std::uint32_t>(first),
-          static_cast<std::uint32_t>(second >> 32), static_cast<std::uint32_t>(second)};
+          static_cast<std::uint32_t>(second >> 32), static_cast<std::uint32_t>(second >> 8)};
 }
 
 /// A sample's place in sets of a fixed size, packed into a stream's state: a hash of the pixel and

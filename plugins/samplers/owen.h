@@ -58,4 +58,16 @@ constexpr float scrambled_number(std::uint32_t reversed, std::uint32_t seed) {
   return to_unit_float(reverse_bits(scramble_reversed(reversed, seed)));
 }
 
+/// Two of them: their bits are reversed together, which takes the time of one.
+constexpr Vec2 scrambled_point(std::uint32_t reversed_x, std::uint32_t seed_x,
+                               std::uint32_t reversed_y, std::uint32_t seed_y) {
+  std::uint64_t v = (std::uint64_t{scramble_reversed(reversed_y, seed_y)} << 32) |
+                    scramble_reversed(reversed_x, seed_x);
+  v = __builtin_bswap64(v);
+  v = ((v >> 4) & 0x0f0f0f0f0f0f0f0full) | ((v & 0x0f0f0f0f0f0f0f0full) << 4);
+  v = ((v >> 2) & 0x3333333333333333ull) | ((v & 0x3333333333333333ull) << 2);
+  v = ((v >> 1) & 0x5555555555555555ull) | ((v & 0x5555555555555555ull) << 1);
+  return to_unit_vec2(v);
+}
+
 }  // namespace pharos::owen

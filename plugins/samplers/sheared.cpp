@@ -36,7 +36,7 @@ class PreparedSheared final : public PreparedSampler {
   }
   Vec2 value_2d(const SampleStream& stream, Dimension dimension) const override {
     const Vec2 u = base_->value_2d(stream, dimension);
-    if (dimension.purpose != purpose_) return u;
+    if (dimension.purpose() != purpose_) return u;
     return {wrapped(u.x + x_by_y_ * u.y), wrapped(u.y + y_by_x_ * u.x)};
   }
 

@@ -16,18 +16,28 @@ namespace {
 
 class PreparedSobol final : public PreparedSampler {
  public:
-  /// What all samples of a pixel share; the sample's number comes from the key.
-  std::uint64_t begin(const PathKey& key) const override { return hash_pixel(key); }
+  /// Upper half: a hash that all samples of a pixel share; lower half: the sample's number,
+  /// reversed.
+  std::uint64_t begin(const PathKey& key) const override {
+    return (hash_pixel(key) & 0xffffffff00000000ull) | owen::reverse_bits(key.sample);
+  }
   float value_1d(const SampleStream& stream, Dimension dimension) const override {
-    const Seeds seeds = seeds_of(stream.state(), dimension);
-    const std::uint32_t index = owen::shuffle_index(stream.key().sample, seeds.order);
+    const Seeds seeds = seeds_of(stream.state() >> 32, dimension);
+    const std::uint32_t index = shuffled(stream, seeds);
     return owen::scrambled_number(owen::sobol_x_reversed(index), seeds.x);
   }
   Vec2 value_2d(const SampleStream& stream, Dimension dimension) const override {
-    const Seeds seeds = seeds_of(stream.state(), dimension);
-    const std::uint32_t index = owen::shuffle_index(stream.key().sample, seeds.order);
-    return {owen::scrambled_number(owen::sobol_x_reversed(index), seeds.x),
-            owen::scrambled_number(owen::sobol_y_reversed(index), seeds.y)};
+    const Seeds seeds = seeds_of(stream.state() >> 32, dimension);
+    const std::uint32_t index = shuffled(stream, seeds);
+    return owen::scrambled_point(owen::sobol_x_reversed(index), seeds.x,
+                                 owen::sobol_y_reversed(index), seeds.y);
+  }
+
+ private:
+  /// The sample's place in the sequence.
+  static std::uint32_t shuffled(const SampleStream& stream, const Seeds& seeds) {
+    const auto reversed = static_cast<std::uint32_t>(stream.state());
+    return owen::reverse_bits(owen::scramble_reversed(reversed, seeds.order));
   }
 };
 

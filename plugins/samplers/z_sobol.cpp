@@ -64,8 +64,8 @@ class PreparedZSobol final : public PreparedSampler {
   Vec2 value_2d(const SampleStream& stream, Dimension dimension) const override {
     const Seeds seeds = seeds_of(stream.state() >> 32, dimension);
     const std::uint32_t index = place(stream, seeds);
-    return {owen::scrambled_number(owen::sobol_x_reversed(index), seeds.x),
-            owen::scrambled_number(owen::sobol_y_reversed(index), seeds.y)};
+    return owen::scrambled_point(owen::sobol_x_reversed(index), seeds.x,
+                                 owen::sobol_y_reversed(index), seeds.y);
   }
 
  private:
