@@ -4,6 +4,7 @@
 #include "independent.h"
 #include "multi_jittered.h"
 #include "pmj02.h"
+#include "pmj02bn.h"
 #include "sheared.h"
 #include "sobol.h"
 #include "stratified.h"
@@ -16,6 +17,7 @@ PHAROS_MODULE(registry) {
   registry.add<pharos::MultiJitteredSampler>("multi_jittered",
                                              "Correlated multi-jittered points in sets");
   registry.add<pharos::Pmj02Sampler>("pmj02", "Progressive multi-jittered (0,2) sequences");
+  registry.add<pharos::Pmj02bnSampler>("pmj02bn", "pmj02 with points that keep farther apart");
   registry.add<pharos::ShearedSampler>("sheared", "Points stratified in lines of a direction");
   registry.add<pharos::SobolSampler>("sobol", "Padded (0,2)-sequences with Owen scrambling");
   registry.add<pharos::StratifiedSampler>("stratified", "Jittered points, one a cell of a grid");

@@ -36,17 +36,16 @@ constexpr StrataGrid grid_of(std::uint32_t samples) {
 constexpr std::uint32_t permuted(std::uint32_t index, std::uint32_t count, std::uint32_t seed) {
   const auto bits = static_cast<std::uint32_t>(std::bit_width(count - 1));
   const std::uint32_t mask = (std::uint32_t{1} << bits) - 1, shift = (bits + 1) / 2;
-  const std::uint32_t again = (seed ^ (seed >> 15)) * 0x2c1b3c6du, last = again * 0x297a2d39u;
+  const std::uint32_t factors = seed * 0x2c1b3c6du;
   do {
     // Each step (an exclusive or, a product with an odd number, a shift onto itself) is a
     // bijection.
     index = ((index ^ seed) * 0x9e3779b1u) & mask;
     index ^= index >> shift;
-    index = ((index ^ (again >> 8)) * ((seed >> 20) | 1)) & mask;
+    index = ((index ^ (seed >> 8)) * ((factors >> 12) | 1)) & mask;
     index ^= index >> shift;
-    index = ((index ^ (last >> 16)) * ((again >> 24) | 1)) & mask;
+    index = ((index ^ (seed >> 16)) * ((factors >> 20) | 1)) & mask;
     index ^= index >> shift;
-    index = (index + (seed >> 12)) & mask;
   } while (index >= count);
   return index;
 }

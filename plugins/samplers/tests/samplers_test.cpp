@@ -9,8 +9,16 @@
 #include <pharos/statistics/goodness_of_fit.h>
 #include <pharos/statistics/hypothesis.h>
 
+#include "../halton.h"
 #include "../independent.h"
+#include "../multi_jittered.h"
+#include "../pmj02.h"
+#include "../pmj02bn.h"
+#include "../sheared.h"
 #include "../sobol.h"
+#include "../stratified.h"
+#include "../toroidal_shift.h"
+#include "../z_sobol.h"
 
 namespace pharos {
 namespace {
@@ -22,8 +30,19 @@ struct Subject {
 
 std::vector<Subject> subjects() {
   std::vector<Subject> all;
-  all.push_back({"independent", IndependentSampler().prepare({}, {}, nullptr)});
-  all.push_back({"sobol", SobolSampler().prepare({}, {}, nullptr)});
+  const auto add = [&all](const char* name, const Sampler& sampler) {
+    all.push_back({name, sampler.prepare({.width = 300, .height = 300}, {}, nullptr)});
+  };
+  add("halton", HaltonSampler());
+  add("independent", IndependentSampler());
+  add("multi_jittered", MultiJitteredSampler());
+  add("pmj02", Pmj02Sampler());
+  add("pmj02bn", Pmj02bnSampler());
+  add("sheared", ShearedSampler({.base = std::make_shared<MultiJitteredSampler>()}));
+  add("sobol", SobolSampler());
+  add("stratified", StratifiedSampler());
+  add("toroidal_shift", ToroidalShiftSampler({.base = std::make_shared<SobolSampler>()}));
+  add("z_sobol", ZSobolSampler());
   return all;
 }
 

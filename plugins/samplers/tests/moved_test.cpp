@@ -1,0 +1,136 @@
+// Samplers that move the points of others: sheared, toroidal_shift.
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include <pharos/statistics/goodness_of_fit.h>
+#include <pharos/statistics/hypothesis.h>
+
+#include "../multi_jittered.h"
+#include "../sheared.h"
+#include "../sobol.h"
+#include "../toroidal_shift.h"
+#include "../torus.h"
+#include "point_lists.h"
+
+namespace pharos {
+namespace {
+
+constexpr SamplePlan kPlan{.samples_per_pixel = 64};
+constexpr Dimension kLight{Purpose::light_position, 2};
+
+std::unique_ptr<const PreparedSampler> sheared(double direction) {
+  const ShearedSampler::Settings settings{.base = std::make_shared<MultiJitteredSampler>(),
+                                          .direction = direction};
+  return ShearedSampler(settings).prepare({}, kPlan, nullptr);
+}
+
+std::unique_ptr<const PreparedSampler> shifted() {
+  return ToroidalShiftSampler({.base = std::make_shared<MultiJitteredSampler>()})
+      .prepare({}, kPlan, nullptr);
+}
+
+double fraction(double v) {
+  return v - std::floor(v);
+}
+
+/// Whether the multiples x * slope_x + y * slope_y, modulo one, lie one each in as many intervals.
+bool is_stratified(const std::vector<Vec2>& points, double slope_x, double slope_y) {
+  std::vector<int> counts(points.size());
+  for (const Vec2 p : points) {
+    // The middle of rounding: numbers are cut to multiples of 2^-24.
+    const double along = fraction(p.x * slope_x + p.y * slope_y + 0x1p-25);
+    ++counts[static_cast<std::size_t>(along * static_cast<double>(points.size()))];
+  }
+  for (const int n : counts) {
+    if (n != 1) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+TEST_CASE("torus: fractions lie in [0, 1)") {
+  CHECK(wrapped(0) == 0);
+  CHECK(wrapped(1.25) == 0.25f);
+  CHECK(wrapped(-0.25) == 0.75f);
+  CHECK(wrapped(-1e-12) == 0x1.fffffep-1f);
+  CHECK(wrapped(3 - 1e-12) < 1);
+  CHECK(wrapped(-1000.5) == 0.5f);
+}
+
+TEST_CASE("sheared: along the axes nothing moves") {
+  const auto base = MultiJitteredSampler().prepare({}, kPlan, nullptr);
+  for (const double direction : {0.0, 180.0, -180.0}) {
+    CHECK(test::points_of(*sheared(direction), {}, kLight, 64) ==
+          test::points_of(*base, {}, kLight, 64));
+  }
+}
+
+TEST_CASE("sheared: points are stratified across lines of the direction") {
+  // At 45 degrees across lines y - x; at 135 degrees (steep) lines y + x.
+  const auto base = MultiJitteredSampler().prepare({}, kPlan, nullptr);
+  const auto points = test::points_of(*base, {.index = 3}, kLight, 64);
+  CHECK_FALSE(is_stratified(points, -1, 1));
+  CHECK(is_stratified(test::points_of(*sheared(45), {.index = 3}, kLight, 64), -1, 1));
+  CHECK(is_stratified(test::points_of(*sheared(-45), {.index = 3}, kLight, 64), 1, 1));
+  const double flat = 20, steep = 70, degree = 3.14159265358979323846 / 180;
+  CHECK(test::fills_grid(test::points_of(*sheared(flat), {}, kLight, 64), 64, 1));
+  CHECK(test::fills_grid(test::points_of(*sheared(steep), {}, kLight, 64), 1, 64));
+  CHECK(
+      is_stratified(test::points_of(*sheared(flat), {}, kLight, 64), -std::tan(flat * degree), 1));
+  CHECK(is_stratified(test::points_of(*sheared(steep), {}, kLight, 64), 1,
+                      -1 / std::tan(steep * degree)));
+}
+
+TEST_CASE("sheared: other purposes are left alone") {
+  const auto base = MultiJitteredSampler().prepare({}, kPlan, nullptr);
+  const auto sampler = sheared(30);
+  CHECK(test::points_of(*sampler, {}, {Purpose::lens}, 64) ==
+        test::points_of(*base, {}, {Purpose::lens}, 64));
+  CHECK(test::numbers_of(*sampler, {}, kLight, 64) == test::numbers_of(*base, {}, kLight, 64));
+}
+
+TEST_CASE("sheared: points stay uniform") {
+  std::vector<double> p_values;
+  for (const double direction : {-70.0, -30.0, 17.0, 45.0, 100.0}) {
+    const auto sampler = sheared(direction);
+    for (const std::uint32_t sample : {0u, 5u}) {
+      std::uint64_t pixel = 0;
+      const auto draw = [&](RandomStream&) -> std::optional<Vec2> {
+        return SampleStream(*sampler, {.index = pixel++, .sample = sample}).get_2d(kLight);
+      };
+      const auto fit = statistics::fit_square_density(draw, [](Vec2) { return 1.0; },
+                                                      {.draws = 40'000, .cells = 100});
+      CHECK(fit.is_density());
+      p_values.push_back(fit.chi_square.p_value);
+    }
+  }
+  for (const double p : statistics::holm_adjusted(p_values)) CHECK(p > 0.01);
+}
+
+TEST_CASE("toroidal_shift: a pixel's points are those of the first pixel, moved by one offset") {
+  const auto sampler = shifted();
+  const auto base = MultiJitteredSampler().prepare({}, kPlan, nullptr);
+  for (std::uint64_t pixel = 0; pixel < 20; ++pixel) {
+    const auto points = test::points_of(*sampler, {.index = pixel}, kLight, 64);
+    const auto unmoved = test::points_of(*base, {}, kLight, 64);
+    const double x = double{points[0].x} - unmoved[0].x, y = double{points[0].y} - unmoved[0].y;
+    CHECK_FALSE((x == 0 && y == 0));
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      CHECK(fraction(double{points[i].x} - unmoved[i].x - x) == 0);
+      CHECK(fraction(double{points[i].y} - unmoved[i].y - y) == 0);
+    }
+  }
+}
+
+TEST_CASE("moved samplers: passes are those of the base") {
+  const auto base = std::make_shared<MultiJitteredSampler>(SetSettings{.samples = 9});
+  CHECK(ShearedSampler({.base = base}).preferred_samples() == 9);
+  CHECK(ToroidalShiftSampler({.base = base}).preferred_samples() == 9);
+  CHECK_FALSE(ShearedSampler({.base = base}).needs_probe());
+}
+
+}  // namespace pharos

@@ -1,0 +1,128 @@
+#include "../z_sobol.h"
+
+#include <cmath>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include <pharos/statistics/point_sets.h>
+
+#include "../sobol.h"
+#include "point_lists.h"
+
+namespace pharos {
+namespace {
+
+constexpr int kWidth = 100;
+constexpr Dimension kDimension{Purpose::light_position, 1};
+
+std::unique_ptr<const PreparedSampler> prepared(std::uint32_t samples) {
+  return ZSobolSampler().prepare({kWidth, 80}, {.samples_per_pixel = samples}, nullptr);
+}
+
+/// All samples of a block of pixels.
+std::vector<Vec2> block_points(const PreparedSampler& sampler, std::uint64_t x0, std::uint64_t y0,
+                               std::uint64_t columns, std::uint64_t rows, std::uint32_t samples) {
+  std::vector<Vec2> all;
+  for (std::uint64_t y = y0; y < y0 + rows; ++y) {
+    for (std::uint64_t x = x0; x < x0 + columns; ++x) {
+      const auto points = test::points_of(sampler, {.index = y * kWidth + x}, kDimension, samples);
+      all.insert(all.end(), points.begin(), points.end());
+    }
+  }
+  return all;
+}
+
+/// The mean of x y over the samples of a pixel, less the integral.
+double pixel_error(const PreparedSampler& sampler, std::uint64_t x, std::uint64_t y) {
+  double sum = 0;
+  for (const Vec2 u : block_points(sampler, x, y, 1, 1, 4)) sum += double{u.x} * u.y / 4;
+  return sum - 0.25;
+}
+
+/// The mean squared error of single pixels over that of means over 4 by 4 pixels.
+double gain_by_blocks(const PreparedSampler& sampler) {
+  double single = 0, blocks = 0;
+  constexpr int kEdge = 64;
+  for (std::uint64_t y = 0; y < kEdge; y += 4) {
+    for (std::uint64_t x = 0; x < kEdge; x += 4) {
+      double mean = 0;
+      for (std::uint64_t i = 0; i < 16; ++i) {
+        const double error = pixel_error(sampler, x + i % 4, y + i / 4);
+        single += error * error;
+        mean += error / 16;
+      }
+      blocks += mean * mean;
+    }
+  }
+  return single / 16 / blocks;
+}
+
+}  // namespace
+
+TEST_CASE("z_sobol: the samples of a pixel fill every elementary interval at each power of two") {
+  for (const std::uint32_t samples : {1u, 2u, 16u, 512u, 4096u}) {
+    const auto sampler = prepared(samples);
+    for (const std::uint64_t pixel : {0u, 4711u}) {
+      const auto points = test::points_of(*sampler, {.index = pixel}, kDimension, samples);
+      for (std::size_t count = 1; count <= samples; count *= 2) {
+        CHECK(statistics::fills_elementary_intervals(std::span(points).first(count)));
+      }
+      CHECK(test::fills_grid(test::numbers_of(*sampler, {.index = pixel}, kDimension, samples),
+                             samples, 1));
+    }
+  }
+}
+
+TEST_CASE("z_sobol: so do those of aligned squares of pixels") {
+  for (const std::uint32_t samples : {1u, 2u, 8u, 16u}) {
+    CAPTURE(samples);
+    const auto sampler = prepared(samples);
+    for (std::uint64_t edge = 1; edge * edge * samples <= 4096 && edge <= 16; edge *= 2) {
+      for (const std::uint64_t place : {0u, 1u, 3u}) {
+        const auto points = block_points(*sampler, place * edge, 2 * edge, edge, edge, samples);
+        CHECK(statistics::fills_elementary_intervals(points));
+      }
+    }
+  }
+}
+
+TEST_CASE("z_sobol: neither rows nor columns are always the pairs") {
+  // Two pixels of a quad together are a net where their pair was chosen.
+  const auto share = [](std::uint64_t columns, std::uint64_t rows) {
+    const auto sampler = prepared(1);
+    double nets = 0;
+    for (std::uint64_t i = 0; i < 400; ++i) {
+      const auto points = block_points(*sampler, 2 * (i % 20), 2 * (i / 20), columns, rows, 1);
+      nets += statistics::fills_elementary_intervals(points) ? 1 : 0;
+    }
+    return nets / 400;
+  };
+  CHECK(share(2, 1) == doctest::Approx(share(1, 2)).epsilon(0.25));
+  CHECK(share(2, 1) < 0.7);
+}
+
+TEST_CASE("z_sobol: errors of neighbours cancel") {
+  const double apart = gain_by_blocks(*SobolSampler().prepare({kWidth, 80}, {}, nullptr));
+  CHECK(apart == doctest::Approx(16).epsilon(0.3));
+  CHECK(gain_by_blocks(*prepared(4)) > 5 * apart);
+}
+
+TEST_CASE("z_sobol: sets follow each other where the number of samples is unknown") {
+  const auto sampler = prepared(0);
+  const auto first = test::points_of(*sampler, {.index = 7}, kDimension, 16);
+  const auto next = test::points_of(*sampler, {.index = 7}, kDimension, 16, 16);
+  CHECK(statistics::fills_elementary_intervals(next));
+  for (std::size_t i = 0; i < 16; ++i) CHECK_FALSE(first[i] == next[i]);
+  CHECK(ZSobolSampler({.samples = 9}).preferred_samples() == 16);
+  CHECK(ZSobolSampler().preferred_samples() == 1);
+}
+
+TEST_CASE("z_sobol: pixels far apart in large images are unrelated") {
+  const auto sampler = prepared(4096);  // 2^20 pixels use up the 32 bits of an index
+  const auto near = test::points_of(*sampler, {.index = 0}, kDimension, 64);
+  const auto far = test::points_of(*sampler, {.index = 1024}, kDimension, 64);
+  for (std::size_t i = 0; i < near.size(); ++i) CHECK_FALSE(near[i] == far[i]);
+}
+
+}  // namespace pharos
