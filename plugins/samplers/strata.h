@@ -32,22 +32,24 @@ constexpr StrataGrid grid_of(std::uint32_t samples) {
 
 /// The image of `index` under a permutation of the numbers below `count` that `seed` picks. A
 /// bijection of the numbers with as many bits is walked until it leads below `count` (the idea of
-/// Kensler 2013, "Correlated Multi-Jittered Sampling").
+/// Kensler 2013, "Correlated Multi-Jittered Sampling"), then all are rotated, which makes every
+/// image of an index exactly as likely.
 constexpr std::uint32_t permuted(std::uint32_t index, std::uint32_t count, std::uint32_t seed) {
   const auto bits = static_cast<std::uint32_t>(std::bit_width(count - 1));
   const std::uint32_t mask = (std::uint32_t{1} << bits) - 1, shift = (bits + 1) / 2;
-  const std::uint32_t factors = seed * 0x2c1b3c6du;
+  const std::uint32_t mixed = seed * 0x2c1b3c6du;
   do {
     // Each step (an exclusive or, a product with an odd number, a shift onto itself) is a
     // bijection.
-    index = ((index ^ seed) * 0x9e3779b1u) & mask;
+    index = ((index ^ (mixed >> 16)) * ((mixed >> 8) | 1)) & mask;
     index ^= index >> shift;
-    index = ((index ^ (seed >> 8)) * ((factors >> 12) | 1)) & mask;
+    index = ((index ^ (mixed >> 20)) * ((mixed >> 11) | 1)) & mask;
     index ^= index >> shift;
-    index = ((index ^ (seed >> 16)) * ((factors >> 20) | 1)) & mask;
+    index = ((index ^ (mixed >> 4)) * ((mixed >> 14) | 1)) & mask;
     index ^= index >> shift;
   } while (index >= count);
-  return index;
+  index += static_cast<std::uint32_t>((std::uint64_t{seed} * count) >> 32);
+  return index < count ? index : index - count;
 }
 
 /// Two unrelated fractions of 32 bits for a sample of a set: its jitter.
