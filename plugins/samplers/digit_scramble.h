@@ -12,9 +12,10 @@
 namespace pharos {
 
 /// Nested random permutations of several digits of a base at once: each digit is permuted in a way
-/// that the digits before it pick. They are drawn into tables; one node of a tree of digits takes
-/// one of the tables and shifts its digits, so all images of a value are equally likely.
-template <std::uint32_t base, std::uint32_t digits>
+/// that the digits before it pick. They are drawn into tables; each node of a tree of digits takes
+/// two of these, one after the other; if `shifted` one, and then its digits are shifted, so that
+/// all images of a value are exactly as likely.
+template <std::uint32_t base, std::uint32_t digits, bool shifted>
 class DigitScramble {
  public:
   /// base to the power `digits`: how many values are permuted.
@@ -30,9 +31,7 @@ class DigitScramble {
       const std::vector<std::uint8_t> images = drawn(random);
       std::copy(images.begin(), images.end(), images_.begin() + t * kCount);
     }
-    for (std::uint32_t a = 0; a < kCount; ++a) {
-      for (std::uint32_t b = 0; b < kCount; ++b) sums_[a * kCount + b] = digit_sum(a, b);
-    }
+    for (std::uint32_t i = 0; i < sums_.size(); ++i) sums_[i] = digit_sum(i / kCount, i % kCount);
   }
 
   /// The image of `value` (its first digit is the most significant one) at the node whose place in
@@ -40,6 +39,10 @@ class DigitScramble {
   std::uint32_t operator()(std::uint32_t value, std::uint32_t prefix, std::uint64_t seed) const {
     std::uint64_t hash = (seed + prefix) * 0x9e3779b97f4a7c15ull;
     hash = (hash ^ (hash >> 32)) * 0xbf58476d1ce4e5b9ull;
+    if constexpr (!shifted) {
+      const std::uint32_t first = images_[(hash >> 59) * kCount + value];
+      return images_[((hash >> 54) % kTables) * kCount + first];
+    }
     const auto choice = static_cast<std::uint32_t>(((hash >> 32) * (kTables * kCount)) >> 32);
     const std::uint32_t table = choice % kTables, shift = choice / kTables;
     return sums_[shift * kCount + images_[table * kCount + value]];
@@ -47,7 +50,7 @@ class DigitScramble {
 
  private:
   static_assert(kCount <= 256);
-  static constexpr std::uint32_t kTables = 32;
+  static constexpr std::uint32_t kTables = 32;  // five bits of a hash
 
   static std::vector<std::uint8_t> drawn(RandomStream& random) {
     std::vector<std::uint8_t> images{0};
@@ -81,7 +84,7 @@ class DigitScramble {
   }
 
   std::array<std::uint8_t, kTables * kCount> images_;
-  std::array<std::uint8_t, kCount * kCount> sums_;
+  std::array<std::uint8_t, shifted ? kCount * kCount : 0> sums_;
 };
 
 }  // namespace pharos

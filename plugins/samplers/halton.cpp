@@ -9,7 +9,7 @@
 // an order of its own, with the digits of the index in base 6 permuted, the first digits first:
 // prefixes of 6^k points stay blocks of consecutive points. So 6, 36, 216, 1296 samples are best;
 // between, n = j 6^k are as even as j sets of 6^k. The shuffles are as long as the plan's samples
-// need, 36^4 at most (36^2 with a time budget); further samples begin anew.
+// need, 6^9 at most (6^6 with a time budget); further samples begin anew.
 //
 //     { type: halton }
 #include "halton.h"
@@ -21,32 +21,30 @@
 namespace pharos {
 namespace {
 
-/// Indices are shuffled two digits of base 6 at a time, and number in base 3 are scrambled three
-/// digits at a time, up to four times.
-constexpr std::uint32_t kSixths = 36, kThirds = 27, kMostGroups = 4;
+/// Indices are shuffled three digits of base 6 at a time, numbers in base 3 are scrambled four
+/// digits at a time.
+constexpr std::uint32_t kSixths = 216, kThirds = 81;
 
 constexpr std::uint32_t power(std::uint32_t base, std::uint32_t exponent) {
   return exponent == 0 ? 1 : base * power(base, exponent - 1);
 }
 
-/// The three lowest digits of base 3 in the opposite order.
+/// The four lowest digits of base 3 in the opposite order.
 constexpr std::uint32_t reversed_thirds(std::uint32_t v) {
-  return v % 3 * 9 + v / 3 % 3 * 3 + v / 9;
+  return v % 3 * 27 + v / 3 % 3 * 9 + v / 9 % 3 * 3 + v / 27;
 }
 
+/// For sets of 216^groups samples; 1 to 3.
+template <std::uint32_t groups>
 class PreparedHalton final : public PreparedSampler {
  public:
-  /// For sets of 36^groups samples.
-  explicit PreparedHalton(std::uint32_t groups)
-      : period_(power(kSixths, groups)),
-        strata_count_(power(kThirds, std::min(groups + 1, kMostGroups))),
-        strata_(strata_count_) {
+  PreparedHalton() {
     for (std::uint32_t v = 0; v < kThirds; ++v) reversed_[v] = reversed_thirds(v);
   }
 
   std::uint64_t begin(const PathKey& key) const override {
-    const std::uint32_t set = key.sample / period_;
-    return (hash_combine(hash_pixel(key), set) << kIndexBits) | (key.sample - set * period_);
+    const std::uint32_t set = key.sample / kPeriod;
+    return (hash_pixel(key, set) << kIndexBits) | (key.sample - set * kPeriod);
   }
   float value_1d(const SampleStream& stream, Dimension dimension) const override {
     const Seeds seeds = seeds_of(stream.state() >> kIndexBits, dimension);
@@ -59,58 +57,59 @@ class PreparedHalton final : public PreparedSampler {
   }
 
  private:
-  /// Of the state: the number within the set, below 36^4. The others are a hash of pixel and set.
-  static constexpr int kIndexBits = 21;
+  static constexpr std::uint32_t kPeriod = power(kSixths, groups);
+  static constexpr std::uint32_t kThirdGroups = std::min(groups + 1, 3u);
+  static constexpr Strata kStrata{power(kThirds, kThirdGroups)};
+  /// Of the state: the number within the set, below 216^3. The others are a hash of pixel and set.
+  static constexpr int kIndexBits = 24;
   /// Tells the places of groups apart.
   static constexpr std::uint64_t kNextPlace = 0x8cb92ba72f3d8dd7ull;
 
   /// Each group of digits is permuted as those before it, the quotient, say.
   std::uint32_t shuffled(const SampleStream& stream, const Seeds& seeds) const {
     auto rest = static_cast<std::uint32_t>(stream.state() & ((1u << kIndexBits) - 1));
-    std::uint64_t seed = (std::uint64_t{seeds.order} << 32) | seeds.more;
-    std::uint32_t image = 0;
-    for (std::uint32_t place = 1; place < period_; place *= kSixths, seed += kNextPlace) {
+    std::uint64_t seed = (std::uint64_t{seeds.order} << 32) | seeds.x;
+    std::uint32_t image = 0, place = 1;
+    for (std::uint32_t group = 0; group < groups; ++group) {
       const std::uint32_t before = rest / kSixths;
       image += place * sixths_(rest - before * kSixths, before, seed);
       rest = before;
+      place *= kSixths;
+      seed += kNextPlace;
     }
     return image;
   }
 
   /// The first digits of the number are the last ones of the index.
   float base_3(std::uint32_t index, const Seeds& seeds) const {
-    std::uint64_t seed = (std::uint64_t{seeds.y} << 32) | seeds.x;
-    std::uint32_t image = 0, before = 0, rest = index;
-    for (std::uint32_t place = 1; place < strata_count_; place *= kThirds, seed += kNextPlace) {
+    std::uint64_t seed = (std::uint64_t{seeds.y} << 32) | seeds.more;
+    std::uint32_t image = 0, before = 0, rest = index, place = 1;
+    for (std::uint32_t group = 0; group < kThirdGroups; ++group) {
       const std::uint32_t quotient = rest / kThirds, digits = rest - quotient * kThirds;
       image = image * kThirds + thirds_(reversed_[digits], before, seed);
       before += place * digits;
       rest = quotient;
+      place *= kThirds;
+      seed += kNextPlace;
     }
-    return strata_.at(image, owen::scramble_reversed(index, seeds.more));
+    return kStrata.at(image, (index * 0x9e3779b1u) ^ seeds.order);
   }
 
-  std::uint32_t period_, strata_count_;
-  Strata strata_;
   std::array<std::uint32_t, kThirds> reversed_;
-  DigitScramble<6, 2> sixths_{1};
-  DigitScramble<3, 3> thirds_{2};
+  DigitScramble<6, 3, false> sixths_{1};
+  DigitScramble<3, 4, true> thirds_{2};
 };
-
-/// As many groups of digits as the plan's samples need; with a time budget sets have 36^2 samples.
-std::uint32_t groups_of(const SamplePlan& plan) {
-  if (plan.samples_per_pixel == 0) return 2;
-  std::uint32_t groups = 1;
-  while (groups < kMostGroups && power(kSixths, groups) < plan.samples_per_pixel) ++groups;
-  return groups;
-}
 
 }  // namespace
 
+/// As many groups of digits as the plan's samples need; with a time budget sets have 6^6 samples.
 std::unique_ptr<const PreparedSampler> HaltonSampler::prepare(const PixelGrid&,
                                                               const SamplePlan& plan,
                                                               const IntegrandProbe*) const {
-  return std::make_unique<PreparedHalton>(groups_of(plan));
+  const std::uint32_t samples = plan.samples_per_pixel;
+  if (samples > power(kSixths, 2)) return std::make_unique<PreparedHalton<3>>();
+  if (samples > kSixths || samples == 0) return std::make_unique<PreparedHalton<2>>();
+  return std::make_unique<PreparedHalton<1>>();
 }
 
 }  // namespace pharos

@@ -9,9 +9,12 @@
 /// Seeds of the hash-based samplers.
 namespace pharos {
 
-/// What all samples of a pixel share: a hash of seed, iteration and index.
-constexpr std::uint64_t hash_pixel(const PathKey& key) {
-  return hash_combine(hash_combine(mix_bits(key.seed), key.iteration), key.index);
+/// What all samples of a pixel share, or those of one set of them: a hash of seed, iteration, index
+/// and the set's number. One mixer for a sum with odd factors, as every path pays for it.
+constexpr std::uint64_t hash_pixel(const PathKey& key, std::uint64_t set = 0) {
+  return mix_bits(key.seed * 0x9b05688c2b3e6c1full + key.iteration * 0xd6e8feb86659fd93ull +
+                  key.index * 0xa0761d6478bd642full + set * 0xe7037ed1a0b428dbull +
+                  0x632be59bd9b4e019ull);
 }
 
 /// Four unrelated words of 32 bits for one dimension of what `state` names.
@@ -36,7 +39,7 @@ class SetPlace {
   /// The place of a sample whose sets have `size` samples, 1 to kMostSamples.
   static constexpr SetPlace of(const PathKey& key, std::uint32_t size) {
     const std::uint32_t set = key.sample / size;
-    return SetPlace((hash_combine(hash_pixel(key), set) << 16) | (key.sample - set * size));
+    return SetPlace((hash_pixel(key, set) << 16) | (key.sample - set * size));
   }
   constexpr explicit SetPlace(std::uint64_t state) : state_(state) {}
 

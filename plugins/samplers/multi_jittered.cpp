@@ -19,7 +19,12 @@ namespace {
 
 class PreparedMultiJittered final : public PreparedSampler {
  public:
-  explicit PreparedMultiJittered(StrataGrid grid) : grid_(grid), cells_(grid.cells()) {}
+  explicit PreparedMultiJittered(StrataGrid grid)
+      : grid_(grid),
+        places_(grid),
+        cells_(grid.cells()),
+        column_orders_(grid.columns),
+        row_orders_(grid.rows) {}
 
   std::uint64_t begin(const PathKey& key) const override {
     return SetPlace::of(key, grid_.cells()).state();
@@ -32,10 +37,9 @@ class PreparedMultiJittered final : public PreparedSampler {
   Vec2 value_2d(const SampleStream& stream, Dimension dimension) const override {
     const SetPlace place(stream.state());
     const Seeds seeds = seeds_of(place.set_hash(), dimension);
-    const std::uint32_t cell = permuted(place.index(), grid_.cells(), seeds.order);
-    const std::uint32_t row = cell / grid_.columns, column = cell - row * grid_.columns;
-    const std::uint32_t x = column * grid_.rows + permuted(row, grid_.rows, seeds.x);
-    const std::uint32_t y = row * grid_.columns + permuted(column, grid_.columns, seeds.y);
+    const auto [column, row] = places_[permuted(place.index(), grid_.cells(), seeds.order)];
+    const std::uint32_t x = column * grid_.rows + row_orders_(row, seeds.x);
+    const std::uint32_t y = row * grid_.columns + column_orders_(column, seeds.y);
     const std::uint64_t jitter = jitter_bits(place.index(), seeds);
     return {cells_.at(x, static_cast<std::uint32_t>(jitter >> 32)),
             cells_.at(y, static_cast<std::uint32_t>(jitter))};
@@ -43,7 +47,9 @@ class PreparedMultiJittered final : public PreparedSampler {
 
  private:
   StrataGrid grid_;
+  GridCells places_;
   Strata cells_;
+  DrawnPermutations column_orders_, row_orders_;
 };
 
 }  // namespace

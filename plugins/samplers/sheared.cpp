@@ -1,7 +1,6 @@
 // sheared: points that are stratified in lines of a stated direction (Singh and Jarosz 2017,
 // "Convergence Analysis for Anisotropic Monte Carlo Sampling Spectra"). Points like those of
 // multi_jittered fill narrow rows and columns most evenly: they are best for integrands that vary
-// along one axis only, such as an edge along the other. A shear on the torus turns the rows (for
 // directions within 45 degrees of the x axis: y moves by x times the slope) or the columns (for
 // others: x moves by y over the slope) into lines of that direction, the one an edge of the
 // integrand has. It keeps area, so uniform points stay uniform, and for whole slopes no line is
@@ -16,8 +15,6 @@
 
 #include <pharos/config/registry.h>
 
-#include "torus.h"
-
 namespace pharos {
 namespace {
 
@@ -26,8 +23,9 @@ class PreparedSheared final : public PreparedSampler {
   PreparedSheared(std::unique_ptr<const PreparedSampler> base, double direction, Purpose purpose)
       : base_(std::move(base)), purpose_(purpose) {
     const double angle = direction * 3.14159265358979323846 / 180;
-    const bool is_flat = std::abs(std::cos(angle)) >= std::abs(std::sin(angle));
-    (is_flat ? y_by_x_ : x_by_y_) = is_flat ? std::tan(angle) : std::cos(angle) / std::sin(angle);
+    is_flat_ = std::abs(std::cos(angle)) >= std::abs(std::sin(angle));
+    const double slope = is_flat_ ? std::tan(angle) : std::cos(angle) / std::sin(angle);
+    slope_ = std::llround(slope * 0x1p32);
   }
 
   std::uint64_t begin(const PathKey& key) const override { return base_->begin(key); }
@@ -37,13 +35,22 @@ class PreparedSheared final : public PreparedSampler {
   Vec2 value_2d(const SampleStream& stream, Dimension dimension) const override {
     const Vec2 u = base_->value_2d(stream, dimension);
     if (dimension.purpose() != purpose_) return u;
-    return {wrapped(u.x + x_by_y_ * u.y), wrapped(u.y + y_by_x_ * u.x)};
+    if (is_flat_) return {u.x, moved(u.y, u.x)};
+    return {moved(u.x, u.y), u.y};
   }
 
  private:
+  /// Numbers are multiples of 2^-24: with these as integers nothing is rounded but the way.
+  float moved(float u, float by) const {
+    const std::int64_t way = (std::int64_t{steps_of(by)} * slope_) >> 32;
+    return static_cast<float>((steps_of(u) + static_cast<std::int32_t>(way)) & 0xffffff) * 0x1p-24f;
+  }
+  static std::int32_t steps_of(float u) { return static_cast<std::int32_t>(u * 0x1p24f); }
+
   std::unique_ptr<const PreparedSampler> base_;
   Purpose purpose_;
-  double x_by_y_ = 0, y_by_x_ = 0;  ///< one of them is zero
+  bool is_flat_;        ///< y moves by x, else x by y
+  std::int64_t slope_;  ///< in units of 2^-32, so whole slopes are exact
 };
 
 }  // namespace

@@ -1,7 +1,10 @@
 #pragma once
 
 #include <bit>
+#include <cstddef>
 #include <cstdint>
+#include <utility>
+#include <vector>
 
 #include <pharos/core/random.h>
 
@@ -10,10 +13,30 @@
 /// Grids of strata and hashed permutations of them.
 namespace pharos {
 
-/// Columns and rows of a grid of strata over the unit square.
+/// Columns and rows of a grid of strata over the unit square, 2^16 cells at most.
 struct StrataGrid {
   std::uint32_t columns, rows;
   constexpr std::uint32_t cells() const { return columns * rows; }
+};
+
+/// Rows and columns of the cells of a grid, which are numbered row by row.
+class GridCells {
+ public:
+  constexpr explicit GridCells(StrataGrid grid)
+      : columns_(grid.columns), reciprocal_((std::uint64_t{1} << 32) / grid.columns + 1) {}
+
+  struct Cell {
+    std::uint32_t column, row;
+  };
+  /// A product with the reciprocal, rounded up, is exact for numbers as small as these.
+  constexpr Cell operator[](std::uint32_t number) const {
+    const auto row = static_cast<std::uint32_t>((number * reciprocal_) >> 32);
+    return {number - row * columns_, row};
+  }
+
+ private:
+  std::uint32_t columns_;
+  std::uint64_t reciprocal_;
 };
 
 /// The grid for sets of `samples`: exactly as many cells where that is a product of two numbers
@@ -52,6 +75,37 @@ constexpr std::uint32_t permuted(std::uint32_t index, std::uint32_t count, std::
   return index < count ? index : index - count;
 }
 
+/// Permutations as those of permuted(), for small counts: faster, from tables.
+class DrawnPermutations {
+ public:
+  explicit DrawnPermutations(std::uint32_t count) : count_(count) {
+    for (std::uint32_t table = 0; table < kTables; ++table) {
+      const std::size_t first = images_.size();
+      for (std::uint32_t i = 0; i < count; ++i) images_.push_back(static_cast<std::uint16_t>(i));
+      RandomStream random(count, table);
+      for (std::uint32_t i = count; i-- > 1;) {
+        std::swap(images_[first + i], images_[first + random() % (i + 1)]);
+      }
+    }
+  }
+
+  /// The image of `index` under the permutation that `seed` picks: one of the tables, rotated.
+  std::uint32_t operator()(std::uint32_t index, std::uint32_t seed) const {
+    const std::uint64_t scaled = std::uint64_t{seed} * count_;
+    const auto table = static_cast<std::uint32_t>(scaled) >> (32 - kTableBits);
+    const std::uint32_t image =
+        images_[table * count_ + index] + static_cast<std::uint32_t>(scaled >> 32);
+    return image < count_ ? image : image - count_;
+  }
+
+ private:
+  static constexpr int kTableBits = 6;
+  static constexpr std::uint32_t kTables = 1u << kTableBits;
+
+  std::uint32_t count_;
+  std::vector<std::uint16_t> images_;
+};
+
 /// Two unrelated fractions of 32 bits for a sample of a set: its jitter.
 constexpr std::uint64_t jitter_bits(std::uint32_t index, const Seeds& seeds) {
   return mix_bits((std::uint64_t{seeds.more} << 32) + index * 0x9e3779b97f4a7c15ull + seeds.x);
@@ -60,24 +114,26 @@ constexpr std::uint64_t jitter_bits(std::uint32_t index, const Seeds& seeds) {
 /// Equal strata of [0, 1) whose numbers never leave them by rounding.
 class Strata {
  public:
-  /// At most 2^19 of them.
-  constexpr explicit Strata(std::uint32_t count) : width_(0x1p24 / count) {}
+  /// At most 3^12 of them.
+  constexpr explicit Strata(std::uint32_t count) : width_((std::uint64_t{1} << 63) / count) {}
 
   /// The number at `offset`, a fraction of 32 bits, within a stratum: one of the multiples of 2^-24
   /// that lie in it.
   constexpr float at(std::uint32_t stratum, std::uint32_t offset) const {
     const std::uint32_t first = first_of(stratum), count = first_of(stratum + 1) - first;
-    return static_cast<float>(first + ((std::uint64_t{offset} * count) >> 32)) * 0x1p-24f;
+    const auto steps = static_cast<std::int32_t>(first + ((std::uint64_t{offset} * count) >> 32));
+    return static_cast<float>(steps) * 0x1p-24f;
   }
 
  private:
-  /// Rounds up. The multiples of `width_` that are no integers keep farther from them than 2^-20,
-  /// which the product's error does not reach.
+  /// The stratum's begin in steps of 2^-24, rounded up. Begins that are no whole steps keep 1.8e-6
+  /// of a step away from these; the product is too small by 0.95e-6 at most.
   constexpr std::uint32_t first_of(std::uint32_t stratum) const {
-    return static_cast<std::uint32_t>(static_cast<std::int64_t>(stratum * width_ + (1 - 0x1p-20)));
+    constexpr std::uint64_t kStep = std::uint64_t{1} << 39, kSlack = std::uint64_t{1} << 18;
+    return static_cast<std::uint32_t>((stratum * width_ + (kStep - kSlack)) >> 39);
   }
 
-  double width_;
+  std::uint64_t width_;
 };
 
 /// Number `index` of a set of `count` stratified numbers: each in a stratum of its own, in an order

@@ -17,7 +17,11 @@ namespace {
 class PreparedStratified final : public PreparedSampler {
  public:
   explicit PreparedStratified(StrataGrid grid)
-      : grid_(grid), columns_(grid.columns), rows_(grid.rows), cells_(grid.cells()) {}
+      : grid_(grid),
+        places_(grid),
+        columns_(grid.columns),
+        rows_(grid.rows),
+        cells_(grid.cells()) {}
 
   std::uint64_t begin(const PathKey& key) const override {
     return SetPlace::of(key, grid_.cells()).state();
@@ -30,8 +34,7 @@ class PreparedStratified final : public PreparedSampler {
   Vec2 value_2d(const SampleStream& stream, Dimension dimension) const override {
     const SetPlace place(stream.state());
     const Seeds seeds = seeds_of(place.set_hash(), dimension);
-    const std::uint32_t cell = permuted(place.index(), grid_.cells(), seeds.order);
-    const std::uint32_t row = cell / grid_.columns, column = cell - row * grid_.columns;
+    const auto [column, row] = places_[permuted(place.index(), grid_.cells(), seeds.order)];
     const std::uint64_t jitter = jitter_bits(place.index(), seeds);
     return {columns_.at(column, static_cast<std::uint32_t>(jitter >> 32)),
             rows_.at(row, static_cast<std::uint32_t>(jitter))};
@@ -39,6 +42,7 @@ class PreparedStratified final : public PreparedSampler {
 
  private:
   StrataGrid grid_;
+  GridCells places_;
   Strata columns_, rows_, cells_;
 };
 

@@ -8,10 +8,12 @@
 //     { type: toroidal_shift, base: multi_jittered }
 #include "toroidal_shift.h"
 
+#include <cmath>
+
 #include <pharos/config/registry.h>
 #include <pharos/core/random.h>
 
-#include "torus.h"
+#include "keyed_seeds.h"
 
 namespace pharos {
 namespace {
@@ -23,12 +25,11 @@ class PreparedToroidalShift final : public PreparedSampler {
 
   std::uint64_t begin(const PathKey& key) const override { return base_->begin(first_pixel(key)); }
   float value_1d(const SampleStream& stream, Dimension dimension) const override {
-    const float u = base_->value_1d(stream, dimension);
-    return wrapped(double{u} + offset(stream, dimension).x);
+    return moved(base_->value_1d(stream, dimension), offset(stream, dimension).x);
   }
   Vec2 value_2d(const SampleStream& stream, Dimension dimension) const override {
     const Vec2 u = base_->value_2d(stream, dimension), by = offset(stream, dimension);
-    return {wrapped(double{u.x} + by.x), wrapped(double{u.y} + by.y)};
+    return {moved(u.x, by.x), moved(u.y, by.y)};
   }
 
  private:
@@ -37,13 +38,11 @@ class PreparedToroidalShift final : public PreparedSampler {
     return key;
   }
   static Vec2 offset(const SampleStream& stream, Dimension dimension) {
-    const PathKey& key = stream.key();
-    // A sum with odd factors is a hash of its own, cheaper than the samplers'.
-    const std::uint64_t pixel = key.seed * 0x9b05688c2b3e6c1full +
-                                key.iteration * 0xd6e8feb86659fd93ull +
-                                key.index * 0xa0761d6478bd642full;
-    return to_unit_vec2(hash_combine(mix_bits(pixel), dimension.code()));
+    constexpr std::uint64_t kOffsets = 0x3c6ef372fe94f82bull;  // apart from other uses of the hash
+    return to_unit_vec2(hash_combine(hash_pixel(stream.key()) ^ kOffsets, dimension.code()));
   }
+  /// Down, as both are multiples of 2^-24: differences below one are exact, sums above it are not.
+  static float moved(float u, float by) { return u - by - std::floor(u - by); }
 
   std::unique_ptr<const PreparedSampler> base_;
 };

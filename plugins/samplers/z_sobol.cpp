@@ -53,8 +53,8 @@ class PreparedZSobol final : public PreparedSampler {
     const std::uint32_t set = key.sample >> sample_bits_;
     const std::uint32_t sample = key.sample - (set << sample_bits_);
     const auto place = static_cast<std::uint32_t>((pixel << bits) | (sample << padding_));
-    const std::uint64_t image = hash_combine(hash_combine(mix_bits(key.seed), key.iteration), set);
-    const std::uint64_t hash = hash_combine(image, pixel >> (32 - bits));
+    const PathKey block{key.seed, key.iteration, pixel >> (32 - bits), 0};
+    const std::uint64_t hash = hash_pixel(block, set);
     return (hash & 0xffffffff00000000ull) | owen::reverse_bits(place);
   }
   float value_1d(const SampleStream& stream, Dimension dimension) const override {
@@ -78,9 +78,11 @@ class PreparedZSobol final : public PreparedSampler {
   /// Chooses which bit of each pixel's digit of base 4 tells the pairs apart: that of y (the first,
   /// at the even places of a reversed number), that of x, or their sum.
   std::uint32_t with_pairings(std::uint32_t reversed, const Seeds& seeds) const {
-    // Bits at even places of these depend on the digits before theirs alone.
-    const std::uint32_t a = owen::scramble_reversed(reversed, seeds.more) ^ reversed;
-    const std::uint32_t b = owen::scramble_reversed(reversed, seeds.more * 0x9e3779b1u) ^ reversed;
+    // Products with odd numbers carry upwards only: bits at even places of these, once that place's
+    // own bit is taken off, depend on the digits before theirs alone.
+    const std::uint32_t product = (reversed + seeds.x) * ((seeds.order << 1) | 1);
+    const std::uint32_t a = product ^ (product * 0x05526c56u) ^ reversed;
+    const std::uint32_t b = a * 0x9e3779b1u;
     const std::uint32_t differ = (reversed ^ (reversed >> 1)) & a & pixel_digits_;
     const std::uint32_t swapped = reversed ^ differ ^ (differ << 1);
     return swapped ^ ((swapped >> 1) & b & pixel_digits_);

@@ -23,7 +23,7 @@ constexpr Dimension kDimension{Purpose::bsdf_direction, 1};
 }  // namespace
 
 TEST_CASE("halton: j 6^k samples fill all elementary intervals of up to k digits") {
-  for (const std::uint32_t planned : {216u, 2000u, 50'000u, 0u}) {
+  for (const std::uint32_t planned : {2000u, 50'000u, 0u}) {
     const auto sampler = HaltonSampler().prepare({}, {.samples_per_pixel = planned}, nullptr);
     for (std::uint64_t pixel = 0; pixel < 3; ++pixel) {
       for (int k = 0; k <= 4; ++k) {
@@ -54,7 +54,7 @@ TEST_CASE("halton: blocks of 6^k samples have one in each cell of 2^-k by 3^-k")
 TEST_CASE("halton: few planned samples make short sets") {
   const auto sampler = HaltonSampler().prepare({}, {.samples_per_pixel = 6}, nullptr);
   for (const std::uint32_t set : {0u, 5u}) {
-    CHECK(test::fills_grid(test::points_of(*sampler, {}, kDimension, 36, 36 * set), 4, 9));
+    CHECK(test::fills_grid(test::points_of(*sampler, {}, kDimension, 216, 216 * set), 8, 27));
   }
 }
 
@@ -68,7 +68,7 @@ TEST_CASE("halton: numbers in 1D are those of base 2") {
 }
 
 TEST_CASE("digit scrambles: a digit's image depends on itself and those before it") {
-  const DigitScramble<3, 3> scramble(4);
+  const DigitScramble<3, 3, true> scramble(4);
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     std::array<bool, 27> hit{};
     for (std::uint32_t v = 0; v < 27; ++v) {
@@ -82,7 +82,7 @@ TEST_CASE("digit scrambles: a digit's image depends on itself and those before i
 }
 
 TEST_CASE("digit scrambles: every image is as likely, over seeds and over nodes") {
-  const DigitScramble<6, 2> scramble(4);
+  const DigitScramble<6, 2, true> scramble(4);
   std::array<int, 36> by_seed{}, by_node{};
   constexpr int kDraws = 36'000;
   for (std::uint32_t i = 0; i < kDraws; ++i) {

@@ -12,7 +12,6 @@
 #include "../sheared.h"
 #include "../sobol.h"
 #include "../toroidal_shift.h"
-#include "../torus.h"
 #include "point_lists.h"
 
 namespace pharos {
@@ -50,15 +49,6 @@ bool is_stratified(const std::vector<Vec2>& points, double slope_x, double slope
 }
 
 }  // namespace
-
-TEST_CASE("torus: fractions lie in [0, 1)") {
-  CHECK(wrapped(0) == 0);
-  CHECK(wrapped(1.25) == 0.25f);
-  CHECK(wrapped(-0.25) == 0.75f);
-  CHECK(wrapped(-0x1p-24) == 0x1.fffffep-1f);
-  CHECK(wrapped(3 - 1e-12) == 0);
-  CHECK(wrapped(-1000.5) == 0.5f);
-}
 
 TEST_CASE("sheared: along the axes nothing moves") {
   const auto base = MultiJitteredSampler().prepare({}, kPlan, nullptr);

@@ -2,6 +2,7 @@
 #include "../strata.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -43,6 +44,13 @@ TEST_CASE("strata: grids are as square as the number of samples allows") {
   for (std::uint32_t samples = 1; samples <= SetPlace::kMostSamples; ++samples) {
     REQUIRE(grid_of(samples).cells() >= samples);
     REQUIRE(grid_of(samples).cells() <= SetPlace::kMostSamples);
+    // Quotients by reciprocals err first, if anywhere, at the end of a row.
+    const StrataGrid grid = grid_of(samples);
+    const GridCells cells(grid);
+    for (std::uint32_t row = 0; row < grid.rows; ++row) {
+      REQUIRE(cells[row * grid.columns].row == row);
+      REQUIRE(cells[row * grid.columns + grid.columns - 1].row == row);
+    }
   }
 }
 
@@ -78,6 +86,29 @@ TEST_CASE("strata: permutations are bijections, and every image is as likely") {
     p_values.push_back(statistics::chi_square_test(images, even).p_value);
   }
   for (const double p : statistics::holm_adjusted(p_values)) CHECK(p > 0.01);
+}
+
+TEST_CASE("strata: drawn permutations are bijections, and every image is as likely") {
+  for (const std::uint32_t count : {1u, 2u, 7u, 16u, 257u}) {
+    const DrawnPermutations permutations(count);
+    std::vector<std::uint32_t> images(count);
+    constexpr std::uint32_t kSeeds = 2000;
+    RandomStream random(count);
+    for (std::uint32_t i = 0; i < kSeeds; ++i) {
+      const auto seed = static_cast<std::uint32_t>(random());
+      std::vector<bool> hit(count);
+      for (std::uint32_t index = 0; index < count; ++index) {
+        const std::uint32_t image = permutations(index, seed);
+        REQUIRE(image < count);
+        REQUIRE_FALSE(hit[image]);
+        hit[image] = true;
+      }
+      ++images[permutations(count / 2, seed)];
+    }
+    // Counts are binomial; five standard deviations.
+    const double even = static_cast<double>(kSeeds) / count;
+    for (const std::uint32_t n : images) CHECK(std::abs(n - even) <= 5 * std::sqrt(even) + 1);
+  }
 }
 
 TEST_CASE("strata: numbers never leave their stratum by rounding") {
