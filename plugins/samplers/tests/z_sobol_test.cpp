@@ -119,9 +119,10 @@ TEST_CASE("z_sobol: sets follow each other where the number of samples is unknow
 }
 
 TEST_CASE("z_sobol: pixels far apart in large images are unrelated") {
-  const auto sampler = prepared(4096);  // 2^20 pixels use up the 32 bits of an index
+  // 2^20 pixels of 2^12 samples use up the 32 bits of a place; this pixel is the 2^21st.
+  const auto sampler = prepared(4096);
   const auto near = test::points_of(*sampler, {.index = 0}, kDimension, 64);
-  const auto far = test::points_of(*sampler, {.index = 1024}, kDimension, 64);
+  const auto far = test::points_of(*sampler, {.index = 1024 * kWidth}, kDimension, 64);
   for (std::size_t i = 0; i < near.size(); ++i) CHECK_FALSE(near[i] == far[i]);
 }
 
