@@ -19,12 +19,13 @@ namespace {
 
 class PreparedMultiJittered final : public PreparedSampler {
  public:
-  explicit PreparedMultiJittered(StrataGrid grid)
+  PreparedMultiJittered(StrataGrid grid, bool correlated)
       : grid_(grid),
         places_(grid),
         cells_(grid.cells()),
         column_orders_(grid.columns),
-        row_orders_(grid.rows) {}
+        row_orders_(grid.rows),
+        apart_(correlated ? 0 : 0x9e3779b1u) {}
 
   std::uint64_t begin(const PathKey& key) const override {
     return SetPlace::of(key, grid_.cells()).state();
@@ -38,8 +39,8 @@ class PreparedMultiJittered final : public PreparedSampler {
     const SetPlace place(stream.state());
     const Seeds seeds = seeds_of(place.set_hash(), dimension);
     const auto [column, row] = places_[permuted(place.index(), grid_.cells(), seeds.order)];
-    const std::uint32_t x = column * grid_.rows + row_orders_(row, seeds.x);
-    const std::uint32_t y = row * grid_.columns + column_orders_(column, seeds.y);
+    const std::uint32_t x = column * grid_.rows + row_orders_(row, seeds.x ^ (column * apart_));
+    const std::uint32_t y = row * grid_.columns + column_orders_(column, seeds.y ^ (row * apart_));
     const std::uint64_t jitter = jitter_bits(place.index(), seeds);
     return {cells_.at(x, static_cast<std::uint32_t>(jitter >> 32)),
             cells_.at(y, static_cast<std::uint32_t>(jitter))};
@@ -50,14 +51,23 @@ class PreparedMultiJittered final : public PreparedSampler {
   GridCells places_;
   Strata cells_;
   DrawnPermutations column_orders_, row_orders_;
+  std::uint32_t apart_;  ///< what tells the seeds of columns, and of rows, apart
 };
 
 }  // namespace
 
+void MultiJitteredSampler::Settings::describe(Schema<Settings>& s) {
+  describe_samples(s);
+  s.field("correlated", &Settings::correlated, "Whether all columns, and all rows, are alike");
+  s.example("{ samples: 7 }");
+  s.example("{ samples: 32, correlated: false }");
+}
+
 std::unique_ptr<const PreparedSampler> MultiJitteredSampler::prepare(const PixelGrid&,
                                                                      const SamplePlan& plan,
                                                                      const IntegrandProbe*) const {
-  return std::make_unique<PreparedMultiJittered>(grid_of(set_size(settings_, plan)));
+  return std::make_unique<PreparedMultiJittered>(grid_of(set_size(settings_.samples, plan)),
+                                                 settings_.correlated);
 }
 
 std::uint32_t MultiJitteredSampler::preferred_samples() const {

@@ -15,23 +15,29 @@ namespace pharos {
 /// Where neither the settings nor the plan (a time budget) tell a set's size.
 inline constexpr std::uint32_t kDefaultSetSize = 16;
 
-/// Settings of such a sampler.
+/// Declares it, for settings with a member of this name.
+template <class Settings>
+void describe_samples(Schema<Settings>& s) {
+  s.field("samples", &Settings::samples,
+          "Size of a set; without it the samples a pixel, or 16 with a time budget")
+      .at_least(1)
+      .at_most(SetPlace::kMostSamples);
+}
+
+/// Settings of a sampler with no other parameter.
 struct SetSettings {
   std::optional<std::uint32_t> samples;
 
   static void describe(Schema<SetSettings>& s) {
-    s.field("samples", &SetSettings::samples,
-            "Size of a set; without it the samples a pixel, or 16 with a time budget")
-        .at_least(1)
-        .at_most(SetPlace::kMostSamples);
+    describe_samples(s);
     s.example("{ samples: 7 }");
     s.example("{ samples: 32 }");
   }
 };
 
 /// The stated size; without one the planned samples of a pixel, at most a set's most.
-inline std::uint32_t set_size(const SetSettings& settings, const SamplePlan& plan) {
-  if (settings.samples) return *settings.samples;
+inline std::uint32_t set_size(std::optional<std::uint32_t> stated, const SamplePlan& plan) {
+  if (stated) return *stated;
   if (plan.samples_per_pixel == 0) return kDefaultSetSize;
   return std::min(plan.samples_per_pixel, SetPlace::kMostSamples);
 }

@@ -51,7 +51,7 @@ class PreparedStratified final : public PreparedSampler {
 std::unique_ptr<const PreparedSampler> StratifiedSampler::prepare(const PixelGrid&,
                                                                   const SamplePlan& plan,
                                                                   const IntegrandProbe*) const {
-  return std::make_unique<PreparedStratified>(grid_of(set_size(settings_, plan)));
+  return std::make_unique<PreparedStratified>(grid_of(set_size(settings_.samples, plan)));
 }
 
 std::uint32_t StratifiedSampler::preferred_samples() const {

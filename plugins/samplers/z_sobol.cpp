@@ -100,7 +100,7 @@ std::unique_ptr<const PreparedSampler> ZSobolSampler::prepare(const PixelGrid& g
                                                               const SamplePlan& plan,
                                                               const IntegrandProbe*) const {
   return std::make_unique<PreparedZSobol>(static_cast<std::uint32_t>(std::max(grid.width, 1)),
-                                          std::bit_ceil(set_size(settings_, plan)));
+                                          std::bit_ceil(set_size(settings_.samples, plan)));
 }
 
 std::uint32_t ZSobolSampler::preferred_samples() const {

@@ -116,7 +116,8 @@ TEST_CASE("toroidal_shift: a pixel's points are those of the first pixel, moved 
 }
 
 TEST_CASE("moved samplers: passes are those of the base") {
-  const auto base = std::make_shared<MultiJitteredSampler>(SetSettings{.samples = 9});
+  const auto base =
+      std::make_shared<MultiJitteredSampler>(MultiJitteredSampler::Settings{.samples = 9});
   CHECK(ShearedSampler({.base = base}).preferred_samples() == 9);
   CHECK(ToroidalShiftSampler({.base = base}).preferred_samples() == 9);
   CHECK_FALSE(ShearedSampler({.base = base}).needs_probe());

@@ -166,6 +166,22 @@ TEST_CASE("multi_jittered: all columns share the permutation of their rows") {
   }
 }
 
+TEST_CASE("multi_jittered: uncorrelated ones fill columns and rows, each in its own way") {
+  const auto sampler =
+      MultiJitteredSampler({.samples = 64, .correlated = false}).prepare({}, {}, nullptr);
+  const auto points = test::points_of(*sampler, {}, kDimension, 64);
+  CHECK(test::fills_grid(points, 8, 8));
+  CHECK(test::fills_grid(points, 64, 1));
+  CHECK(test::fills_grid(points, 1, 64));
+  // Whether the places of a row's points within their columns differ.
+  std::vector<std::uint32_t> places;
+  for (const Vec2 p : points) {
+    if (p.y < 0.125f) places.push_back(static_cast<std::uint32_t>(p.x * 64) % 8);
+  }
+  CHECK(*std::max_element(places.begin(), places.end()) !=
+        *std::min_element(places.begin(), places.end()));
+}
+
 TEST_CASE("strata: each set and each dimension is jittered and ordered anew") {
   const auto sampler = prepared<StratifiedSampler>(16);
   const auto first = test::points_of(*sampler, {}, kDimension, 16);
@@ -183,7 +199,7 @@ TEST_CASE("strata: the stated size of a set is the size of passes") {
   CHECK(StratifiedSampler().preferred_samples() == 1);
   CHECK(set_size({}, {.samples_per_pixel = 0}) == 16);
   CHECK(set_size({}, {.samples_per_pixel = 100'000}) == SetPlace::kMostSamples);
-  CHECK(set_size({.samples = 9}, {.samples_per_pixel = 100}) == 9);
+  CHECK(set_size(9, {.samples_per_pixel = 100}) == 9);
 }
 
 }  // namespace pharos
