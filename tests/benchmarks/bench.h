@@ -26,5 +26,6 @@ std::vector<Measurement> bench_threads(int repeats);
 std::vector<Measurement> bench_startup(int repeats);
 std::vector<Measurement> bench_guiding(int repeats);
 std::vector<Measurement> bench_samplers(int repeats);
+std::vector<Measurement> bench_growth(int repeats);
 
 }  // namespace pharos::bench

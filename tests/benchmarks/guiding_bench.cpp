@@ -24,6 +24,7 @@ namespace {
 
 constexpr std::size_t kVertices = 50'000;  // of two densities each
 constexpr int kThreads = 2;
+constexpr const char* kGrowthScene = "camera-obscura";
 
 std::string guided_config(const GuidePair& pair, const std::string& scene) {
   return fmt::format(R"({}
@@ -122,7 +123,30 @@ std::vector<Measurement> measure_pair(const GuidePair& pair, const SphereField& 
   return all;
 }
 
+/// How the cost of focal guiding grows as its octrees become finer (Rath et al. 2023, fig. 7).
+std::vector<Measurement> measure_growth(const Registry& registry, int repeats) {
+  std::vector<Measurement> all;
+  for (const char* gamma : {"1e-1", "1e-2", "1e-3", "1e-4", "1e-5"}) {
+    const GuidePair pair{.name = fmt::format("focal.gamma-{}", gamma),
+                         .learner = fmt::format("{{ type: focal, split_threshold: {} }}", gamma),
+                         .guider = "focal"};
+    const Trained trained(pair, scene_entry(kGrowthScene), registry);
+    for (const auto& some : {measure_answers(pair, trained, repeats),
+                             measure_render(pair, kGrowthScene, trained, repeats)}) {
+      all.insert(all.end(), some.begin(), some.end());
+    }
+  }
+  return all;
+}
+
 }  // namespace
+
+std::vector<Measurement> bench_growth(int repeats) {
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, kThreads);
+  tbb::task_arena arena(kThreads);
+  const Registry registry = load_default_modules();
+  return arena.execute([&] { return measure_growth(registry, repeats); });
+}
 
 std::vector<Measurement> bench_guiding(int repeats) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, kThreads);

@@ -50,7 +50,8 @@ int run(const Options& options) {
                                                                   {"rays", bench_rays},
                                                                   {"threads", bench_threads},
                                                                   {"guiding", bench_guiding},
-                                                                  {"samplers", bench_samplers}};
+                                                                  {"samplers", bench_samplers},
+                                                                  {"growth", bench_growth}};
   std::vector<Measurement> all;
   for (const auto& [name, benchmark] : benchmarks) {
     if (!options.filter.empty() && name.find(options.filter) == std::string::npos) continue;

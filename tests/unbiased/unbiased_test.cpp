@@ -46,8 +46,8 @@ std::vector<Method> methods() {
           focal_learned()};
 }
 
-LoadedConfig proof(const std::filesystem::path& config, const std::vector<std::string>& guiding) {
-  std::vector<std::string> overrides;
+LoadedConfig load(const std::filesystem::path& config, const std::vector<std::string>& guiding,
+                  std::vector<std::string> overrides = {}) {
   for (const std::string& setting : guiding) {
     overrides.push_back("integrator.guiding." + setting);
   }
@@ -61,11 +61,11 @@ constexpr statistics::AgreementOptions kOptions{.effective_contributions = 400};
 /// Compares `methods` with unguided renders of the same number of samples.
 void compare(const std::filesystem::path& config, std::span<const Method> methods) {
   const std::string scene = config.stem().string();
-  const Renders unguided = render_seeds(proof(config, {}), kRenders);
+  const Renders unguided = render_seeds(load(config, {}), kRenders);
   const auto reference = unguided.side();
   for (std::size_t i = 0; i < methods.size(); ++i) {
     const Renders guided =
-        render_seeds(proof(config, methods[i].settings), kRenders, 1000 * (i + 1));
+        render_seeds(load(config, methods[i].settings), kRenders, 1000 * (i + 1));
     const auto result = statistics::compare_images(guided.side(), reference, kOptions);
     CAPTURE(scene);
     CAPTURE(methods[i].name);
@@ -73,6 +73,24 @@ void compare(const std::filesystem::path& config, std::span<const Method> method
     check_agreement(result);
     check_bias_is_seen(guided, reference, kOptions);
   }
+}
+
+/// Compares two shares of unguided samples where unguided renders alone would never converge.
+void compare_shares(const std::string& scene, int samples) {
+  const auto config = std::filesystem::path(PHAROS_CONFIGS) / (scene + ".yaml");
+  const auto render = [&](float unguided_fraction, std::uint64_t first_seed) {
+    return render_seeds(
+        load(config, focal(unguided_fraction, "line", "discard").settings,
+             {"film={ width: 48, height: 32, filter: box }", "integrator.max_depth=8",
+              "budget={ spp: " + std::to_string(samples) + " }"}),
+        kRenders, first_seed);
+  };
+  const Renders few = render(0.25f, 1), many = render(0.75f, 1000);
+  const auto result = statistics::compare_images(few.side(), many.side(), kOptions);
+  CAPTURE(scene);
+  print_agreement(scene + ", 0.25 against 0.75", few.samples_per_pixel, result);
+  check_agreement(result);
+  check_bias_is_seen(few, many.side(), kOptions);
 }
 
 }  // namespace
@@ -90,6 +108,12 @@ TEST_CASE("long: unbiased on every proof variant") {
   std::sort(configs.begin(), configs.end());
   REQUIRE(!configs.empty());
   for (const auto& config : configs) compare(config, methods());
+}
+
+TEST_CASE("long: unbiased where unguided renders do not converge") {
+  compare_shares("camera-obscura", 512);
+  compare_shares("camera-obscura-small", 512);
+  compare_shares("hall", 512);
 }
 
 }  // namespace pharos::testing
