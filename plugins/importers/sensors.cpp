@@ -139,15 +139,28 @@ const std::map<std::string_view, Mapper>& mappers() {
   return all;
 }
 
+/// The sampler that stands for another renderer's, or comes nearest.
+struct NearestSampler {
+  const char* name;
+  bool is_same;
+};
+
 const char* sampler_here(SceneMap& scene, const Object& sampler) {
-  static const std::map<std::string_view, bool> is_independent{
-      {"independent", true}, {"ldsampler", false},  {"sobol", false},       {"halton", false},
-      {"hammersley", false}, {"stratified", false}, {"multijitter", false}, {"orthogonal", false}};
-  if (mapper_of(is_independent, sampler)) return "independent";
-  if (sampler.type != "sobol") {
-    scene.note(sampler.where, fmt::format("sampler {}: replaced by sobol", sampler.type));
+  static const std::map<std::string_view, NearestSampler> all{
+      {"independent", {"independent", true}},
+      {"stratified", {"stratified", true}},
+      {"multijitter", {"multi_jittered", true}},
+      {"halton", {"halton", true}},
+      {"sobol", {"sobol", true}},
+      {"ldsampler", {"sobol", false}},
+      {"hammersley", {"halton", false}},
+      {"orthogonal", {"multi_jittered", false}}};
+  const NearestSampler& nearest = mapper_of(all, sampler);
+  if (!nearest.is_same) {
+    scene.note(sampler.where,
+               fmt::format("sampler {}: replaced by {}", sampler.type, nearest.name));
   }
-  return "sobol";
+  return nearest.name;
 }
 
 void map_sampler(SceneMap& scene, const Object* sampler, Camera& camera, const Location& where) {

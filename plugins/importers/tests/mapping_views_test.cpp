@@ -138,7 +138,7 @@ TEST_CASE("views: the list of objects has those that the file states") {
         "sensor perspective -> sensor perspective");
   CHECK(import.objects[1].what + " -> " + import.objects[1].stands == "film hdrfilm -> film");
   CHECK(import.objects[2].what + " -> " + import.objects[2].stands ==
-        "sampler halton -> sampler sobol");
+        "sampler halton -> sampler halton");
 }
 
 TEST_CASE("views: samplers and samples") {
@@ -148,8 +148,11 @@ TEST_CASE("views: samplers and samples") {
   CHECK(part(with("independent"), "sampler") == "independent");
   CHECK(part(with("sobol"), "sampler") == "sobol");
   CHECK(notes(with("sobol")).empty());
-  CHECK(part(with("halton"), "sampler") == "sobol");
-  CHECK(notes(with("halton")) == std::vector<std::string>{"sampler halton: replaced by sobol"});
+  CHECK(part(with("multijitter"), "sampler") == "multi_jittered");
+  CHECK(notes(with("multijitter")).empty());
+  CHECK(part(with("hammersley"), "sampler") == "halton");
+  CHECK(notes(with("hammersley")) ==
+        std::vector<std::string>{"sampler hammersley: replaced by halton"});
   CHECK(part(with("halton"), "budget") == "{ spp: 64 }");
   CHECK(part(view({}), "budget") == "{ spp: 4 }");
 }
