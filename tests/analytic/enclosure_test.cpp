@@ -20,7 +20,7 @@ void check_enclosure(double albedo, const std::string& integrator) {
   sensor: {{ type: perspective, fov: 70, to_world: {{ look_at: {{ origin: [-0.3, 0.1, -0.6], target: [0, 0, 0.5], up: [0, 1, 0] }} }} }}
 )",
       albedo);
-  for (const std::string& sampler : samplers()) {
+  for (const std::string sampler : kSamplers) {
     CAPTURE(sampler);
     check_value(
         scene + kFilm +
