@@ -56,7 +56,7 @@ LoadedConfig load(const std::filesystem::path& config, const std::vector<std::st
 
 /// Larger regions than needed for a t-test: unguided renders are so noisy here that a bias of 10 %
 /// could not be seen in smaller ones.
-constexpr statistics::AgreementOptions kOptions{.effective_contributions = 400};
+constexpr statistics::AgreementOptions kOptions{.effective_contributions = 500};
 
 /// Compares `methods` with unguided renders of the same number of samples.
 void compare(const std::filesystem::path& config, std::span<const Method> methods) {
