@@ -6,6 +6,7 @@
 
 #include <pharos/config/module_loader.h>
 #include <pharos/core/error.h>
+#include <pharos/laboratory/integrands/add_integrands.h>
 
 #include "commands.h"
 #include "previews.h"
@@ -127,7 +128,8 @@ void add_plugins_command(CLI::App& app, int&) {
                       "Make pictures of BSDFs, emitters, shapes and samplers in this folder, which "
                       "holds their scenes");
   command->callback([wanted, markdown, previews] {
-    const Registry registry = load_default_modules();
+    Registry registry = load_default_modules();
+    laboratory::add_integrands(registry);
     if (!previews->empty()) render_previews(registry, *previews);
     const std::filesystem::path folder = std::filesystem::path(*previews) / "";
     *markdown ? print_markdown(registry, previews->empty() ? "" : folder.parent_path())

@@ -9,6 +9,7 @@
 #include <pharos/config/module_loader.h>
 #include <pharos/core/error.h>
 #include <pharos/core/log.h>
+#include <pharos/sampling/purpose_names.h>
 
 #include "commands.h"
 #include "sampler_pictures.h"
@@ -28,16 +29,11 @@ struct PointsOptions {
 /// The dimension of a 2D purpose at the first vertex that has it. Throws InputError naming the
 /// option.
 Dimension parse_dimension(const std::string& text) {
-  const std::vector<std::pair<std::string, Dimension>> known{
-      {"pixel", {Purpose::pixel}},
-      {"lens", {Purpose::lens}},
-      {"light_position", {Purpose::light_position, 1}},
-      {"bsdf_direction", {Purpose::bsdf_direction, 1}},
-      {"guide_direction", {Purpose::guide_direction, 1}}};
   std::vector<std::string> names;
-  for (const auto& [name, dimension] : known) {
-    if (name == text) return dimension;
-    names.push_back(name);
+  for (const auto& [name, purpose] : EnumNames<Purpose>::names) {
+    const bool is_of_camera = purpose == Purpose::pixel || purpose == Purpose::lens;
+    if (name == text) return {purpose, static_cast<std::uint16_t>(is_of_camera ? 0 : 1)};
+    names.emplace_back(name);
   }
   throw InputError(Location{fmt::format("--dimension {}", text)},
                    fmt::format("expected one of {}, numbers that come in pairs{}",

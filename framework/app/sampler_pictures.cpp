@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include <pharos/conformance/subjects.h>
-#include <pharos/experiments/sampled_points.h>
 
 namespace pharos {
 
@@ -28,10 +27,11 @@ Image sampler_pictures(std::span<const NamedSampler> samplers,
     const Sampler& sampler = *samplers[i].sampler;
     pictures[place] = points_picture(
         sampled_points(sampler, options.dimension, options.count, options.seed), options.edge);
-    pictures[place + columns] =
-        spectrum_picture(expected_spectrum(sampler, options.dimension, options.count,
-                                           options.realisations, options.max_frequency),
-                         options.edge);
+    const SpectrumPlan plan{.dimension = options.dimension,
+                            .count = options.count,
+                            .realisations = options.realisations,
+                            .max_frequency = options.max_frequency};
+    pictures[place + columns] = spectrum_picture(expected_spectrum(sampler, plan), options.edge);
   }
   return contact_sheet(pictures, samplers.size() == 1 ? 2 : static_cast<int>(columns));
 }

@@ -2,21 +2,14 @@
 
 #include <cstdint>
 #include <span>
-#include <string>
 #include <vector>
 
 #include <pharos/config/registry.h>
 #include <pharos/core/image.h>
 #include <pharos/experiments/point_pictures.h>
-#include <pharos/sampling/sampler.h>
+#include <pharos/experiments/sampled_points.h>
 
 namespace pharos {
-
-/// A sampler and how it was asked for.
-struct NamedSampler {
-  std::string name;
-  Ref<Sampler> sampler;
-};
 
 /// Every registered sampler that has points without a scene, by name, with its defaults or its
 /// first example.

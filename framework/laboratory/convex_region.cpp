@@ -94,13 +94,16 @@ double wave_integral(const std::vector<PlanePoint>& polygon, PlanePoint k) {
   return sum / (k.x * k.x + k.y * k.y);
 }
 
-double required_area(const ConvexRegion& region, const char* what) {
-  const double found = area(region.polygon_in_square());
-  if (found < kSmallestArea || found > 1 - kSmallestArea) {
+double dividing_area(double area, const char* what) {
+  if (area < kSmallestArea || area > 1 - kSmallestArea) {
     throw InputError(fmt::format("expected {} to divide the unit square, found {} of it inside",
-                                 what, found > 0.5 ? "all" : "nothing"));
+                                 what, area > 0.5 ? "all" : "nothing"));
   }
-  return found;
+  return area;
+}
+
+double required_area(const ConvexRegion& region, const char* what) {
+  return dividing_area(area(region.polygon_in_square()), what);
 }
 
 }  // namespace pharos::laboratory

@@ -53,8 +53,11 @@ double area(const std::vector<PlanePoint>& polygon);
 /// a + d with the middle m.
 double wave_integral(const std::vector<PlanePoint>& polygon, PlanePoint k);
 
-/// Throws InputError unless the region covers a part of the unit square, not all of it; returns the
-/// area of that part. `what` names it in the message, such as "the edges".
+/// An area, returned as it is. Throws InputError unless it is that of a part of the unit square,
+/// not of all of it; `what` names what has the area in the message, such as "the edges".
+double dividing_area(double area, const char* what);
+
+/// The area of the region's part of the unit square. Throws as dividing_area() does.
 double required_area(const ConvexRegion& region, const char* what);
 
 }  // namespace pharos::laboratory

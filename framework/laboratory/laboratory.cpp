@@ -1,12 +1,12 @@
 #include <algorithm>
-#include <bit>
 #include <chrono>
 #include <cmath>
+#include <mutex>
 
 #include <pharos/core/parallel.h>
+#include <pharos/experiments/sampled_points.h>
 #include <pharos/laboratory/laboratory.h>
 #include <pharos/laboratory/point_stream.h>
-#include <pharos/statistics/point_sets.h>
 
 namespace pharos::laboratory {
 namespace {
@@ -14,8 +14,8 @@ namespace {
 /// Estimates of all integrands, one vector each, by realisation.
 using Estimates = std::vector<std::vector<double>>;
 
-/// Sets are handed to threads in groups of about as many points.
-constexpr std::uint64_t kPointsOfTask = 16384;
+/// To try a point takes about as long as to add it to so many frequencies of a spectrum.
+constexpr double kFrequenciesOfPoint = 50;
 
 /// All work of one config, from the smallest number of points to the largest.
 class Bench {
@@ -24,6 +24,8 @@ class Bench {
       : config_(config), control_(control) {
     total_ = static_cast<double>(config.samplers.size()) * config.realisations *
              (std::exp2(config.samples.to + 1) - std::exp2(config.samples.from));
+    total_ += static_cast<double>(config.samplers.size()) * config.spectrum.realisations *
+              spectrum_work();
   }
 
   LaboratoryResults run() {
@@ -32,12 +34,7 @@ class Bench {
     for (SamplerResults& sampler : results.samplers) {
       sampler.variances.resize(config_.integrands.size());
     }
-    for (std::uint32_t power = config_.samples.from; power <= config_.samples.to; ++power) {
-      if (!add_number(power, results)) break;
-      results.numbers.push_back(std::exp2(power));
-    }
-    if (!stops()) add_spectra(results);
-    results.stopped = stops();
+    results.stopped = !add_numbers(results) || !add_spectra(results);
     add_slopes(results);
     results.seconds = seconds();
     return results;
@@ -50,42 +47,45 @@ class Bench {
   }
 
   void report(double points) {
+    const std::scoped_lock lock(progress_);
     done_ += points;
     if (control_.on_progress) control_.on_progress(done_ / total_, seconds());
   }
 
-  /// Estimates from the sets of realisations `first` to `last` - 1.
-  Estimates estimates_of(const PreparedSampler& prepared, std::uint32_t power, std::uint64_t first,
-                         std::uint64_t last) const {
+  /// A realisation of a spectrum, as points of the other work.
+  double spectrum_work() const {
+    const double edge = 2.0 * config_.spectrum.max_frequency + 1;
+    return config_.spectrum.points * edge * edge / 2 / kFrequenciesOfPoint;
+  }
+
+  /// Estimates from the sets of one preparation; fewer when stopped.
+  Estimates estimates_of(const NamedSampler& sampler, std::uint32_t power, std::size_t group) {
+    const std::uint64_t seed = seed_of(config_.seed, sampler.name);
+    const auto prepared = prepare(*sampler.sampler, {seed, power, group});
+    const std::size_t count = config_.realisations, groups = config_.groups();
     Estimates estimates(config_.integrands.size());
-    for (std::uint64_t r = first; r < last; ++r) {
-      const std::vector<PlanePoint> points = shifted_point_set(prepared, {config_.seed, power, r});
+    for (std::size_t r = group_begin(group, groups, count);
+         r < group_begin(group + 1, groups, count) && !stops(); ++r) {
+      const std::vector<PlanePoint> points = shifted_point_set(*prepared, {seed, power, r});
       for (std::size_t i = 0; i < estimates.size(); ++i) {
         const double sum = config_.integrands[i].integrand->sum(points);
         estimates[i].push_back(sum / static_cast<double>(points.size()));
       }
+      report(static_cast<double>(points.size()));
     }
     return estimates;
   }
 
   /// All estimates of a sampler with 2^power points; none when stopped.
-  std::optional<Estimates> all_estimates(const Sampler& sampler, std::uint32_t power) {
-    const auto prepared = prepare(sampler, config_.seed, power);
-    const std::uint64_t count = std::uint64_t{1} << power;
-    const std::uint64_t group = std::max<std::uint64_t>(1, kPointsOfTask / count);
-    const std::uint64_t groups = (config_.realisations + group - 1) / group;
+  std::optional<Estimates> all_estimates(const NamedSampler& sampler, std::uint32_t power) {
     Estimates all(config_.integrands.size());
-    const auto produce = [&](std::size_t g) {
-      const std::uint64_t last = std::min<std::uint64_t>((g + 1) * group, config_.realisations);
-      return estimates_of(*prepared, power, g * group, last);
-    };
+    const auto produce = [&](std::size_t group) { return estimates_of(sampler, power, group); };
     const auto consume = [&](std::size_t, const Estimates& part) {
       for (std::size_t i = 0; i < all.size(); ++i) {
         all[i].insert(all[i].end(), part[i].begin(), part[i].end());
       }
-      report(static_cast<double>(part.front().size() * count));
     };
-    parallel_ordered(groups, produce, consume, [this](std::size_t) { return !stops(); });
+    parallel_ordered(config_.groups(), produce, consume, [this](std::size_t) { return !stops(); });
     if (all.front().size() < config_.realisations) return std::nullopt;
     return all;
   }
@@ -94,15 +94,24 @@ class Bench {
   bool add_number(std::uint32_t power, LaboratoryResults& results) {
     std::vector<Estimates> found;
     for (const NamedSampler& sampler : config_.samplers) {
-      std::optional<Estimates> estimates = all_estimates(*sampler.sampler, power);
+      std::optional<Estimates> estimates = all_estimates(sampler, power);
       if (!estimates) return false;
       found.push_back(std::move(*estimates));
     }
     for (std::size_t s = 0; s < found.size(); ++s) {
       for (std::size_t i = 0; i < found[s].size(); ++i) {
         results.samplers[s].variances[i].push_back(
-            variance_about(config_.integrands[i].integrand->mean(), found[s][i]));
+            variance_about(config_.integrands[i].integrand->mean(), found[s][i], config_.groups()));
       }
+    }
+    results.numbers.push_back(std::exp2(power));
+    return true;
+  }
+
+  /// False when stopped before the last.
+  bool add_numbers(LaboratoryResults& results) {
+    for (std::uint32_t power = config_.samples.from; power <= config_.samples.to; ++power) {
+      if (!add_number(power, results)) return false;
     }
     return true;
   }
@@ -122,14 +131,20 @@ class Bench {
     }
   }
 
-  Image spectrum_of(const Sampler& sampler) const {
+  /// Empty when stopped.
+  Image spectrum_of(const NamedSampler& sampler) {
     const SpectrumSettings& s = config_.spectrum;
-    const auto power = static_cast<std::uint32_t>(std::bit_width(s.points) - 1);
-    const auto prepared = prepare(sampler, config_.seed, power);
-    statistics::PowerSpectrum spectrum(s.max_frequency);
-    for (std::uint64_t r = 0; r < s.realisations; ++r) {
-      spectrum.add(point_set(*prepared, {config_.seed, power, r}));
-    }
+    const SpectrumPlan plan{.dimension = kDimension,
+                            .count = s.points,
+                            .realisations = static_cast<int>(s.realisations),
+                            .max_frequency = s.max_frequency,
+                            .seed = seed_of(config_.seed, sampler.name)};
+    const statistics::PowerSpectrum spectrum = expected_spectrum(*sampler.sampler, plan, [this] {
+      report(spectrum_work());
+      return !stops();
+    });
+    if (spectrum.count() < s.realisations) return {};
+    report(spectrum_work());
     const int edge = 2 * s.max_frequency + 1;
     Image image(edge, edge, {"Y"});
     for (int y = 0; y < edge; ++y) {
@@ -141,17 +156,22 @@ class Bench {
     return image;
   }
 
-  void add_spectra(LaboratoryResults& results) const {
-    if (config_.spectrum.points == 0) return;
+  /// False when stopped before all were made.
+  bool add_spectra(LaboratoryResults& results) {
+    if (config_.spectrum.points == 0) return true;
     parallel_for(results.samplers.size(), [&](std::size_t i) {
-      results.samplers[i].spectrum = spectrum_of(*config_.samplers[i].sampler);
+      results.samplers[i].spectrum = spectrum_of(config_.samplers[i]);
     });
+    return std::none_of(results.samplers.begin(), results.samplers.end(),
+                        [](const SamplerResults& s) { return s.spectrum.empty(); });
   }
 
   const LaboratoryConfig& config_;
   const LaboratoryControl& control_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  double total_ = 0, done_ = 0;  ///< points
+  double total_ = 0;  ///< points, of the whole work
+  std::mutex progress_;
+  double done_ = 0;  ///< points, guarded by `progress_`
 };
 
 }  // namespace

@@ -18,9 +18,10 @@
 ///     const LaboratoryResults results = measure(config, control);
 ///     write_results(results);
 ///
-/// Every realisation is a set of its own, for each number of points too, shifted by a random vector
-/// on the torus; all integrands see the same sets. All numbers are the same for any number of
-/// threads.
+/// Every realisation is a set of its own, for each sampler and number of points too, shifted by a
+/// random vector on the torus; all integrands see the same sets. Realisations come in groups, each
+/// of one preparation of the sampler; intervals are those of groups. All numbers are the same for
+/// any number of threads.
 namespace pharos::laboratory {
 
 /// How the work is watched and stopped.
@@ -28,7 +29,8 @@ struct LaboratoryControl {
   /// Share of the work done, in [0, 1], and seconds since its start; called by one thread at a
   /// time. May be empty.
   std::function<void(double fraction, double seconds)> on_progress;
-  /// Set by anyone to end the work early; numbers of points that all samplers have are kept.
+  /// Set by anyone to end the work early; numbers of points that all samplers have are kept, and
+  /// spectra that are whole.
   const std::atomic<bool>* stop = nullptr;
 };
 
@@ -49,7 +51,7 @@ struct LaboratoryResults {
   std::vector<double> numbers;           ///< of points, ascending; all that are done
   std::vector<SamplerResults> samplers;  ///< in the order of the config
   double seconds = 0;
-  bool stopped = false;
+  bool stopped = false;  ///< something of the work is missing
 
   /// The place of the baseline among the samplers; none without one.
   std::optional<std::size_t> baseline() const;

@@ -12,6 +12,10 @@ namespace {
 /// A straight line and its scatter need as many points.
 constexpr std::uint32_t kLeastFitted = 3;
 
+/// With more points samplers of finite sets would begin a second set, which is not what they are
+/// like with as many.
+constexpr std::uint32_t kMostPower = 16;
+
 /// Whether a sampler can be built from its name alone and works without a scene.
 bool stands_alone(const Registry& registry, const std::string& name) {
   for (const ParameterInfo& parameter : registry.find("sampler", name)->parameters) {
@@ -79,8 +83,12 @@ std::string default_baseline(const std::vector<NamedSampler>& samplers) {
 }  // namespace
 
 void PowerRange::describe(Schema<PowerRange>& s) {
-  s.field("from", &PowerRange::from, "Exponent of the smallest number").at_most(24);
-  s.field("to", &PowerRange::to, "Exponent of the largest number").at_most(24);
+  const auto is_held = [](std::uint32_t power) { return power <= kMostPower; };
+  const std::string rule =
+      fmt::format("an exponent of at most {}, as many samplers' sets hold no more than 2^{} points",
+                  kMostPower, kMostPower);
+  s.field("from", &PowerRange::from, "Exponent of the smallest number").check(rule, is_held);
+  s.field("to", &PowerRange::to, "Exponent of the largest number").check(rule, is_held);
 }
 
 void NamedIntegrand::describe(Schema<NamedIntegrand>& s) {
@@ -88,13 +96,6 @@ void NamedIntegrand::describe(Schema<NamedIntegrand>& s) {
       .required()
       .check(kEntryNameRule, is_entry_name);
   s.field("integrand", &NamedIntegrand::integrand, "What is integrated").required();
-}
-
-void NamedSampler::describe(Schema<NamedSampler>& s) {
-  s.field("name", &NamedSampler::name, "Name in tables")
-      .required()
-      .check(kEntryNameRule, is_entry_name);
-  s.field("sampler", &NamedSampler::sampler, "Where points come from").required();
 }
 
 void SpectrumSettings::describe(Schema<SpectrumSettings>& s) {
@@ -122,6 +123,10 @@ void LaboratoryConfig::describe(Schema<LaboratoryConfig>& s) {
   s.field("fit", &LaboratoryConfig::fit, "Those that slopes are fitted to; by default all");
   s.field("realisations", &LaboratoryConfig::realisations, "Sets of points of each number")
       .at_least(16)
+      .at_most(1000000);
+  s.field("preparations", &LaboratoryConfig::preparations,
+          "Groups of realisations, each with tables of its own; intervals are those of groups")
+      .at_least(8)
       .at_most(1000000);
   s.field("seed", &LaboratoryConfig::seed, "Of all random numbers").at_least(0);
   s.field("spectrum", &LaboratoryConfig::spectrum, "The pictures of power spectra");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -7,8 +8,8 @@
 #include <vector>
 
 #include <pharos/config/registry.h>
+#include <pharos/experiments/sampled_points.h>
 #include <pharos/laboratory/integrand.h>
-#include <pharos/sampling/sampler.h>
 
 /// What a file of the laboratory says: samplers x integrands at growing numbers of points.
 namespace pharos::laboratory {
@@ -25,13 +26,6 @@ struct NamedIntegrand {
   Ref<Integrand> integrand;
 
   static void describe(Schema<NamedIntegrand>& schema);
-};
-
-struct NamedSampler {
-  std::string name;
-  Ref<Sampler> sampler;
-
-  static void describe(Schema<NamedSampler>& schema);
 };
 
 /// The pictures of power spectra.
@@ -51,6 +45,7 @@ struct LaboratoryConfig {
   PowerRange samples;
   std::optional<PowerRange> fit;  ///< what slopes are fitted to; none: all of `samples`
   std::uint32_t realisations = 1000;
+  std::uint32_t preparations = 64;
   std::uint64_t seed = 1;
   SpectrumSettings spectrum;
   std::string output;  ///< folder, relative to the current one
@@ -60,6 +55,8 @@ struct LaboratoryConfig {
   std::vector<std::string> left_out;  ///< registered samplers that cannot be had by name alone
 
   PowerRange fitted() const { return fit.value_or(samples); }
+  /// Into so many groups of one preparation each the realisations fall.
+  std::uint32_t groups() const { return std::min(preparations, realisations); }
   static void describe(Schema<LaboratoryConfig>& schema);
 };
 

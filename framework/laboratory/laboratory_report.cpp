@@ -12,12 +12,22 @@ namespace {
 
 constexpr const char* kVariance = "variance";
 
+/// What an interrupted work lacks.
+std::string missing_text(const LaboratoryResults& results) {
+  const PowerRange& range = results.config.samples;
+  if (results.numbers.size() < range.to + 1 - range.from) {
+    return fmt::format("interrupted before more than {:.0f} points", results.numbers.back());
+  }
+  return "interrupted before all power spectra; variances and slopes are complete";
+}
+
 std::vector<std::pair<std::string, std::string>> facts_of(const LaboratoryResults& results) {
   const LaboratoryConfig& config = results.config;
   std::vector<std::pair<std::string, std::string>> facts{
       {"Numbers of points", fmt::format("2^{} to 2^{}", config.samples.from, config.samples.to)},
       {"Slopes fitted", fmt::format("2^{} to 2^{}", config.fitted().from, config.fitted().to)},
       {"Realisations", std::to_string(config.realisations)},
+      {"Preparations", std::to_string(config.groups())},
       {"Seed", std::to_string(config.seed)},
       {"Baseline", config.baseline.empty() ? "none" : config.baseline},
       {"Pharos", version()},
@@ -27,7 +37,7 @@ std::vector<std::pair<std::string, std::string>> facts_of(const LaboratoryResult
   facts.emplace_back("Time", fmt::format("{:.1f} s", results.seconds));
   facts.emplace_back("Written",
                      fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(std::time(nullptr))));
-  if (results.stopped) facts.emplace_back("Incomplete", "the work was interrupted");
+  if (results.stopped) facts.emplace_back("Incomplete", missing_text(results));
   return facts;
 }
 
@@ -70,17 +80,18 @@ ReportTable variance_table(const LaboratoryResults& results) {
   ReportTable table{kVariance,
                     "variance",
                     "",
-                    fmt::format("Variance of the estimate with {:g} points about the exact value",
+                    fmt::format("Variance of the estimate with {:.0f} points about the exact value",
                                 results.numbers.back()),
                     Better::lower,
                     {}};
   const std::optional<std::size_t> baseline = results.baseline();
   for (std::size_t i = 0; i < results.config.integrands.size(); ++i) {
     ReportTable::Row row{results.config.integrands[i].name, {}};
-    for (const SamplerResults& sampler : results.samplers) {
+    for (std::size_t s = 0; s < results.samplers.size(); ++s) {
+      const bool has_ratio = baseline && *baseline != s;
       row.cells.push_back(
-          variance_cell(sampler.variances[i].back(),
-                        baseline ? &results.samplers[*baseline].variances[i].back() : nullptr));
+          variance_cell(results.samplers[s].variances[i].back(),
+                        has_ratio ? &results.samplers[*baseline].variances[i].back() : nullptr));
     }
     table.rows.push_back(std::move(row));
   }

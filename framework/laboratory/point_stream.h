@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <string_view>
 #include <vector>
 
 #include <pharos/laboratory/integrand.h>
@@ -9,25 +11,32 @@
 /// The points that a sampler gives to one dimension of one pixel.
 namespace pharos::laboratory {
 
-/// Names one set of points: equal keys of equal samplers give equal sets, others unrelated ones.
-struct SetKey {
-  std::uint64_t seed = 0;
-  std::uint32_t log2_count = 0;  ///< of its points
-  std::uint64_t realisation = 0;
+/// The 2D numbers that stand for a sampler's: those of `light_position` at the first bounce.
+inline constexpr Dimension kDimension{Purpose::light_position, 1};
 
-  std::uint64_t count() const { return std::uint64_t{1} << log2_count; }
+/// The seed of everything that one sampler gets. Different names have unrelated seeds, so that no
+/// two samplers share points, tables or shifts.
+std::uint64_t seed_of(std::uint64_t seed, std::string_view sampler_name);
+
+/// Names one set of points, or one preparation for such sets: equal keys of equal samplers give
+/// equal sets, others unrelated ones.
+struct SetKey {
+  std::uint64_t seed = 0;        ///< of a sampler, see seed_of()
+  std::uint32_t log2_count = 0;  ///< of its points
+  std::uint64_t number = 0;      ///< of the realisation, or of the preparation
+
+  std::uint32_t count() const { return std::uint32_t{1} << log2_count; }
 };
 
-/// Makes a sampler ready for sets of 2^log2_count points, of one pixel.
-std::unique_ptr<const PreparedSampler> prepare(const Sampler& sampler, std::uint64_t seed,
-                                               std::uint32_t log2_count);
+/// Makes a sampler ready for sets of the key's number of points, with tables that are a function
+/// of the key.
+std::unique_ptr<const PreparedSampler> prepare(const Sampler& sampler, const SetKey& key);
 
-/// The 2D numbers of `light_position` at the first bounce of samples 0 to N - 1 of the pixel. The
-/// seed of their paths is a hash of the key.
+/// The numbers of samples 0 to N - 1 of the pixel. The seed of their paths is a hash of the key.
 std::vector<Vec2> point_set(const PreparedSampler& prepared, const SetKey& key);
 
-/// The same, shifted on the torus by a random vector, a function of the key too: the same for every
-/// sampler, of 53 bits a component.
+/// The same, shifted on the torus by a random vector, a function of the key too, of 53 bits a
+/// component.
 std::vector<PlanePoint> shifted_point_set(const PreparedSampler& prepared, const SetKey& key);
 
 }  // namespace pharos::laboratory

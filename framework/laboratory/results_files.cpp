@@ -34,7 +34,7 @@ json points_json(const LaboratoryResults& results, std::size_t s, std::size_t i)
                {"interval", interval_json(variance.interval)},
                {"ratio", nullptr},
                {"ratio_interval", nullptr}};
-    if (baseline) {
+    if (baseline && *baseline != s) {
       if (const auto over = ratio(variance, results.samplers[*baseline].variances[i][n])) {
         point["ratio"] = over->value;
         point["ratio_interval"] = interval_json(over->interval);

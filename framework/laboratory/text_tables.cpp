@@ -47,7 +47,7 @@ std::string text_tables(const LaboratoryResults& results) {
     return slope_text(results.samplers[s].slopes[i]);
   });
   const std::optional<std::size_t> baseline = results.baseline();
-  text += fmt::format("\nvariance at {:g} points{}\n", results.numbers.back(),
+  text += fmt::format("\nvariance at {:.0f} points{}\n", results.numbers.back(),
                       baseline ? " over that of '" + results.config.baseline + "'" : "");
   text += table_of(results, [&](std::size_t s, std::size_t i) {
     return variance_text(results.samplers[s].variances[i].back(),

@@ -1,12 +1,13 @@
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
+#include <boost/math/distributions/students_t.hpp>
 #include <fmt/format.h>
 
 #include <pharos/core/error.h>
 #include <pharos/laboratory/variance.h>
-#include <pharos/statistics/hypothesis.h>
 
 namespace pharos::laboratory {
 namespace {
@@ -40,21 +41,43 @@ LineSums centred_sums(std::span<const double> x, std::span<const double> y,
   return sums;
 }
 
+/// The standard error of the mean of values of which only groups are independent, such that kReach
+/// of it hold the mean in 95 % of cases.
+double error_of_mean(std::span<const double> values, double mean, std::size_t groups) {
+  double spread = 0;
+  for (std::size_t g = 0; g < groups; ++g) {
+    double excess = 0;
+    const std::size_t end = group_begin(g + 1, groups, values.size());
+    for (std::size_t i = group_begin(g, groups, values.size()); i < end; ++i) {
+      excess += values[i] - mean;
+    }
+    spread += excess * excess;
+  }
+  const auto degrees = static_cast<double>(groups - 1);
+  const double student = boost::math::quantile(boost::math::students_t(degrees), 0.975);
+  return student / kReach * std::sqrt(spread * (degrees + 1) / degrees) /
+         static_cast<double>(values.size());
+}
+
 }  // namespace
 
-VarianceEstimate variance_about(double exact, std::span<const double> estimates) {
-  if (estimates.size() < 2) {
-    throw InputError(fmt::format("expected at least two estimates, found {}", estimates.size()));
+VarianceEstimate variance_about(double exact, std::span<const double> estimates,
+                                std::size_t groups) {
+  if (groups < 2 || groups > estimates.size()) {
+    throw InputError(
+        fmt::format("expected two groups of estimates or more, none empty, found {} of {}", groups,
+                    estimates.size()));
   }
   std::vector<double> squares;
   squares.reserve(estimates.size());
   for (const double e : estimates) squares.push_back((e - exact) * (e - exact));
-  const statistics::Moments m = statistics::moments(squares);
-  if (m.mean == 0) return {};
-  const double least = kLeastOfNormal * std::sqrt(2 / m.count);
-  const double log_error = std::max(std::sqrt(m.variance / m.count) / m.mean, least);
+  const auto count = static_cast<double>(squares.size());
+  const double mean = std::accumulate(squares.begin(), squares.end(), 0.0) / count;
+  if (mean == 0) return {};
+  const double least = kLeastOfNormal * std::sqrt(2 / count);
+  const double log_error = std::max(error_of_mean(squares, mean, groups) / mean, least);
   const double factor = std::exp(kReach * log_error);
-  return {m.mean, log_error, {m.mean / factor, m.mean * factor}};
+  return {mean, log_error, {mean / factor, mean * factor}};
 }
 
 std::optional<statistics::Bounded> ratio(const VarianceEstimate& a, const VarianceEstimate& b) {

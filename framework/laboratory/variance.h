@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
 
@@ -15,12 +16,21 @@ struct VarianceEstimate {
   statistics::Interval interval;  ///< of 95 %
 };
 
-/// The mean square of the differences between independent estimates and the exact value, which is
-/// the variance of an unbiased estimator (and includes the bias of another). Its standard error
-/// comes from the spread of the squares themselves, so it does not suppose normal errors; the
-/// interval is normal in the logarithm. At least a tenth of the standard error that normal
-/// estimates have is assumed. Throws InputError for fewer than two estimates.
-VarianceEstimate variance_about(double exact, std::span<const double> estimates);
+/// Where group `group` begins when `count` values in a row are divided among `groups`: sizes differ
+/// by one at most.
+constexpr std::size_t group_begin(std::size_t group, std::size_t groups, std::size_t count) {
+  return group * count / groups;
+}
+
+/// The mean square of the differences between the estimates and the exact value, which is the
+/// variance of an unbiased estimator (and includes the bias of another). Only the groups of
+/// estimates that group_begin() tells apart need to be independent of each other. The standard
+/// error comes from the spread of the groups' sums of squares, so it does not suppose normal errors
+/// or equal groups; where groups are few it is widened as Student's quantile is over the normal
+/// one. At least a tenth of the standard error that normal estimates have is assumed. The interval
+/// is normal in the logarithm. Throws InputError for fewer than two groups and for empty ones.
+VarianceEstimate variance_about(double exact, std::span<const double> estimates,
+                                std::size_t groups);
 
 /// A ratio of two independent variances with its interval of 95 %, normal in the logarithm; none
 /// when one of them is zero.

@@ -1,25 +1,10 @@
 #pragma once
 
-#include <array>
-#include <string_view>
-#include <utility>
-
 #include <pharos/config/schema.h>
-#include <pharos/config/values.h>
+#include <pharos/sampling/purpose_names.h>
 #include <pharos/sampling/sampler.h>
 
 namespace pharos {
-
-/// The purposes that have points in the square.
-template <>
-struct EnumNames<Purpose> {
-  static constexpr std::array<std::pair<std::string_view, Purpose>, 5> names{
-      {{"pixel", Purpose::pixel},
-       {"lens", Purpose::lens},
-       {"light_position", Purpose::light_position},
-       {"bsdf_direction", Purpose::bsdf_direction},
-       {"guide_direction", Purpose::guide_direction}}};
-};
 
 /// See sheared.cpp.
 class ShearedSampler final : public Sampler {

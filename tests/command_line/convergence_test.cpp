@@ -59,10 +59,12 @@ TEST_CASE("convergence: keys and values") {
   check_refused(wrong(1, "titel: Small"), {"bad.yaml:1:1: error: ", "did you mean 'title'?"});
   check_refused(wrong(2, "integrand:"), {"bad.yaml:2:1: error: ", "did you mean 'integrands'?"});
   check_refused(wrong(6, "samples: { from: 4, to: 5 }"), {"bad.yaml:6:10: error: ", "at least 2"});
-  check_refused(wrong(6, "samples: { from: 4, to: 25 }"), {"bad.yaml:6:25: error: ", "<= 24"});
+  check_refused(wrong(6, "samples: { from: 4, to: 17 }"),
+                {"bad.yaml:6:25: error: ", "at most 16", "2^16 points"});
   check_refused(wrong(6, "fit: { from: 3, to: 9 }"),
                 {"bad.yaml:6:6: error: ", "4 to 16, found 3 to 9"});
   check_refused(wrong(7, "realisations: 2"), {"bad.yaml:7:15: error: ", ">= 16"});
+  check_refused(wrong(7, "preparations: 4"), {"bad.yaml:7:15: error: ", ">= 8"});
   check_refused(wrong(7, "baseline: rnadom"),
                 {"bad.yaml:7:11: error: ", "one of 'random'", "did you mean 'random'?"});
   check_refused(wrong(7, "spectrum: { points: 100 }"),
@@ -101,9 +103,10 @@ TEST_CASE("convergence: the command") {
 
 TEST_CASE("convergence: interrupted before it has results, it writes none") {
   const ScratchFolder folder;
-  folder.write("long.yaml", file(6, "samples: { from: 20, to: 24 }") + "seed: 2\n");
-  const Outcome outcome = interrupt_pharos_once("long/experiment.source", "convergence long.yaml",
-                                                folder.path(), "INT");
+  folder.write("long.yaml", file(7, "realisations: 1000000"));
+  const Outcome outcome = interrupt_pharos_once(
+      "long/experiment.source", "convergence long.yaml --set samples.from=14 --set samples.to=16",
+      folder.path(), "INT");
   CHECK(outcome.exit_code == 130);
   CHECK_FALSE(folder.has("long/results.json"));
 }

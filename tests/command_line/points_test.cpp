@@ -1,5 +1,7 @@
 // Pictures of samplers' points from the command line, and mistakes.
 
+#include <algorithm>
+
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -12,8 +14,14 @@ namespace {
 
 constexpr const char* kSmall = "--size 40 --frequency 3 --realisations 2 -n 16";
 
-/// A picture that `points ARGUMENTS -o points.png` makes.
-Image picture(const std::string& arguments, const std::string& says) {
+/// A picture and what was said of it.
+struct Drawn {
+  Image image;
+  std::string message;
+};
+
+/// What `points ARGUMENTS -o points.png` makes.
+Drawn drawn(const std::string& arguments, const std::string& says) {
   const ScratchFolder folder;
   const Outcome outcome =
       run_pharos(fmt::format("points {} {} -o points.png", arguments, kSmall), folder.path());
@@ -21,7 +29,17 @@ Image picture(const std::string& arguments, const std::string& says) {
   REQUIRE(outcome.exit_code == 0);
   CHECK(outcome.err.find("points.png: " + says) != std::string::npos);
   CHECK(folder.file_count() == 1);
-  return read_image(folder.path() / "points.png");
+  return {read_image(folder.path() / "points.png"), outcome.err};
+}
+
+Image picture(const std::string& arguments, const std::string& says = "") {
+  return drawn(arguments, says).image;
+}
+
+/// How many samplers a message names, `points.png: a, b, c; …`.
+int count_of_samplers(const std::string& message) {
+  return 1 + static_cast<int>(std::count(
+                 message.begin(), message.begin() + static_cast<long>(message.find(';')), ','));
 }
 
 Mistake mistake(const std::string& arguments) {
@@ -38,16 +56,19 @@ TEST_CASE("points: one sampler beside its spectrum, several as columns") {
       picture("--sampler independent --sampler '{ type: sobol }'", "independent, { type: sobol };");
   CHECK(two.width() == one.width());
   CHECK(two.height() > 80);
-  const Image all = picture("", "");
-  CHECK(all.height() == two.height());
-  CHECK(all.width() >= two.width());
+  // Five columns side by side, each of two squares; the gaps are those of the picture of two.
+  const Drawn all = drawn("", "");
+  const int gap = two.height() - 2 * 40, rows = 2 * ((count_of_samplers(all.message) + 4) / 5);
+  CHECK(count_of_samplers(all.message) >= 10);
+  CHECK(all.image.height() == rows * 40 + (rows - 1) * gap);
+  CHECK(all.image.width() == 5 * 40 + 4 * gap);
 }
 
 TEST_CASE("points: the picture is that of the seed and the dimension") {
-  const Image first = picture("--sampler sobol", "");
-  CHECK(picture("--sampler sobol", "").values() == first.values());
-  CHECK(picture("--sampler sobol --seed 2", "").values() != first.values());
-  CHECK(picture("--sampler sobol --dimension lens", "").values() != first.values());
+  const Image first = picture("--sampler sobol");
+  CHECK(picture("--sampler sobol").values() == first.values());
+  CHECK(picture("--sampler sobol --seed 2").values() != first.values());
+  CHECK(picture("--sampler sobol --dimension lens").values() != first.values());
 }
 
 TEST_CASE("points: mistakes") {

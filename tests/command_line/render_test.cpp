@@ -110,6 +110,9 @@ TEST_CASE("plugins lists contracts, plugins and parameters") {
   const Outcome path = run_pharos("plugins path", folder.path());
   CHECK(path.out.find("max_depth") != std::string::npos);
   CHECK(path.out.find("one | all") != std::string::npos);
+  const Outcome edge = run_pharos("plugins edge", folder.path());
+  CHECK(edge.out.find("integrand 'edge'") != std::string::npos);
+  CHECK(edge.out.find("one to eight angles") != std::string::npos);
   const Outcome unknown = run_pharos("plugins pth", folder.path());
   CHECK(unknown.exit_code == 2);
   CHECK(unknown.err.find("did you mean 'path'?") != std::string::npos);

@@ -103,7 +103,7 @@ TEST_CASE("sampled points: one pixel's samples in a dimension, a seed a realisat
   CHECK(points.size() == 5);
   CHECK(points[4] == Vec2{4.0f / 16 + 2.0f / 1024, 3.0f / 16});
   CHECK(sampler.samples == std::vector<std::uint32_t>{5});
-  const auto spectrum = expected_spectrum(sampler, {Purpose::pixel}, 16, 3, 17);
+  const auto spectrum = expected_spectrum(sampler, {{Purpose::pixel}, 16, 3, 17});
   CHECK(spectrum.count() == 3);
   CHECK(sampler.seeds == std::vector<std::uint64_t>{2, 0, 1, 2});
   // Sixteen points in a row: in phase at (16, 0) and everywhere along y.

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <pharos/core/error.h>
+#include <pharos/laboratory/convex_region.h>
 #include <pharos/laboratory/integrands/disk.h>
 
 namespace pharos::laboratory {
@@ -46,12 +46,6 @@ void Disk::Settings::describe(Schema<Settings>& s) {
 Disk::Disk(const Settings& settings)
     : centre_{settings.centre.x, settings.centre.y},
       radius_(settings.radius),
-      mean_(area_in_square(centre_, radius_)) {
-  constexpr double kSmallest = 1e-4;
-  if (mean_ < kSmallest || mean_ > 1 - kSmallest) {
-    throw InputError(std::string("expected the disk to divide the unit square, found ") +
-                     (mean_ > 0.5 ? "all" : "nothing") + " of it inside");
-  }
-}
+      mean_(dividing_area(area_in_square(centre_, radius_), "the disk")) {}
 
 }  // namespace pharos::laboratory

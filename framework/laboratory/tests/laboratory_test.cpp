@@ -1,110 +1,33 @@
-// The laboratory as a whole: known slopes, known variances, same bits.
+// The laboratory as a whole: what sets depend on, same bits, stopping, files.
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <iterator>
-#include <numbers>
+#include <mutex>
+#include <set>
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
-#include <pharos/config/module.h>
-#include <pharos/laboratory/integrands/add_integrands.h>
-#include <pharos/laboratory/laboratory.h>
 #include <pharos/laboratory/laboratory_report.h>
 #include <pharos/laboratory/point_stream.h>
 #include <pharos/statistics/point_sets.h>
 
-#include "../../tests/fixtures.h"
-
-extern "C" void pharos_module_register(pharos::Registry& registry);
+#include "measured.h"
 
 namespace pharos::laboratory {
 namespace {
 
-constexpr const char* kIntegrands = R"(integrands:
-  - { name: edge, integrand: { type: edge, angles: [30] } }
-  - { name: smooth, integrand: { type: smooth } }
-)";
-
-Registry registry() {
-  Registry all;
-  pharos_module_register(all);
-  add_integrands(all);
-  return all;
-}
-
-LaboratoryConfig config_of(const test::TemporaryFolder& folder, const std::string& more,
-                           const std::string& integrands = kIntegrands) {
-  LaboratoryConfig config =
-      load_laboratory(folder.write("test.yaml", integrands + more), {}, registry());
-  config.output = folder.path();
-  return config;
-}
-
-LaboratoryResults measured(const std::string& more, const LaboratoryControl& control = {}) {
-  const test::TemporaryFolder folder;
-  return measure(config_of(folder, more), control);
-}
-
-constexpr const char* kTwo = R"(samplers:
-  - { name: random, sampler: independent }
-  - { name: sobol, sampler: sobol }
-)";
-
-TEST_CASE("slopes of independent and of Sobol' points are those of theory") {
-  const LaboratoryResults results = measured(std::string(kTwo) +
-                                             "samples: { from: 4, to: 11 }\n"
-                                             "realisations: 400\nspectrum: { points: 0 }\n");
-  const auto slope = [&](std::size_t s, std::size_t i) { return *results.samplers[s].slopes[i]; };
-  for (const std::size_t i : {0u, 1u}) {
-    const VarianceSlope random = slope(0, i);
-    CHECK(random.slope.interval.low <= -1);
-    CHECK(random.slope.interval.high >= -1);
-    CHECK(std::abs(random.slope.value + 1) < 0.05);
-    CHECK(random.misfit < 3);
-  }
-  CHECK(slope(1, 0).slope.value == doctest::Approx(-1.5).epsilon(0.05));
-  CHECK(slope(1, 1).slope.value < -2);
-  CHECK(results.samplers[0].spectrum.empty());
-}
-
-TEST_CASE("the variance of independent points is the integrand's, over their number") {
-  const LaboratoryResults results = measured(std::string(kTwo) +
-                                             "samples: { from: 4, to: 6 }\n"
-                                             "realisations: 4000\nspectrum: { points: 0 }\n");
-  // The edge is 1 with probability 1/2. The squared Gaussian has the mean pi width^2.
-  const double width = 0.15, mean = 2 * std::numbers::pi * width * width;
-  const double expected[] = {0.25, std::numbers::pi * width * width - mean * mean};
-  for (const std::size_t i : {0u, 1u}) {
-    for (std::size_t n = 0; n < results.numbers.size(); ++n) {
-      const VarianceEstimate& v = results.samplers[0].variances[i][n];
-      CHECK(std::abs(std::log(v.value * results.numbers[n] / expected[i])) < 4 * v.log_error);
-    }
-  }
-}
-
-TEST_CASE("the variance of shifted points is the one that their spectrum foretells") {
-  // The sum over frequencies of power times squared Fourier coefficient, over the number of points;
-  // a Gaussian's coefficients are (2 pi width^2) exp(-2 pi^2 width^2 f^2).
-  const LaboratoryResults results = measured(std::string(kTwo) +
-                                             "samples: { from: 2, to: 4 }\nrealisations: 4000\n"
-                                             "spectrum: { points: 16, realisations: 2000, "
-                                             "max_frequency: 8 }\n");
-  const double width = 0.15, mean = 2 * std::numbers::pi * width * width;
-  for (const SamplerResults& sampler : results.samplers) {
-    double expected = 0;
-    for (int y = -8; y <= 8; ++y) {
-      for (int x = -8; x <= 8; ++x) {
-        const double fall = 2 * std::numbers::pi * std::numbers::pi * width * width;
-        const double c = mean * std::exp(-fall * (x * x + y * y));
-        expected += *sampler.spectrum.pixel(8 + x, 8 - y) * c * c / 16;
-      }
-    }
-    CHECK(sampler.variances[1].back().value == doctest::Approx(expected).epsilon(0.1));
-  }
+TEST_CASE("numbers of points are written in full") {
+  LaboratoryResults large = measured(std::string(kTwo) +
+                                     "samples: { from: 4, to: 6 }\n"
+                                     "realisations: 16\nspectrum: { points: 0 }\n");
+  large.numbers.back() = 1 << 20;
+  CHECK(text_tables(large).find("variance at 1048576 points") != std::string::npos);
+  CHECK(laboratory_report(large).tables[1].definition.find("1048576 points") != std::string::npos);
 }
 
 TEST_CASE("all numbers are the same for any number of threads") {
@@ -127,12 +50,13 @@ TEST_CASE("all numbers are the same for any number of threads") {
   for (const std::string& table : tables) CHECK(table == tables[0]);
 }
 
-/// For sets of 16 points.
-std::unique_ptr<const PreparedSampler> prepared_sampler(const char* name) {
+/// For sets of 16 points, with the tables of preparation `number`.
+std::unique_ptr<const PreparedSampler> prepared_sampler(const char* name,
+                                                        std::uint64_t number = 0) {
   const Registry all = registry();
   BuildContext context{all};
   ConfigNode resolved;
-  return prepare(*all.build<Sampler>(ConfigNode::scalar(name), context, resolved), 1, 4);
+  return prepare(*all.build<Sampler>(ConfigNode::scalar(name), context, resolved), {1, 4, number});
 }
 
 TEST_CASE("sets depend on seed, number of points and realisation") {
@@ -144,6 +68,53 @@ TEST_CASE("sets depend on seed, number of points and realisation") {
   CHECK(points != point_set(*prepared, {2, 4, 0}));
   CHECK(points != point_set(*prepared, {1, 4, 1}));
   CHECK(points[0] != point_set(*prepared, {1, 5, 0})[0]);
+}
+
+TEST_CASE("tables are those of a preparation") {
+  const auto first = prepared_sampler("pmj02"), again = prepared_sampler("pmj02");
+  const auto second = prepared_sampler("pmj02", 1);
+  CHECK(point_set(*first, {1, 4, 0}) == point_set(*again, {1, 4, 0}));
+  CHECK(point_set(*first, {1, 4, 0}) != point_set(*second, {1, 4, 0}));
+}
+
+/// Independent points; remembers all seeds that it was prepared with.
+class Counting final : public Sampler {
+ public:
+  using Settings = NoSettings;
+  explicit Counting(const Settings& = {}) {}
+  std::unique_ptr<const PreparedSampler> prepare(const PixelGrid& grid, const SamplePlan& plan,
+                                                 const IntegrandProbe* probe) const override {
+    const std::scoped_lock lock(guard);
+    seeds.push_back(plan.seed);
+    const Registry all = registry();
+    BuildContext context{all};
+    ConfigNode resolved;
+    return all.build<Sampler>(ConfigNode::scalar("independent"), context, resolved)
+        ->prepare(grid, plan, probe);
+  }
+
+  static inline std::mutex guard;
+  static inline std::vector<std::uint64_t> seeds;
+};
+
+TEST_CASE("every group of realisations has a preparation of its own") {
+  const test::TemporaryFolder folder;
+  Registry all = registry();
+  all.add<Counting>("counting", "Counts");
+  const auto file = folder.write(
+      "test.yaml",
+      std::string(kIntegrands) +
+          "samplers: [{ name: a, sampler: counting }, { name: b, sampler: counting }]\n"
+          "samples: { from: 4, to: 6 }\nrealisations: 40\npreparations: 9\n"
+          "spectrum: { points: 0 }\n");
+  const LaboratoryResults results = measure(load_laboratory(file, {}, all));
+  const std::set<std::uint64_t> different(Counting::seeds.begin(), Counting::seeds.end());
+  CHECK(Counting::seeds.size() == 2 * 3 * 9);
+  CHECK(different.size() == Counting::seeds.size());
+  // Equal samplers of other names have other points.
+  for (std::size_t n = 0; n < 3; ++n) {
+    CHECK(results.samplers[0].variances[1][n].value != results.samplers[1].variances[1][n].value);
+  }
 }
 
 /// What a set of points was shifted by, which must be the same for all of its points.
@@ -164,20 +135,26 @@ PlanePoint shift_of(const PreparedSampler& prepared, const SetKey& key) {
   return offset(0);
 }
 
-TEST_CASE("shifts are uniform, of a realisation each, the same for every sampler") {
-  const auto sobol = prepared_sampler("sobol"), independent = prepared_sampler("independent");
+TEST_CASE("shifts are uniform, of a realisation and a sampler's name each") {
+  const auto sobol = prepared_sampler("sobol");
+  const std::uint64_t one = seed_of(1, "one"), other = seed_of(1, "other");
   PlanePoint sum;
+  double product = 0;
   for (std::uint64_t r = 0; r < 400; ++r) {
-    const PlanePoint shift = shift_of(*sobol, {1, 4, r});
-    CHECK(shift.x == doctest::Approx(shift_of(*independent, {1, 4, r}).x).epsilon(1e-12));
+    const PlanePoint shift = shift_of(*sobol, {one, 4, r});
     sum = {sum.x + shift.x, sum.y + shift.y};
+    product += (shift.x - 0.5) * (shift_of(*sobol, {other, 4, r}).x - 0.5);
   }
-  // The standard error of the mean of 400 uniform numbers is 0.0144.
+  // The standard error of the mean of 400 uniform numbers is 0.0144; that of the mean product of
+  // two independent centred ones 1 / 240, and equal ones have 1 / 12.
   CHECK(std::abs(sum.x / 400 - 0.5) < 0.05);
   CHECK(std::abs(sum.y / 400 - 0.5) < 0.05);
-  const PlanePoint first = shift_of(*sobol, {1, 4, 0});
+  CHECK(std::abs(product / 400) < 4.0 / 240);
+  const PlanePoint first = shift_of(*sobol, {one, 4, 0});
   CHECK(std::abs(first.x - first.y) > 1e-3);
-  CHECK(std::abs(first.x - shift_of(*sobol, {1, 4, 1}).x) > 1e-3);
+  CHECK(std::abs(first.x - shift_of(*sobol, {one, 4, 1}).x) > 1e-3);
+  CHECK(seed_of(1, "ab") != seed_of(1, "ba"));
+  CHECK(seed_of(1, "a") != seed_of(2, "a"));
 }
 
 TEST_CASE("by default all registered samplers are measured, ratios are to the independent one") {
@@ -243,6 +220,38 @@ TEST_CASE("work that is stopped keeps the numbers that all samplers have") {
   CHECK(measured(config, {.on_progress = {}, .stop = &stop}).numbers.empty());
 }
 
+TEST_CASE("spectra are stopped between realisations, and whole work is not called stopped") {
+  std::atomic<bool> stop = false;
+  double stop_at = 0.1, last = 0;
+  int late = 0;
+  LaboratoryControl control{.on_progress = {}, .stop = &stop};
+  control.on_progress = [&](double fraction, double) {
+    late += stop ? 1 : 0;
+    stop = stop || fraction > stop_at;
+    last = fraction;
+  };
+  const std::string config = std::string(kTwo) +
+                             "samples: { from: 4, to: 6 }\nrealisations: 16\n"
+                             "spectrum: { points: 256, realisations: 20, max_frequency: 16 }\n";
+  const LaboratoryResults cut = measured(config, control);
+  CHECK(cut.stopped);
+  CHECK(cut.numbers.size() == 3);
+  CHECK(cut.samplers[0].slopes[0]);
+  CHECK((cut.samplers[0].spectrum.empty() || cut.samplers[1].spectrum.empty()));
+  CHECK(late <= 2);
+  const auto facts = laboratory_report(cut).facts;
+  CHECK(std::any_of(facts.begin(), facts.end(), [](const auto& fact) {
+    return fact.second.find("variances and slopes are complete") != std::string::npos;
+  }));
+  stop = false;
+  stop_at = 1 - 1e-9;
+  const LaboratoryResults whole = measured(config, control);
+  CHECK(stop);
+  CHECK_FALSE(whole.stopped);
+  CHECK(last == doctest::Approx(1));
+  CHECK_FALSE(whole.samplers[1].spectrum.empty());
+}
+
 TEST_CASE("the files hold everything") {
   const test::TemporaryFolder folder;
   const LaboratoryResults results = measure(config_of(
@@ -265,6 +274,11 @@ TEST_CASE("the files hold everything") {
   CHECK(curve["variances"][4]["ratio"].get<double>() ==
         doctest::Approx(results.samplers[1].variances[0][4].value /
                         results.samplers[0].variances[0][4].value));
+  CHECK(json["curves"][0]["sampler"] == "random");
+  CHECK(json["curves"][0]["variances"][4]["ratio"].is_null());
+  const ReportTable table = laboratory_report(results).tables.at(1);
+  CHECK_FALSE(table.rows[0].cells[0].ratio);
+  CHECK(table.rows[0].cells[1].ratio);
   std::ifstream page(folder / "report.html");
   const std::string html{std::istreambuf_iterator<char>(page), {}};
   for (const char* part : {"\"subject\":\"integrand\"", "\"axis\":\"points\"", "Power spectra"}) {

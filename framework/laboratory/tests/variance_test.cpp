@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -27,6 +28,11 @@ class Normal {
   RandomStream numbers_;
 };
 
+/// Of estimates that are all independent.
+VarianceEstimate variance_about(double exact, const std::vector<double>& estimates) {
+  return laboratory::variance_about(exact, estimates, estimates.size());
+}
+
 const std::vector<double> kNumbers{16, 32, 64, 128, 256, 512, 1024};
 
 /// Estimates whose variance falls as N^-1.5; with `spread`, errors of each realisation have a scale
@@ -51,17 +57,37 @@ TEST_CASE("the variance is about the exact value, not the mean") {
 }
 
 TEST_CASE("estimates without any error have a variance of zero") {
-  const VarianceEstimate v = variance_about(1, std::vector<double>{1, 1, 1});
+  const VarianceEstimate v = variance_about(1, {1, 1, 1});
   CHECK(v.value == 0);
   CHECK(v.log_error == 0);
-  CHECK_FALSE(ratio(v, variance_about(1, std::vector<double>{1, 2})));
+  CHECK_FALSE(ratio(v, variance_about(1, {1, 2})));
   CHECK_FALSE(fitted_slope(std::vector<double>{1, 2, 4}, std::vector<VarianceEstimate>(3, v)));
 }
 
 TEST_CASE("equal squares are not taken for certain") {
-  const VarianceEstimate v = variance_about(0, std::vector<double>{1, -1, 1, -1});
+  const VarianceEstimate v = variance_about(0, {1, -1, 1, -1});
   CHECK(v.value == 1);
   CHECK(v.log_error == doctest::Approx(0.1 * std::sqrt(0.5)));
+}
+
+TEST_CASE("the error is that of groups' sums, by Student's t") {
+  // Squares 1, 1, 3, 3: sums -2 and 2 away from theirs, so a standard error of 1 with one degree of
+  // freedom, whose quantile is 12.706.
+  const double root = std::sqrt(3);
+  const VarianceEstimate v =
+      laboratory::variance_about(0, std::vector<double>{1, -1, root, -root}, 2);
+  CHECK(v.value == doctest::Approx(2));
+  CHECK(v.log_error == doctest::Approx(12.7062 / 1.95996 / 2).epsilon(1e-5));
+  CHECK(v.interval.high == doctest::Approx(2 * std::exp(12.7062 / 2)).epsilon(1e-4));
+  for (std::size_t count = 3; count < 20; ++count) {
+    CHECK(group_begin(0, 3, count) == 0);
+    CHECK(group_begin(3, 3, count) == count);
+    for (std::size_t g = 0; g < 3; ++g) {
+      const std::size_t size = group_begin(g + 1, 3, count) - group_begin(g, 3, count);
+      CHECK(size >= count / 3);
+      CHECK(size <= count / 3 + 1);
+    }
+  }
 }
 
 TEST_CASE("a slope without errors is exact, and a curve widens its interval") {
@@ -96,8 +122,13 @@ TEST_CASE("weights follow the errors") {
 }
 
 TEST_CASE("wrong numbers of values are refused") {
-  CHECK(test::input_error([] { variance_about(0, std::vector<double>{1}); }).find("two") !=
-        std::string::npos);
+  CHECK(test::input_error([] { variance_about(0, {1}); }).find("two groups") != std::string::npos);
+  const std::vector<double> three{1, 2, 3};
+  for (const std::size_t groups : {0, 1, 4}) {
+    CHECK(test::input_error([&] {
+            laboratory::variance_about(0, three, groups);
+          }).find(std::to_string(groups) + " of 3") != std::string::npos);
+  }
   CHECK(test::input_error([] {
           fitted_slope(std::vector<double>{1, 2}, std::vector<VarianceEstimate>(2));
         }).find("three or more") != std::string::npos);
@@ -126,6 +157,33 @@ Coverage coverage(int realisations, double spread) {
     held.slope += holds(fitted_slope(kNumbers, v)->slope.interval, -1.5);
   }
   return held;
+}
+
+/// The share of intervals that hold the truth when ten estimates at a time have a common scale, as
+/// those of one preparation may; `groups` is what the intervals suppose.
+double coverage_of_groups(std::size_t groups) {
+  constexpr int kRepetitions = 800;
+  constexpr double kSpread = 0.3;
+  Normal normal(23);
+  double held = 0;
+  for (int i = 0; i < kRepetitions; ++i) {
+    std::vector<double> estimates;
+    double scale = 1;
+    for (int r = 0; r < 640; ++r) {
+      if (r % 10 == 0) scale = std::exp(kSpread * (normal() - kSpread));
+      estimates.push_back(scale * normal());
+    }
+    const statistics::Interval interval = laboratory::variance_about(0, estimates, groups).interval;
+    held += (interval.low <= 1 && 1 <= interval.high) ? 1.0 / kRepetitions : 0;
+  }
+  return held;
+}
+
+TEST_CASE("intervals of groups hold the truth where estimates depend on each other") {
+  CHECK(coverage_of_groups(64) >= 0.92);
+  CHECK(coverage_of_groups(64) <= 0.98);
+  CHECK(coverage_of_groups(16) >= 0.92);
+  CHECK(coverage_of_groups(640) < 0.85);
 }
 
 TEST_CASE("intervals of normal errors hold the truth in 95 % of cases") {

@@ -1,6 +1,3 @@
-#include <cmath>
-#include <vector>
-
 #include <doctest/doctest.h>
 
 #include <pharos/core/random.h>
@@ -14,20 +11,6 @@ namespace {
 
 double fraction(std::uint32_t reversed) {
   return owen::reverse_bits(reversed) * 0x1p-32;
-}
-
-/// Whether the points fill each cell of a grid of 2^a by 2^b cells exactly once.
-bool fills_grid(const std::vector<Vec2>& points, int a, int b) {
-  std::vector<int> counts(points.size());
-  for (const Vec2 p : points) {
-    const auto x = static_cast<std::size_t>(p.x * std::exp2(a));
-    const auto y = static_cast<std::size_t>(p.y * std::exp2(b));
-    ++counts[(y << a) + x];
-  }
-  for (const int count : counts) {
-    if (count != 1) return false;
-  }
-  return true;
 }
 
 /// Mean squared error, over pixels, of the integral of x y from n samples.
@@ -74,35 +57,6 @@ TEST_CASE("Owen scrambling: a digit depends on itself and those before it alone"
     CHECK((difference & ((1u << digit) - 1)) == 0);
     CHECK(((difference >> digit) & 1) == 1);
     CHECK(owen::reverse_bits(owen::reverse_bits(v)) == v);
-  }
-}
-
-TEST_CASE("sobol: the first 2^k samples are stratified in every elementary interval") {
-  const auto sampler = SobolSampler().prepare({}, {}, nullptr);
-  const Dimension dimensions[] = {{Purpose::pixel}, {Purpose::light_position, 2, 5}};
-  for (std::uint64_t pixel = 0; pixel < 10; ++pixel) {
-    for (const Dimension dimension : dimensions) {
-      for (int k = 0; k <= 10; ++k) {
-        std::vector<Vec2> points;
-        for (std::uint32_t i = 0; i < (1u << k); ++i) {
-          const SampleStream stream(*sampler, {.seed = 9, .index = pixel, .sample = i});
-          points.push_back(stream.get_2d(dimension));
-        }
-        for (int a = 0; a <= k; ++a) CHECK(fills_grid(points, a, k - a));
-      }
-    }
-  }
-}
-
-TEST_CASE("sobol: the first 2^k 1D samples are stratified") {
-  const auto sampler = SobolSampler().prepare({}, {}, nullptr);
-  for (int k = 0; k <= 10; ++k) {
-    std::vector<Vec2> points;
-    for (std::uint32_t i = 0; i < (1u << k); ++i) {
-      points.push_back(
-          {SampleStream(*sampler, {.index = 4, .sample = i}).get_1d({Purpose::bsdf_choice, 1}), 0});
-    }
-    CHECK(fills_grid(points, k, 0));
   }
 }
 

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include <pharos/config/values.h>
+#include <pharos/sampling/dimension.h>
+
+namespace pharos {
+
+/// What configs and command lines call the purposes whose numbers are points of the square.
+template <>
+struct EnumNames<Purpose> {
+  static constexpr std::array<std::pair<std::string_view, Purpose>, 5> names{
+      {{"pixel", Purpose::pixel},
+       {"lens", Purpose::lens},
+       {"light_position", Purpose::light_position},
+       {"bsdf_direction", Purpose::bsdf_direction},
+       {"guide_direction", Purpose::guide_direction}}};
+};
+
+}  // namespace pharos
