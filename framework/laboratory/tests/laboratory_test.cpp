@@ -206,7 +206,9 @@ TEST_CASE("work that is stopped keeps the numbers that all samplers have") {
   std::atomic<bool> stop = false;
   LaboratoryControl control{.on_progress = {}, .stop = &stop};
   control.on_progress = [&](double fraction, double) { stop = fraction > 0.4; };
-  const std::string config = std::string(kTwo) + "samples: { from: 4, to: 10 }\nrealisations: 64\n";
+  const std::string config = std::string(kTwo) +
+                             "samples: { from: 4, to: 10 }\nrealisations: 64\n"
+                             "spectrum: { points: 16, realisations: 2, max_frequency: 3 }\n";
   const LaboratoryResults results = measured(config, control);
   CHECK(results.stopped);
   CHECK(results.numbers.size() > 2);

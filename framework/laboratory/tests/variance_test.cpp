@@ -124,7 +124,7 @@ TEST_CASE("weights follow the errors") {
 TEST_CASE("wrong numbers of values are refused") {
   CHECK(test::input_error([] { variance_about(0, {1}); }).find("two groups") != std::string::npos);
   const std::vector<double> three{1, 2, 3};
-  for (const std::size_t groups : {0, 1, 4}) {
+  for (const std::size_t groups : {0u, 1u, 4u}) {
     CHECK(test::input_error([&] {
             laboratory::variance_about(0, three, groups);
           }).find(std::to_string(groups) + " of 3") != std::string::npos);
