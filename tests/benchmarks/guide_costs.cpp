@@ -91,10 +91,10 @@ GuideCosts measure_costs(const BoundGuider& guider, const std::vector<GuideQuery
   };
   ask_all();  // warms caches, and fills the arena with blocks
   meter.take();
-  const std::uint64_t before = allocation_count();
+  const std::uint64_t before = testing::allocation_count();
   ask_all();
   GuideCosts costs = meter.take();
-  costs.allocations = allocation_count() - before;
+  costs.allocations = testing::allocation_count() - before;
   const auto count = static_cast<double>(queries.size());
   costs.query_ns /= count;
   costs.sample_ns /= count;

@@ -77,10 +77,10 @@ std::vector<Measurement> measure_sampler(const std::string& name, const Sampler&
       begin{"sampler." + name + ".begin_ns", "ns", {}},
       allocations{"sampler." + name + ".allocations", "1", {}};
   for (int i = 0; i < repeats; ++i) {
-    const std::uint64_t before = allocation_count();
+    const std::uint64_t before = testing::allocation_count();
     const double beginning = time_paths(*prepared, first_bits);
     const double path = time_paths(*prepared, all_values);
-    allocations.runs.push_back(static_cast<double>(allocation_count() - before));
+    allocations.runs.push_back(static_cast<double>(testing::allocation_count() - before));
     begin.runs.push_back(beginning);
     value.runs.push_back(path / kValues);
   }

@@ -38,10 +38,10 @@ void operator delete(void* block, std::size_t, std::align_val_t) noexcept {
   std::free(block);
 }
 
-namespace pharos::bench {
+namespace pharos::testing {
 
 std::uint64_t allocation_count() {
   return allocations;
 }
 
-}  // namespace pharos::bench
+}  // namespace pharos::testing
