@@ -43,7 +43,7 @@ class StageProbe final : public IntegrandProbe {
 };
 
 std::uint32_t samples_of(const Sampler& sampler) {
-  return std::max(16u, sampler.preferred_samples());
+  return std::max(16u, sampler.preferred_samples({}));
 }
 
 std::unique_ptr<const PreparedSampler> prepare(const Sampler& sampler, int edge,

@@ -127,8 +127,8 @@ class RenderJob::Implementation {
     const GuidingSettings* guiding = config.integrator->guiding();
     const bool learns = guiding != nullptr && guiding->learns();
     const TrainingSchedule untrained{.iterations = 0};
-    iterations_ = (learns ? guiding->training : untrained)
-                      .divide(config.budget, config.sampler->preferred_samples());
+    set_size_ = config.sampler->preferred_samples({config.seed, config.budget.spp.value_or(0)});
+    iterations_ = (learns ? guiding->training : untrained).divide(config.budget, set_size_);
     const auto probe = config.sampler->needs_probe() ? integrator_->probe() : nullptr;
     sampler_ = config.sampler->prepare({config.film.width, config.film.height},
                                        {config.seed, longest(iterations_)}, probe.get());
@@ -196,7 +196,7 @@ class RenderJob::Implementation {
     const Iteration& iteration = iterations_[index];
     const double start = watch_.seconds();
     Film film = make_film();
-    PassSizes sizes(iteration, config_.sampler->preferred_samples());
+    PassSizes sizes(iteration, set_size_);
     std::uint32_t done = 0;
     const double deadline = work_up_to(index + 1);
     while (true) {
@@ -305,6 +305,7 @@ class RenderJob::Implementation {
   std::unique_ptr<const PreparedSensor> sensor_;
   std::unique_ptr<const PreparedIntegrator> integrator_;
   std::vector<PixelRect> tiles_;
+  std::uint32_t set_size_ = 1;  ///< that passes fill
   std::vector<Iteration> iterations_;
   std::unique_ptr<const PreparedSampler> sampler_;
   double preparation_seconds_ = 0;

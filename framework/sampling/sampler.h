@@ -26,6 +26,10 @@ struct PathKey {
 class SampleStream {
  public:
   SampleStream(const PreparedSampler& sampler, const PathKey& key);
+  /// With the state that the sampler's begin() made of this key before: for samplers that ask
+  /// others and keep their state.
+  SampleStream(const PreparedSampler& sampler, const PathKey& key, std::uint64_t state)
+      : sampler_(&sampler), key_(key), state_(state) {}
 
   /// In [0, 1).
   float get_1d(Dimension dimension) const;
@@ -97,8 +101,10 @@ class Sampler : public Component {
                                                          const IntegrandProbe* probe) const = 0;
 
   /// Size of the finite sets that a sampler works with: passes are whole sets, but for the last of
-  /// an iteration whose number of samples is no multiple. 1: any count is as good.
-  virtual std::uint32_t preferred_samples() const { return 1; }
+  /// an iteration whose number of samples is no multiple. 1: any count is as good, or sets are as
+  /// long as an iteration, which any passes fill. `plan` states the samples of all iterations
+  /// together, or 0 for a time budget, as the iterations are yet to be chosen.
+  virtual std::uint32_t preferred_samples(const SamplePlan& /*plan*/) const { return 1; }
   /// Whether prepare() needs a probe.
   virtual bool needs_probe() const { return false; }
 };

@@ -42,10 +42,11 @@ class DigitScramble {
     if constexpr (!shifted) {
       const std::uint32_t first = images_[(hash >> 59) * kCount + value];
       return images_[((hash >> 54) % kTables) * kCount + first];
+    } else {
+      const auto choice = static_cast<std::uint32_t>(((hash >> 32) * (kTables * kCount)) >> 32);
+      const std::uint32_t table = choice % kTables, shift = choice / kTables;
+      return sums_[shift * kCount + images_[table * kCount + value]];
     }
-    const auto choice = static_cast<std::uint32_t>(((hash >> 32) * (kTables * kCount)) >> 32);
-    const std::uint32_t table = choice % kTables, shift = choice / kTables;
-    return sums_[shift * kCount + images_[table * kCount + value]];
   }
 
  private:

@@ -38,7 +38,9 @@ constexpr std::uint32_t reversed_thirds(std::uint32_t v) {
 template <std::uint32_t groups>
 class PreparedHalton final : public PreparedSampler {
  public:
-  PreparedHalton() {
+  /// `seed` draws the permutations of digits.
+  explicit PreparedHalton(std::uint64_t seed)
+      : sixths_(hash_combine(seed, 1)), thirds_(hash_combine(seed, 2)) {
     for (std::uint32_t v = 0; v < kThirds; ++v) reversed_[v] = reversed_thirds(v);
   }
 
@@ -96,8 +98,8 @@ class PreparedHalton final : public PreparedSampler {
   }
 
   std::array<std::uint32_t, kThirds> reversed_;
-  DigitScramble<6, 3, false> sixths_{1};
-  DigitScramble<3, 4, true> thirds_{2};
+  DigitScramble<6, 3, false> sixths_;
+  DigitScramble<3, 4, true> thirds_;
 };
 
 }  // namespace
@@ -107,9 +109,9 @@ std::unique_ptr<const PreparedSampler> HaltonSampler::prepare(const PixelGrid&,
                                                               const SamplePlan& plan,
                                                               const IntegrandProbe*) const {
   const std::uint32_t samples = plan.samples_per_pixel;
-  if (samples > power(kSixths, 2)) return std::make_unique<PreparedHalton<3>>();
-  if (samples > kSixths || samples == 0) return std::make_unique<PreparedHalton<2>>();
-  return std::make_unique<PreparedHalton<1>>();
+  if (samples > power(kSixths, 2)) return std::make_unique<PreparedHalton<3>>(plan.seed);
+  if (samples > kSixths || samples == 0) return std::make_unique<PreparedHalton<2>>(plan.seed);
+  return std::make_unique<PreparedHalton<1>>(plan.seed);
 }
 
 }  // namespace pharos

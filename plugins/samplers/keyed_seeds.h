@@ -9,11 +9,12 @@
 /// Seeds of the hash-based samplers.
 namespace pharos {
 
-/// What all samples of a pixel share, or those of one set of them: a hash of seed, iteration, index
-/// and the set's number. One mixer for a sum with odd factors, as every path pays for it.
-constexpr std::uint64_t hash_pixel(const PathKey& key, std::uint64_t set = 0) {
+/// What all samples of a pixel share, or those of one part of them (a set, a dimension): a hash of
+/// seed, iteration, index and the part's number. One mixer for a sum with odd factors, as every
+/// path pays for it.
+constexpr std::uint64_t hash_pixel(const PathKey& key, std::uint64_t part = 0) {
   return mix_bits(key.seed * 0x9b05688c2b3e6c1full + key.iteration * 0xd6e8feb86659fd93ull +
-                  key.index * 0xa0761d6478bd642full + set * 0xe7037ed1a0b428dbull +
+                  key.index * 0xa0761d6478bd642full + part * 0xe7037ed1a0b428dbull +
                   0x632be59bd9b4e019ull);
 }
 
@@ -22,11 +23,18 @@ struct Seeds {
   std::uint32_t order, x, y, more;
 };
 
+/// Both halves of the product, added up without carry: each bit hangs on many of both factors.
+constexpr std::uint64_t folded_product(std::uint64_t a, std::uint64_t b) {
+  __extension__ using Long = unsigned __int128;
+  const Long product = Long{a} * b;
+  return static_cast<std::uint64_t>(product >> 64) ^ static_cast<std::uint64_t>(product);
+}
+
 constexpr Seeds seeds_of(std::uint64_t state, Dimension dimension) {
   const std::uint64_t first = hash_combine(state, dimension.code());
-  const std::uint64_t second = (first ^ (first >> 29)) * 0x9e3779b97f4a7c15ull;
+  const std::uint64_t second = folded_product(first, 0x9e3779b97f4a7c15ull);
   return {static_cast<std::uint32_t>(first >> 32), static_cast<std::uint32_t>(first),
-          static_cast<std::uint32_t>(second >> 32), static_cast<std::uint32_t>(second >> 8)};
+          static_cast<std::uint32_t>(second >> 32), static_cast<std::uint32_t>(second)};
 }
 
 /// A sample's place in sets of a fixed size, packed into a stream's state: a hash of the pixel and

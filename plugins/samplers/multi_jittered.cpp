@@ -2,12 +2,14 @@
 // Sampling", Pixar Technical Memo 13-01). The n = m k samples of a set lie one each in the cells of
 // a grid of m columns and k rows, and also one each in n intervals of equal length of x, and of y:
 // within its column a point's place is that of its row after a permutation of the rows, the same
-// one for all columns, and the other way round. Sharing the permutations keeps neighbours apart.
-// Each dimension of a pixel has permutations, jitter and an order of the cells of its own; samples
-// beyond a set belong to the next one, with permutations of its own.
+// one for all columns; within its row it is that of its column before the columns are permuted.
+// Sharing the permutations keeps neighbours apart. Each dimension of a pixel has permutations,
+// jitter and an order of the cells of its own; samples beyond a set belong to the next one, with
+// permutations of its own.
 //
-// An n that is no product of two similar numbers gets a grid with a few cells to spare, as in
-// `stratified`.
+// An n that is no product of two similar numbers gets a last row that is not full, as in Kensler's
+// second form: n intervals of y still hold a point each; of m k ones of x some are left out. The
+// rows are m of these intervals of y high, the last one fewer.
 //
 // Sharing has a price: an integrand with x y in it sees the same misplacement in all columns, so
 // that on smooth integrands the variance falls as n^-1.5 only, where it does as n^-2 if every
@@ -24,38 +26,45 @@ namespace {
 
 class PreparedMultiJittered final : public PreparedSampler {
  public:
-  PreparedMultiJittered(StrataGrid grid, bool correlated)
-      : grid_(grid),
-        places_(grid),
-        cells_(grid.cells()),
-        column_orders_(grid.columns),
-        row_orders_(grid.rows),
+  /// `seed` draws the permutations.
+  PreparedMultiJittered(std::uint32_t samples, bool correlated, std::uint64_t seed)
+      : grid_(grid_of(samples)),
+        samples_(samples),
+        places_(grid_),
+        cells_(grid_.cells()),
+        numbers_(samples),
+        orders_(samples, hash_combine(seed, 0)),
+        column_orders_(grid_.columns, hash_combine(seed, 1)),
+        row_orders_(grid_.rows, hash_combine(seed, 2)),
         apart_(correlated ? 0 : 0x9e3779b1u) {}
 
   std::uint64_t begin(const PathKey& key) const override {
-    return SetPlace::of(key, grid_.cells()).state();
+    return SetPlace::of(key, samples_).state();
   }
   float value_1d(const SampleStream& stream, Dimension dimension) const override {
     const SetPlace place(stream.state());
-    return stratified_number(place.index(), grid_.cells(), cells_,
+    return stratified_number(place.index(), orders_, numbers_,
                              seeds_of(place.set_hash(), dimension));
   }
   Vec2 value_2d(const SampleStream& stream, Dimension dimension) const override {
     const SetPlace place(stream.state());
     const Seeds seeds = seeds_of(place.set_hash(), dimension);
-    const auto [column, row] = places_[permuted(place.index(), grid_.cells(), seeds.order)];
-    const std::uint32_t x = column * grid_.rows + row_orders_(row, seeds.x ^ (column * apart_));
-    const std::uint32_t y = row * grid_.columns + column_orders_(column, seeds.y ^ (row * apart_));
+    const std::uint32_t y = orders_(place.index(), seeds.order);
+    const auto [number, row] = places_[y];
+    const std::uint32_t column = column_orders_.through_one(number, seeds.y ^ (row * apart_));
+    const std::uint32_t x =
+        column * grid_.rows + row_orders_.through_one(row, seeds.x ^ (column * apart_));
     const std::uint64_t jitter = jitter_bits(place.index(), seeds);
     return {cells_.at(x, static_cast<std::uint32_t>(jitter >> 32)),
-            cells_.at(y, static_cast<std::uint32_t>(jitter))};
+            numbers_.at(y, static_cast<std::uint32_t>(jitter))};
   }
 
  private:
   StrataGrid grid_;
+  std::uint32_t samples_;
   GridCells places_;
-  Strata cells_;
-  DrawnPermutations column_orders_, row_orders_;
+  Strata cells_, numbers_;
+  DrawnPermutations orders_, column_orders_, row_orders_;
   std::uint32_t apart_;  ///< what tells the seeds of columns, and of rows, apart
 };
 
@@ -71,12 +80,13 @@ void MultiJitteredSampler::Settings::describe(Schema<Settings>& s) {
 std::unique_ptr<const PreparedSampler> MultiJitteredSampler::prepare(const PixelGrid&,
                                                                      const SamplePlan& plan,
                                                                      const IntegrandProbe*) const {
-  return std::make_unique<PreparedMultiJittered>(grid_of(set_size(settings_.samples, plan)),
-                                                 settings_.correlated);
+  return std::make_unique<PreparedMultiJittered>(set_size(settings_.samples, plan),
+                                                 settings_.correlated, plan.seed);
 }
 
-std::uint32_t MultiJitteredSampler::preferred_samples() const {
-  return settings_.samples ? grid_of(*settings_.samples).cells() : 1;
+std::uint32_t MultiJitteredSampler::preferred_samples(const SamplePlan& plan) const {
+  if (!sets_are_passes(settings_.samples, plan)) return 1;
+  return set_size(settings_.samples, plan);
 }
 
 }  // namespace pharos

@@ -18,7 +18,7 @@ class MultiJitteredSampler final : public Sampler {
   MultiJitteredSampler() : MultiJitteredSampler(Settings{}) {}
   std::unique_ptr<const PreparedSampler> prepare(const PixelGrid& grid, const SamplePlan& plan,
                                                  const IntegrandProbe* probe) const override;
-  std::uint32_t preferred_samples() const override;
+  std::uint32_t preferred_samples(const SamplePlan& plan) const override;
 
  private:
   Settings settings_;

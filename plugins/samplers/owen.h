@@ -18,9 +18,9 @@ constexpr std::uint32_t reverse_bits(std::uint32_t v) {
 }
 
 /// A nested uniform scramble of a reversed fraction, chosen by `seed`: every digit is flipped or
-/// not by the digits before it. The form is Laine and Karras' (2011), the constants are those of
-/// Vegdahl
-/// ("Building a Better LK Hash", 2021).
+/// not by the digits before it. The form is that of Laine and Karras (2011, "Stratified Sampling
+/// for Stochastic Transparency"), with the constants of Vegdahl (2021, "Building a Better LK
+/// Hash").
 constexpr std::uint32_t scramble_reversed(std::uint32_t v, std::uint32_t seed) {
   v ^= v * 0x3d20adeau;
   v += seed;

@@ -8,7 +8,8 @@
 // can be written down: copy the first k digits, k = log2 n, of two old numbers, flip digit k + 1,
 // draw the rest at random (Helmer, Christensen and Kensler 2021, "Stochastic Generation of (t, s)
 // Sample Sequences"). With the partners that Sobol's matrices give every aligned block of 2^j
-// points is a net, not only the first.
+// points is a net, not only the first. In distribution that is Sobol's sequence with Owen's
+// scrambling, as `sobol` has it, but with digits that are drawn instead of hashed.
 //
 // Eight sequences are made before rendering, as long as the samples of a pixel, at least 256 points
 // and at most 65,536 (4,096 with a time budget); every dimension of a pixel takes one, in an order

@@ -42,4 +42,9 @@ inline std::uint32_t set_size(std::optional<std::uint32_t> stated, const SampleP
   return std::min(plan.samples_per_pixel, SetPlace::kMostSamples);
 }
 
+/// Whether passes have to be sets of set_size(): else an iteration is a set, or a part of one.
+inline bool sets_are_passes(std::optional<std::uint32_t> stated, const SamplePlan& plan) {
+  return stated || plan.samples_per_pixel == 0;
+}
+
 }  // namespace pharos

@@ -1,6 +1,7 @@
 // sheared: points that are stratified in lines of a stated direction (Singh and Jarosz 2017,
 // "Convergence Analysis for Anisotropic Monte Carlo Sampling Spectra"). Points like those of
 // multi_jittered fill narrow rows and columns most evenly: they are best for integrands that vary
+// along one axis only, such as an edge along the other. A shear on the torus turns the rows (for
 // directions within 45 degrees of the x axis: y moves by x times the slope) or the columns (for
 // others: x moves by y over the slope) into lines of that direction, the one an edge of the
 // integrand has. It keeps area, so uniform points stay uniform, and for whole slopes no line is
@@ -14,6 +15,8 @@
 #include <cmath>
 
 #include <pharos/config/registry.h>
+
+#include "unit_steps.h"
 
 namespace pharos {
 namespace {
@@ -40,12 +43,11 @@ class PreparedSheared final : public PreparedSampler {
   }
 
  private:
-  /// Numbers are multiples of 2^-24: with these as integers nothing is rounded but the way.
+  /// Nothing is rounded but the way.
   float moved(float u, float by) const {
     const std::int64_t way = (std::int64_t{steps_of(by)} * slope_) >> 32;
-    return static_cast<float>((steps_of(u) + static_cast<std::int32_t>(way)) & 0xffffff) * 0x1p-24f;
+    return number_of(steps_of(u) + static_cast<std::int32_t>(way));
   }
-  static std::int32_t steps_of(float u) { return static_cast<std::int32_t>(u * 0x1p24f); }
 
   std::unique_ptr<const PreparedSampler> base_;
   Purpose purpose_;

@@ -18,7 +18,9 @@ class ShearedSampler final : public Sampler {
   explicit ShearedSampler(const Settings& settings) : settings_(settings) {}
   std::unique_ptr<const PreparedSampler> prepare(const PixelGrid& grid, const SamplePlan& plan,
                                                  const IntegrandProbe* probe) const override;
-  std::uint32_t preferred_samples() const override { return settings_.base->preferred_samples(); }
+  std::uint32_t preferred_samples(const SamplePlan& plan) const override {
+    return settings_.base->preferred_samples(plan);
+  }
   bool needs_probe() const override { return settings_.base->needs_probe(); }
 
  private:

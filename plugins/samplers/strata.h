@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -10,7 +11,7 @@
 
 #include "keyed_seeds.h"
 
-/// Grids of strata and hashed permutations of them.
+/// Grids of strata and permutations of them.
 namespace pharos {
 
 /// Columns and rows of a grid of strata over the unit square, 2^16 cells at most.
@@ -53,62 +54,66 @@ constexpr StrataGrid grid_of(std::uint32_t samples) {
   return {root, (samples + root - 1) / root};
 }
 
-/// The image of `index` under a permutation of the numbers below `count` that `seed` picks. A
-/// bijection of the numbers with as many bits is walked until it leads below `count` (the idea of
-/// Kensler 2013, "Correlated Multi-Jittered Sampling"), then all are rotated, which makes every
-/// image of an index exactly as likely.
-constexpr std::uint32_t permuted(std::uint32_t index, std::uint32_t count, std::uint32_t seed) {
-  const auto bits = static_cast<std::uint32_t>(std::bit_width(count - 1));
-  const std::uint32_t mask = (std::uint32_t{1} << bits) - 1, shift = (bits + 1) / 2;
-  const std::uint32_t mixed = seed * 0x2c1b3c6du;
-  do {
-    // Each step (an exclusive or, a product with an odd number, a shift onto itself) is a
-    // bijection.
-    index = ((index ^ (mixed >> 16)) * ((mixed >> 8) | 1)) & mask;
-    index ^= index >> shift;
-    index = ((index ^ (mixed >> 20)) * ((mixed >> 11) | 1)) & mask;
-    index ^= index >> shift;
-    index = ((index ^ (mixed >> 4)) * ((mixed >> 14) | 1)) & mask;
-    index ^= index >> shift;
-  } while (index >= count);
-  index += static_cast<std::uint32_t>((std::uint64_t{seed} * count) >> 32);
-  return index < count ? index : index - count;
-}
-
-/// Permutations as those of permuted(), for small counts: faster, from tables.
+/// Permutations of the numbers below a count that words of 32 bits pick: made of tables.
 class DrawnPermutations {
  public:
-  explicit DrawnPermutations(std::uint32_t count) : count_(count) {
-    for (std::uint32_t table = 0; table < kTables; ++table) {
+  /// Of the numbers below `count`, 1 to 2^16. `seed` draws the tables: for small counts many, as
+  /// the rotations of each are few.
+  DrawnPermutations(std::uint32_t count, std::uint64_t seed)
+      : count_(count),
+        table_bits_(std::clamp(12 - static_cast<int>(std::bit_width(count - 1)), 0, 8)) {
+    RandomStream random(seed, count);
+    for (std::uint32_t table = 0; table < (1u << table_bits_); ++table) {
       const std::size_t first = images_.size();
       for (std::uint32_t i = 0; i < count; ++i) images_.push_back(static_cast<std::uint16_t>(i));
-      RandomStream random(count, table);
       for (std::uint32_t i = count; i-- > 1;) {
         std::swap(images_[first + i], images_[first + random() % (i + 1)]);
       }
     }
   }
 
-  /// The image of `index` under the permutation that `seed` picks: one of the tables, rotated.
+  /// The image of `index` under the permutation that `seed` picks: two tables, one after the other,
+  /// and rotations before, between and after. The last one makes every image of an index exactly as
+  /// likely, all together all images of two indices nearly so (a fraction of a percent).
   std::uint32_t operator()(std::uint32_t index, std::uint32_t seed) const {
-    const std::uint64_t scaled = std::uint64_t{seed} * count_;
-    const auto table = static_cast<std::uint32_t>(scaled) >> (32 - kTableBits);
-    const std::uint32_t image =
-        images_[table * count_ + index] + static_cast<std::uint32_t>(scaled >> 32);
-    return image < count_ ? image : image - count_;
+    const std::uint64_t last = std::uint64_t{seed} * count_;
+    const std::uint64_t others = static_cast<std::uint32_t>(last) * 0x9e3779b97f4a7c15ull;
+    const std::uint64_t first = (others >> 32) * count_;
+    const std::uint64_t second = static_cast<std::uint32_t>(others) * std::uint64_t{count_};
+    const std::uint32_t middle = image(rotated(index, first), first);
+    return rotated(image(rotated(middle, second), second), last);
+  }
+
+  /// The same faster, through one table and with rotations before and after: images of two indices
+  /// together are likely within some 10%, and exactly so over the seeds of tables.
+  std::uint32_t through_one(std::uint32_t index, std::uint32_t seed) const {
+    const std::uint64_t last = std::uint64_t{seed} * count_;
+    const std::uint64_t first = static_cast<std::uint32_t>(last) * std::uint64_t{count_};
+    return rotated(image(rotated(index, first), first), last);
   }
 
  private:
-  static constexpr int kTableBits = 6;
-  static constexpr std::uint32_t kTables = 1u << kTableBits;
+  /// The image of `index` in the table that the lower half of `choice` picks.
+  std::uint32_t image(std::uint32_t index, std::uint64_t choice) const {
+    const std::uint64_t table = (choice & 0xffffffffu) >> (32 - table_bits_);
+    return images_[table * count_ + index];
+  }
+  /// Rotated by the upper half of `choice`, a number below the count.
+  std::uint32_t rotated(std::uint32_t index, std::uint64_t choice) const {
+    index += static_cast<std::uint32_t>(choice >> 32);
+    return index < count_ ? index : index - count_;
+  }
 
   std::uint32_t count_;
-  std::vector<std::uint16_t> images_;
+  int table_bits_;
+  std::vector<std::uint16_t> images_;  ///< of all tables
 };
 
 /// Two unrelated fractions of 32 bits for a sample of a set: its jitter.
 constexpr std::uint64_t jitter_bits(std::uint32_t index, const Seeds& seeds) {
-  return mix_bits((std::uint64_t{seeds.more} << 32) + index * 0x9e3779b97f4a7c15ull + seeds.x);
+  const std::uint64_t place =
+      (std::uint64_t{seeds.more} << 32) + index * 0x9e3779b97f4a7c15ull + seeds.x;
+  return folded_product(place, place ^ 0xe7037ed1a0b428dbull);
 }
 
 /// Equal strata of [0, 1) whose numbers never leave them by rounding.
@@ -136,12 +141,12 @@ class Strata {
   std::uint64_t width_;
 };
 
-/// Number `index` of a set of `count` stratified numbers: each in a stratum of its own, in an order
-/// that the seeds pick.
-inline float stratified_number(std::uint32_t index, std::uint32_t count, const Strata& strata,
-                               const Seeds& seeds) {
+/// Number `index` of a set of stratified numbers: each in a stratum of its own, in an order that
+/// the seeds pick.
+inline float stratified_number(std::uint32_t index, const DrawnPermutations& orders,
+                               const Strata& strata, const Seeds& seeds) {
   const auto jitter = static_cast<std::uint32_t>(jitter_bits(index, seeds) >> 32);
-  return strata.at(permuted(index, count, seeds.order), jitter);
+  return strata.at(orders(index, seeds.order), jitter);
 }
 
 }  // namespace pharos

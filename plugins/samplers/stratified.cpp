@@ -16,25 +16,26 @@ namespace {
 
 class PreparedStratified final : public PreparedSampler {
  public:
-  explicit PreparedStratified(StrataGrid grid)
+  /// `seed` draws the orders of cells.
+  PreparedStratified(StrataGrid grid, std::uint64_t seed)
       : grid_(grid),
         places_(grid),
         columns_(grid.columns),
         rows_(grid.rows),
-        cells_(grid.cells()) {}
+        cells_(grid.cells()),
+        orders_(grid.cells(), seed) {}
 
   std::uint64_t begin(const PathKey& key) const override {
     return SetPlace::of(key, grid_.cells()).state();
   }
   float value_1d(const SampleStream& stream, Dimension dimension) const override {
     const SetPlace place(stream.state());
-    return stratified_number(place.index(), grid_.cells(), cells_,
-                             seeds_of(place.set_hash(), dimension));
+    return stratified_number(place.index(), orders_, cells_, seeds_of(place.set_hash(), dimension));
   }
   Vec2 value_2d(const SampleStream& stream, Dimension dimension) const override {
     const SetPlace place(stream.state());
     const Seeds seeds = seeds_of(place.set_hash(), dimension);
-    const auto [column, row] = places_[permuted(place.index(), grid_.cells(), seeds.order)];
+    const auto [column, row] = places_[orders_(place.index(), seeds.order)];
     const std::uint64_t jitter = jitter_bits(place.index(), seeds);
     return {columns_.at(column, static_cast<std::uint32_t>(jitter >> 32)),
             rows_.at(row, static_cast<std::uint32_t>(jitter))};
@@ -44,6 +45,7 @@ class PreparedStratified final : public PreparedSampler {
   StrataGrid grid_;
   GridCells places_;
   Strata columns_, rows_, cells_;
+  DrawnPermutations orders_;
 };
 
 }  // namespace
@@ -51,11 +53,13 @@ class PreparedStratified final : public PreparedSampler {
 std::unique_ptr<const PreparedSampler> StratifiedSampler::prepare(const PixelGrid&,
                                                                   const SamplePlan& plan,
                                                                   const IntegrandProbe*) const {
-  return std::make_unique<PreparedStratified>(grid_of(set_size(settings_.samples, plan)));
+  return std::make_unique<PreparedStratified>(grid_of(set_size(settings_.samples, plan)),
+                                              plan.seed);
 }
 
-std::uint32_t StratifiedSampler::preferred_samples() const {
-  return settings_.samples ? grid_of(*settings_.samples).cells() : 1;
+std::uint32_t StratifiedSampler::preferred_samples(const SamplePlan& plan) const {
+  if (!sets_are_passes(settings_.samples, plan)) return 1;
+  return grid_of(set_size(settings_.samples, plan)).cells();
 }
 
 }  // namespace pharos

@@ -1,19 +1,17 @@
 // toroidal_shift: the same points in every pixel, moved by an offset of the pixel's own, with what
 // leaves the unit square coming in on its other side (Cranley and Patterson 1976, "Randomization of
 // Number Theoretic Methods for Multiple Integration"). The points are those that `base` has for
-// the first pixel; every dimension of a pixel has an offset. An offset makes the arrangement the
-// same about every place, as studies of spectra and convergence ask for, but a net that is moved is
-// no net: for rendering `base` alone is mostly better.
+// the first pixel, and a seed of its own; every dimension of a pixel has an offset. An offset makes
+// the arrangement the same about every place, as studies of spectra and convergence ask for, but a
+// net that is moved is no net: for rendering `base` alone is mostly better.
 //
 //     { type: toroidal_shift, base: multi_jittered }
 #include "toroidal_shift.h"
 
-#include <cmath>
-
 #include <pharos/config/registry.h>
-#include <pharos/core/random.h>
 
 #include "keyed_seeds.h"
+#include "unit_steps.h"
 
 namespace pharos {
 namespace {
@@ -23,26 +21,37 @@ class PreparedToroidalShift final : public PreparedSampler {
   explicit PreparedToroidalShift(std::unique_ptr<const PreparedSampler> base)
       : base_(std::move(base)) {}
 
-  std::uint64_t begin(const PathKey& key) const override { return base_->begin(first_pixel(key)); }
+  std::uint64_t begin(const PathKey& key) const override { return base_->begin(base_key(key)); }
   float value_1d(const SampleStream& stream, Dimension dimension) const override {
-    return moved(base_->value_1d(stream, dimension), offset(stream, dimension).x);
+    return moved(base_->value_1d(base_stream(stream), dimension), offset(stream, dimension).x);
   }
   Vec2 value_2d(const SampleStream& stream, Dimension dimension) const override {
-    const Vec2 u = base_->value_2d(stream, dimension), by = offset(stream, dimension);
+    const Vec2 u = base_->value_2d(base_stream(stream), dimension);
+    const Offset by = offset(stream, dimension);
     return {moved(u.x, by.x), moved(u.y, by.y)};
   }
 
  private:
-  static PathKey first_pixel(PathKey key) {
+  /// In steps of 2^-24, modulo one.
+  struct Offset {
+    std::int32_t x, y;
+  };
+
+  /// Of the first pixel. The seed is another one, so that a base that moves points itself does not
+  /// move them by this one's offsets.
+  static PathKey base_key(PathKey key) {
+    key.seed += 0x3c6ef372fe94f82bull;
     key.index = 0;
     return key;
   }
-  static Vec2 offset(const SampleStream& stream, Dimension dimension) {
-    constexpr std::uint64_t kOffsets = 0x3c6ef372fe94f82bull;  // apart from other uses of the hash
-    return to_unit_vec2(hash_combine(hash_pixel(stream.key()) ^ kOffsets, dimension.code()));
+  SampleStream base_stream(const SampleStream& stream) const {
+    return SampleStream(*base_, base_key(stream.key()), stream.state());
   }
-  /// Down, as both are multiples of 2^-24: differences below one are exact, sums above it are not.
-  static float moved(float u, float by) { return u - by - std::floor(u - by); }
+  static Offset offset(const SampleStream& stream, Dimension dimension) {
+    const std::uint64_t bits = hash_pixel(stream.key(), dimension.code());
+    return {static_cast<std::int32_t>(bits >> 40), static_cast<std::int32_t>(bits & 0xffffff)};
+  }
+  static float moved(float u, std::int32_t by) { return number_of(steps_of(u) + by); }
 
   std::unique_ptr<const PreparedSampler> base_;
 };

@@ -16,7 +16,9 @@ class ToroidalShiftSampler final : public Sampler {
   explicit ToroidalShiftSampler(const Settings& settings) : base_(settings.base) {}
   std::unique_ptr<const PreparedSampler> prepare(const PixelGrid& grid, const SamplePlan& plan,
                                                  const IntegrandProbe* probe) const override;
-  std::uint32_t preferred_samples() const override { return base_->preferred_samples(); }
+  std::uint32_t preferred_samples(const SamplePlan& plan) const override {
+    return base_->preferred_samples(plan);
+  }
   bool needs_probe() const override { return base_->needs_probe(); }
 
  private:

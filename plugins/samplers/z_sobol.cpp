@@ -23,18 +23,10 @@
 #include <bit>
 
 #include "owen.h"
+#include "z_order.h"
 
 namespace pharos {
 namespace {
-
-/// Puts a zero above each of the 32 bits.
-constexpr std::uint64_t spread(std::uint64_t v) {
-  v = (v | (v << 16)) & 0x0000ffff0000ffffull;
-  v = (v | (v << 8)) & 0x00ff00ff00ff00ffull;
-  v = (v | (v << 4)) & 0x0f0f0f0f0f0f0f0full;
-  v = (v | (v << 2)) & 0x3333333333333333ull;
-  return (v | (v << 1)) & 0x5555555555555555ull;
-}
 
 class PreparedZSobol final : public PreparedSampler {
  public:
@@ -48,7 +40,7 @@ class PreparedZSobol final : public PreparedSampler {
   /// bits of the place in the sequence, reversed. Places further apart take unrelated scrambles.
   std::uint64_t begin(const PathKey& key) const override {
     const std::uint64_t y = key.index / width_, x = key.index - y * width_;
-    const std::uint64_t pixel = spread(x) | (spread(y) << 1);
+    const std::uint64_t pixel = z_order::spread(x) | (z_order::spread(y) << 1);
     const int bits = sample_bits_ + padding_;
     const std::uint32_t set = key.sample >> sample_bits_;
     const std::uint32_t sample = key.sample - (set << sample_bits_);
@@ -71,21 +63,9 @@ class PreparedZSobol final : public PreparedSampler {
  private:
   /// The shuffled place in the sequence.
   std::uint32_t place(const SampleStream& stream, const Seeds& seeds) const {
-    const std::uint32_t paired = with_pairings(static_cast<std::uint32_t>(stream.state()), seeds);
+    const auto reversed = static_cast<std::uint32_t>(stream.state());
+    const std::uint32_t paired = z_order::with_pairings(reversed, seeds, pixel_digits_);
     return owen::reverse_bits(owen::scramble_reversed(paired, seeds.order)) >> padding_;
-  }
-
-  /// Chooses which bit of each pixel's digit of base 4 tells the pairs apart: that of y (the first,
-  /// at the even places of a reversed number), that of x, or their sum.
-  std::uint32_t with_pairings(std::uint32_t reversed, const Seeds& seeds) const {
-    // Products with odd numbers carry upwards only: bits at even places of these, once that place's
-    // own bit is taken off, depend on the digits before theirs alone.
-    const std::uint32_t product = (reversed + seeds.x) * ((seeds.order << 1) | 1);
-    const std::uint32_t a = product ^ (product * 0x05526c56u) ^ reversed;
-    const std::uint32_t b = a * 0x9e3779b1u;
-    const std::uint32_t differ = (reversed ^ (reversed >> 1)) & a & pixel_digits_;
-    const std::uint32_t swapped = reversed ^ differ ^ (differ << 1);
-    return swapped ^ ((swapped >> 1) & b & pixel_digits_);
   }
 
   std::uint64_t width_;
@@ -103,8 +83,9 @@ std::unique_ptr<const PreparedSampler> ZSobolSampler::prepare(const PixelGrid& g
                                           std::bit_ceil(set_size(settings_.samples, plan)));
 }
 
-std::uint32_t ZSobolSampler::preferred_samples() const {
-  return settings_.samples ? std::bit_ceil(*settings_.samples) : 1;
+std::uint32_t ZSobolSampler::preferred_samples(const SamplePlan& plan) const {
+  if (!sets_are_passes(settings_.samples, plan)) return 1;
+  return std::bit_ceil(set_size(settings_.samples, plan));
 }
 
 }  // namespace pharos

@@ -13,7 +13,7 @@ class ZSobolSampler final : public Sampler {
   explicit ZSobolSampler(const Settings& settings = {}) : settings_(settings) {}
   std::unique_ptr<const PreparedSampler> prepare(const PixelGrid& grid, const SamplePlan& plan,
                                                  const IntegrandProbe* probe) const override;
-  std::uint32_t preferred_samples() const override;
+  std::uint32_t preferred_samples(const SamplePlan& plan) const override;
 
  private:
   Settings settings_;

@@ -20,6 +20,29 @@ namespace {
 constexpr SamplePlan kPlan{.samples_per_pixel = 64};
 constexpr Dimension kLight{Purpose::light_position, 2};
 
+/// All of whose numbers are the same one.
+class FixedSampler final : public Sampler {
+ public:
+  explicit FixedSampler(float number) : number_(number) {}
+  std::unique_ptr<const PreparedSampler> prepare(const PixelGrid&, const SamplePlan&,
+                                                 const IntegrandProbe*) const override {
+    return std::make_unique<Prepared>(number_);
+  }
+
+ private:
+  class Prepared final : public PreparedSampler {
+   public:
+    explicit Prepared(float number) : number_(number) {}
+    std::uint64_t begin(const PathKey&) const override { return 0; }
+    float value_1d(const SampleStream&, Dimension) const override { return number_; }
+    Vec2 value_2d(const SampleStream&, Dimension) const override { return {number_, number_}; }
+
+   private:
+    float number_;
+  };
+  float number_;
+};
+
 std::unique_ptr<const PreparedSampler> sheared(double direction) {
   const ShearedSampler::Settings settings{.base = std::make_shared<MultiJitteredSampler>(),
                                           .direction = direction};
@@ -100,26 +123,66 @@ TEST_CASE("sheared: points stay uniform") {
   for (const double p : statistics::holm_adjusted(p_values)) CHECK(p > 0.01);
 }
 
-TEST_CASE("toroidal_shift: a pixel's points are those of the first pixel, moved by one offset") {
+TEST_CASE("toroidal_shift: all pixels have the same points, moved by one offset each") {
   const auto sampler = shifted();
-  const auto base = MultiJitteredSampler().prepare({}, kPlan, nullptr);
-  for (std::uint64_t pixel = 0; pixel < 20; ++pixel) {
+  const auto first = test::points_of(*sampler, {}, kLight, 64);
+  for (std::uint64_t pixel = 1; pixel < 20; ++pixel) {
     const auto points = test::points_of(*sampler, {.index = pixel}, kLight, 64);
-    const auto unmoved = test::points_of(*base, {}, kLight, 64);
-    const double x = double{points[0].x} - unmoved[0].x, y = double{points[0].y} - unmoved[0].y;
+    const double x = double{points[0].x} - first[0].x, y = double{points[0].y} - first[0].y;
     CHECK_FALSE((x == 0 && y == 0));
     for (std::size_t i = 0; i < points.size(); ++i) {
-      CHECK(fraction(double{points[i].x} - unmoved[i].x - x) == 0);
-      CHECK(fraction(double{points[i].y} - unmoved[i].y - y) == 0);
+      CHECK(fraction(double{points[i].x} - first[i].x - x) == 0);
+      CHECK(fraction(double{points[i].y} - first[i].y - y) == 0);
     }
+  }
+}
+
+TEST_CASE("toroidal_shift: numbers that are no multiples of 2^-24 never become one") {
+  const auto number = [](float u, std::uint64_t pixel) {
+    const auto sampler =
+        ToroidalShiftSampler({.base = std::make_shared<FixedSampler>(u)}).prepare({}, {}, nullptr);
+    return SampleStream(*sampler, {.index = pixel}).get_1d(kLight);
+  };
+  int small_offsets = 0;
+  for (std::uint64_t pixel = 0; pixel < 4000; ++pixel) {
+    const float by = number(0, pixel), back = 1 - by;
+    for (const float u : {by, back}) {
+      // Where floats lie this dense, the number just below what leads to one.
+      if (u >= 0x1p-7f || u == 0) continue;
+      ++small_offsets;
+      const float moved = number(u - 0x1p-30f, pixel);
+      CHECK(moved >= 0);
+      CHECK(moved < 1);
+    }
+  }
+  CHECK(small_offsets > 20);
+}
+
+TEST_CASE("toroidal_shift: a shift of a shift moves twice, by different offsets") {
+  // Of a point that stays at zero, what is left are the offsets.
+  const auto zero = std::make_shared<FixedSampler>(0.0f);
+  const auto once =
+      std::make_shared<ToroidalShiftSampler>(ToroidalShiftSampler::Settings{.base = zero});
+  const auto inner = once->prepare({}, {}, nullptr);
+  const auto both = ToroidalShiftSampler({.base = once}).prepare({}, {}, nullptr);
+  const auto inner_part = [&](std::uint64_t pixel) {
+    const Vec2 outer = SampleStream(*inner, {.index = pixel}).get_2d(kLight);
+    const Vec2 sum = SampleStream(*both, {.index = pixel}).get_2d(kLight);
+    return Vec2{static_cast<float>(fraction(double{sum.x} - outer.x)),
+                static_cast<float>(fraction(double{sum.y} - outer.y))};
+  };
+  // The inner shift sees the first pixel only, and is not the outer one's of any pixel.
+  for (std::uint64_t pixel = 0; pixel < 20; ++pixel) {
+    CHECK(inner_part(pixel) == inner_part(0));
+    CHECK_FALSE(inner_part(pixel) == SampleStream(*inner, {.index = pixel}).get_2d(kLight));
   }
 }
 
 TEST_CASE("moved samplers: passes are those of the base") {
   const auto base =
       std::make_shared<MultiJitteredSampler>(MultiJitteredSampler::Settings{.samples = 9});
-  CHECK(ShearedSampler({.base = base}).preferred_samples() == 9);
-  CHECK(ToroidalShiftSampler({.base = base}).preferred_samples() == 9);
+  CHECK(ShearedSampler({.base = base}).preferred_samples({}) == 9);
+  CHECK(ToroidalShiftSampler({.base = base}).preferred_samples({}) == 9);
   CHECK_FALSE(ShearedSampler({.base = base}).needs_probe());
 }
 

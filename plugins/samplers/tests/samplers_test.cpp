@@ -155,8 +155,8 @@ TEST_CASE("samplers: dimensions, pixels and seeds are uncorrelated") {
 }
 
 TEST_CASE("samplers: any number of samples is as good") {
-  CHECK(IndependentSampler().preferred_samples() == 1);
-  CHECK(SobolSampler().preferred_samples() == 1);
+  CHECK(IndependentSampler().preferred_samples({}) == 1);
+  CHECK(SobolSampler().preferred_samples({}) == 1);
   CHECK_FALSE(SobolSampler().needs_probe());
 }
 

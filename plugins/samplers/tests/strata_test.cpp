@@ -9,8 +9,6 @@
 #include <doctest/doctest.h>
 
 #include <pharos/core/random.h>
-#include <pharos/statistics/goodness_of_fit.h>
-#include <pharos/statistics/hypothesis.h>
 
 #include "../multi_jittered.h"
 #include "../stratified.h"
@@ -53,59 +51,6 @@ TEST_CASE("strata: grids are as square as the number of samples allows") {
       exact &= cells[row * grid.columns + grid.columns - 1].row == row;
     }
     REQUIRE(exact);
-  }
-}
-
-TEST_CASE("strata: permutations are bijections, and every image is as likely") {
-  for (std::uint32_t count = 1; count <= 300; ++count) {
-    std::vector<bool> hit(count);
-    for (std::uint32_t i = 0; i < count; ++i) {
-      const std::uint32_t image = permuted(i, count, 0x12345678u * count);
-      REQUIRE(image < count);
-      CHECK_FALSE(hit[image]);
-      hit[image] = true;
-    }
-  }
-  std::vector<double> p_values;
-  for (const std::uint32_t count : {2u, 4u, 7u, 16u, 37u}) {
-    // The images of two indices together: all ordered pairs of different numbers.
-    RandomStream random(count);
-    std::vector<double> pairs(count * (count - 1));
-    const std::size_t draws = 200 * pairs.size();
-    for (std::size_t i = 0; i < draws; ++i) {
-      const auto seed = static_cast<std::uint32_t>(random());
-      const std::uint32_t a = permuted(0, count, seed), b = permuted(count - 1, count, seed);
-      ++pairs[a * (count - 1) + b - (b > a ? 1 : 0)];
-    }
-    const std::vector<double> expected(pairs.size(), 200);
-    double largest = 0;
-    for (const double n : pairs) largest = std::max(largest, n);
-    CAPTURE(count);
-    CHECK(largest < 2 * 200);
-    std::vector<double> images(count);
-    for (std::size_t i = 0; i < pairs.size(); ++i) images[i / (count - 1)] += pairs[i];
-    const std::vector<double> even(count, 200.0 * (count - 1));
-    p_values.push_back(statistics::chi_square_test(images, even).p_value);
-  }
-  for (const double p : statistics::holm_adjusted(p_values)) CHECK(p > 0.01);
-}
-
-TEST_CASE("strata: drawn permutations are bijections, and every image is as likely") {
-  for (const std::uint32_t count : {1u, 2u, 7u, 16u, 257u}) {
-    const DrawnPermutations permutations(count);
-    std::vector<std::uint32_t> images(count);
-    constexpr std::uint32_t kSeeds = 2000;
-    RandomStream random(count);
-    for (std::uint32_t i = 0; i < kSeeds; ++i) {
-      const auto seed = static_cast<std::uint32_t>(random());
-      std::vector<std::uint32_t> hit(count);
-      for (std::uint32_t index = 0; index < count; ++index) ++hit.at(permutations(index, seed));
-      REQUIRE(std::all_of(hit.begin(), hit.end(), [](std::uint32_t n) { return n == 1; }));
-      ++images[permutations(count / 2, seed)];
-    }
-    // Counts are binomial; five standard deviations.
-    const double even = static_cast<double>(kSeeds) / count;
-    for (const std::uint32_t n : images) CHECK(std::abs(n - even) <= 5 * std::sqrt(even) + 1);
   }
 }
 
@@ -155,6 +100,27 @@ TEST_CASE("multi_jittered: every set fills cells, columns and rows") {
   }
 }
 
+TEST_CASE("multi_jittered: numbers that are no products leave no interval of y out") {
+  for (const std::uint32_t samples : {7u, 37u, 1021u}) {
+    const auto sampler = prepared<MultiJitteredSampler>(samples);
+    const StrataGrid grid = grid_of(samples);
+    for (const std::uint32_t set : {0u, 3u}) {
+      const auto points = test::points_of(*sampler, {}, kDimension, samples, set * samples);
+      CHECK(test::fills_grid(points, 1, samples));
+      std::vector<int> in_x(grid.cells()), in_cells(grid.cells());
+      for (const Vec2 p : points) {
+        const double column = std::floor(double{p.x} * grid.columns);
+        const double row = std::floor(std::floor(double{p.y} * samples) / grid.columns);
+        ++in_x[static_cast<std::size_t>(double{p.x} * grid.cells())];
+        ++in_cells[static_cast<std::size_t>(row * grid.columns + column)];
+      }
+      CHECK(*std::max_element(in_x.begin(), in_x.end()) == 1);
+      CHECK(*std::max_element(in_cells.begin(), in_cells.end()) == 1);
+    }
+    CHECK(test::fills_grid(test::numbers_of(*sampler, {}, kDimension, samples), samples, 1));
+  }
+}
+
 TEST_CASE("multi_jittered: all columns share the permutation of their rows") {
   const auto sampler = prepared<MultiJitteredSampler>(64);
   std::vector<std::uint32_t> place_of_row(8, 8);
@@ -193,10 +159,21 @@ TEST_CASE("strata: each set and each dimension is jittered and ordered anew") {
   }
 }
 
+TEST_CASE("strata: with a time budget passes are sets of the default size, else as good as any") {
+  CHECK(StratifiedSampler().preferred_samples({}) == kDefaultSetSize);
+  CHECK(MultiJitteredSampler().preferred_samples({}) == kDefaultSetSize);
+  CHECK(StratifiedSampler().preferred_samples({.samples_per_pixel = 100}) == 1);
+  CHECK(MultiJitteredSampler().preferred_samples({.samples_per_pixel = 100}) == 1);
+  // Passes of that size are whole sets.
+  const auto timed = MultiJitteredSampler().prepare({}, {}, nullptr);
+  CHECK(test::fills_grid(test::points_of(*timed, {}, kDimension, kDefaultSetSize, 16), 4, 4));
+}
+
 TEST_CASE("strata: the stated size of a set is the size of passes") {
-  CHECK(StratifiedSampler({.samples = 37}).preferred_samples() == 42);
-  CHECK(MultiJitteredSampler({.samples = 16}).preferred_samples() == 16);
-  CHECK(StratifiedSampler().preferred_samples() == 1);
+  for (const SamplePlan& plan : {SamplePlan{}, SamplePlan{.samples_per_pixel = 100}}) {
+    CHECK(StratifiedSampler({.samples = 37}).preferred_samples(plan) == 42);
+    CHECK(MultiJitteredSampler({.samples = 37}).preferred_samples(plan) == 37);
+  }
   CHECK(set_size({}, {.samples_per_pixel = 0}) == 16);
   CHECK(set_size({}, {.samples_per_pixel = 100'000}) == SetPlace::kMostSamples);
   CHECK(set_size(9, {.samples_per_pixel = 100}) == 9);

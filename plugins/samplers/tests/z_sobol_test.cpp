@@ -1,5 +1,6 @@
 #include "../z_sobol.h"
 
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include <pharos/statistics/point_sets.h>
 
 #include "../sobol.h"
+#include "../z_order.h"
 #include "point_lists.h"
 
 namespace pharos {
@@ -87,19 +89,59 @@ TEST_CASE("z_sobol: so do those of aligned squares of pixels") {
   }
 }
 
-TEST_CASE("z_sobol: neither rows nor columns are always the pairs") {
-  // Two pixels of a quad together are a net where their pair was chosen.
-  const auto share = [](std::uint64_t columns, std::uint64_t rows) {
-    const auto sampler = prepared(1);
+TEST_CASE("z_sobol: pairs are rows or columns for a quarter each, else they lie crosswise") {
+  const auto sampler = prepared(1);
+  const auto point = [&](std::uint64_t x, std::uint64_t y) {
+    return test::points_of(*sampler, {.index = y * kWidth + x}, kDimension, 1)[0];
+  };
+  // Two pixels of a quad together are a net where they are a pair.
+  const auto share = [&](std::uint64_t right, std::uint64_t down) {
     double nets = 0;
-    for (std::uint64_t i = 0; i < 400; ++i) {
-      const auto points = block_points(*sampler, 2 * (i % 20), 2 * (i / 20), columns, rows, 1);
+    for (std::uint64_t i = 0; i < 1000; ++i) {
+      const std::uint64_t x = 2 * (i % 40), y = 2 * (i / 40);
+      const std::vector<Vec2> points{point(x, y), point(x + right, y + down)};
       nets += statistics::fills_elementary_intervals(points) ? 1 : 0;
     }
-    return nets / 400;
+    return nets / 1000;
   };
-  CHECK(share(2, 1) == doctest::Approx(share(1, 2)).epsilon(0.25));
-  CHECK(share(2, 1) < 0.7);
+  // The standard deviations are 0.014 and 0.016.
+  CHECK(std::abs(share(1, 0) - 0.25) < 0.07);
+  CHECK(std::abs(share(0, 1) - 0.25) < 0.07);
+  CHECK(std::abs(share(1, 1) - 0.5) < 0.07);
+}
+
+TEST_CASE("z_sobol: every level of the z-order has each pairing, over nodes as over dimensions") {
+  // A child's pair is told by y, by x or by their sum: which, tells the images of the children.
+  const auto shares = [](int level, bool over_nodes) {
+    std::array<double, 3> counts{};
+    RandomStream random(1);
+    constexpr int kDraws = 2000;
+    for (int i = 0; i < kDraws; ++i) {
+      const std::uint64_t dimension = over_nodes ? 3 : random();
+      const Seeds seeds = seeds_of(dimension, {Purpose::lens});
+      const std::uint32_t before =
+          static_cast<std::uint32_t>(random()) & ((1u << (2 * level)) - 1u);
+      const auto pair = [&](std::uint32_t child) {
+        const std::uint32_t reversed = before | (child << (2 * level));
+        return (z_order::with_pairings(reversed, seeds, 0x55555555u) >> (2 * level)) & 1;
+      };
+      const bool by_first = pair(1) != pair(0), by_second = pair(2) != pair(0);
+      ++counts[by_first && by_second ? 2 : by_second ? 1 : 0];
+    }
+    for (double& n : counts) n /= kDraws;
+    return counts;
+  };
+  for (int level = 0; level < 16; ++level) {
+    CAPTURE(level);
+    for (const bool over_nodes : {false, true}) {
+      // The first levels have few nodes.
+      if (over_nodes && level < 6) continue;
+      const auto [rows, columns, crosswise] = shares(level, over_nodes);
+      CHECK(std::abs(rows - 0.25) < 0.07);
+      CHECK(std::abs(columns - 0.25) < 0.07);
+      CHECK(std::abs(crosswise - 0.5) < 0.07);
+    }
+  }
 }
 
 TEST_CASE("z_sobol: errors of neighbours cancel") {
@@ -114,8 +156,9 @@ TEST_CASE("z_sobol: sets follow each other where the number of samples is unknow
   const auto next = test::points_of(*sampler, {.index = 7}, kDimension, 16, 16);
   CHECK(statistics::fills_elementary_intervals(next));
   for (std::size_t i = 0; i < 16; ++i) CHECK_FALSE(first[i] == next[i]);
-  CHECK(ZSobolSampler({.samples = 9}).preferred_samples() == 16);
-  CHECK(ZSobolSampler().preferred_samples() == 1);
+  CHECK(ZSobolSampler({.samples = 9}).preferred_samples({}) == 16);
+  CHECK(ZSobolSampler().preferred_samples({}) == 16);
+  CHECK(ZSobolSampler().preferred_samples({.samples_per_pixel = 64}) == 1);
 }
 
 TEST_CASE("z_sobol: pixels far apart in large images are unrelated") {
