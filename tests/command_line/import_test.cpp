@@ -119,7 +119,7 @@ TEST_CASE("import reports what stands for every object, and how it approximates"
     CHECK_MESSAGE(outcome.out.find(line) != std::string::npos, line);
   }
   std::string xml = scene_xml(false);
-  xml.replace(xml.find("<sampler type=\"independent\">"), 28, "<sampler type=\"halton\">     ");
+  xml.replace(xml.find("<sampler type=\"independent\">"), 28, "<sampler type=\"ldsampler\">  ");
   folder.write("scene.xml", xml);
   const Outcome noted = run_pharos("import scene.xml", folder.path());
   CHECK(noted.exit_code == 0);
