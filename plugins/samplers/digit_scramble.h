@@ -9,6 +9,8 @@
 
 #include <pharos/core/random.h>
 
+#include "keyed_seeds.h"
+
 namespace pharos {
 
 /// Nested random permutations of several digits of a base at once: each digit is permuted in a way
@@ -37,8 +39,7 @@ class DigitScramble {
   /// The image of `value` (its first digit is the most significant one) at the node whose place in
   /// the tree is `prefix`. `seed` picks the scramble of the whole tree.
   std::uint32_t operator()(std::uint32_t value, std::uint32_t prefix, std::uint64_t seed) const {
-    std::uint64_t hash = (seed + prefix) * 0x9e3779b97f4a7c15ull;
-    hash = (hash ^ (hash >> 32)) * 0xbf58476d1ce4e5b9ull;
+    const std::uint64_t hash = mix_sum(seed + prefix);
     if constexpr (!shifted) {
       const std::uint32_t first = images_[(hash >> 59) * kCount + value];
       return images_[((hash >> 54) % kTables) * kCount + first];

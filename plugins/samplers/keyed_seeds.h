@@ -9,20 +9,6 @@
 /// Seeds of the hash-based samplers.
 namespace pharos {
 
-/// What all samples of a pixel share, or those of one part of them (a set, a dimension): a hash of
-/// seed, iteration, index and the part's number. One mixer for a sum with odd factors, as every
-/// path pays for it.
-constexpr std::uint64_t hash_pixel(const PathKey& key, std::uint64_t part = 0) {
-  return mix_bits(key.seed * 0x9b05688c2b3e6c1full + key.iteration * 0xd6e8feb86659fd93ull +
-                  key.index * 0xa0761d6478bd642full + part * 0xe7037ed1a0b428dbull +
-                  0x632be59bd9b4e019ull);
-}
-
-/// Four unrelated words of 32 bits for one dimension of what `state` names.
-struct Seeds {
-  std::uint32_t order, x, y, more;
-};
-
 /// Both halves of the product, added up without carry: each bit hangs on many of both factors.
 constexpr std::uint64_t folded_product(std::uint64_t a, std::uint64_t b) {
   __extension__ using Long = unsigned __int128;
@@ -30,8 +16,29 @@ constexpr std::uint64_t folded_product(std::uint64_t a, std::uint64_t b) {
   return static_cast<std::uint64_t>(product >> 64) ^ static_cast<std::uint64_t>(product);
 }
 
+/// Mixes a word in which words were added up times odd constants (the step of wyrand, Wang Yi
+/// 2019). Faster than mix_bits(), but not one to one.
+constexpr std::uint64_t mix_sum(std::uint64_t v) {
+  return folded_product(v, v ^ 0xe7037ed1a0b428dbull);
+}
+
+/// What all samples of a pixel share, or those of one part of them (a set, a dimension): a hash of
+/// seed, iteration, index and the part's number.
+constexpr std::uint64_t hash_pixel(const PathKey& key, std::uint64_t part = 0) {
+  return mix_sum(key.seed * 0x9b05688c2b3e6c1full + key.iteration * 0xd6e8feb86659fd93ull +
+                 key.index * 0xa0761d6478bd642full + part * 0xe7037ed1a0b428dbull +
+                 0x632be59bd9b4e019ull);
+}
+
+/// Four unrelated words of 32 bits for one dimension of what `state` names.
+struct Seeds {
+  std::uint32_t order, x, y, more;
+};
+
 constexpr Seeds seeds_of(std::uint64_t state, Dimension dimension) {
-  const std::uint64_t first = hash_combine(state, dimension.code());
+  const std::uint64_t first =
+      mix_sum(state * 0x9b05688c2b3e6c1full + dimension.code() * 0xd6e8feb86659fd93ull +
+              0x632be59bd9b4e019ull);
   const std::uint64_t second = folded_product(first, 0x9e3779b97f4a7c15ull);
   return {static_cast<std::uint32_t>(first >> 32), static_cast<std::uint32_t>(first),
           static_cast<std::uint32_t>(second >> 32), static_cast<std::uint32_t>(second)};

@@ -11,10 +11,11 @@
 // second form: n intervals of y still hold a point each; of m k ones of x some are left out. The
 // rows are m of these intervals of y high, the last one fewer.
 //
-// Sharing has a price: an integrand with x y in it sees the same misplacement in all columns, so
-// that on smooth integrands the variance falls as n^-1.5 only, where it does as n^-2 if every
-// column and every row has a permutation of its own (`correlated: false`; Chiu, Shirley and Wang
-// 1994, "Multi-Jittered Sampling"). On edges both fall as n^-1.5.
+// Sharing has a price: all columns misplace their points alike, which adds up where a smooth
+// integrand ends otherwise than it begins, by an amount that changes along the other axis (as x y
+// does). There the variance falls as n^-1.5 only, where it does as n^-2 if every column and every
+// row has a permutation of its own (`correlated: false`; Chiu, Shirley and Wang 1994,
+// "Multi-Jittered Sampling"). On edges both fall as n^-1.5.
 //
 //     { type: multi_jittered, samples: 16 }
 #include "multi_jittered.h"
@@ -49,7 +50,7 @@ class PreparedMultiJittered final : public PreparedSampler {
   Vec2 value_2d(const SampleStream& stream, Dimension dimension) const override {
     const SetPlace place(stream.state());
     const Seeds seeds = seeds_of(place.set_hash(), dimension);
-    const std::uint32_t y = orders_(place.index(), seeds.order);
+    const std::uint32_t y = orders_.through_one(place.index(), seeds.order);
     const auto [number, row] = places_[y];
     const std::uint32_t column = column_orders_.through_one(number, seeds.y ^ (row * apart_));
     const std::uint32_t x =

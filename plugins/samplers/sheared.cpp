@@ -1,15 +1,15 @@
 // sheared: points that are stratified in lines of a stated direction (Singh and Jarosz 2017,
-// "Convergence Analysis for Anisotropic Monte Carlo Sampling Spectra"). Points like those of
-// multi_jittered fill narrow rows and columns most evenly: they are best for integrands that vary
-// along one axis only, such as an edge along the other. A shear on the torus turns the rows (for
-// directions within 45 degrees of the x axis: y moves by x times the slope) or the columns (for
-// others: x moves by y over the slope) into lines of that direction, the one an edge of the
+// "Convergence Analysis for Anisotropic Monte Carlo Sampling Spectra"). Points like those of pmj02
+// or multi_jittered fill narrow rows and columns most evenly: they are best for integrands that
+// vary along one axis only, such as an edge along the other. A shear on the torus turns the rows
+// (for directions within 45 degrees of the x axis: y moves by x times the slope) or the columns
+// (for others: x moves by y over the slope) into lines of that direction, the one an edge of the
 // integrand has. It keeps area, so uniform points stay uniform, and for whole slopes no line is
 // broken at the square's border. The other axis keeps its stratification.
 //
 // Only points of `purpose` are sheared, at every vertex; all other numbers are those of `base`.
 //
-//     { type: sheared, base: multi_jittered, direction: 45 }
+//     { type: sheared, base: pmj02, direction: 45 }
 #include "sheared.h"
 
 #include <cmath>
@@ -58,8 +58,7 @@ class PreparedSheared final : public PreparedSampler {
 }  // namespace
 
 void ShearedSampler::Settings::describe(Schema<Settings>& s) {
-  s.field("base", &Settings::base, "Sampler of the points that are sheared")
-      .otherwise("multi_jittered");
+  s.field("base", &Settings::base, "Sampler of the points that are sheared").otherwise("pmj02");
   s.field("direction", &Settings::direction, "Of the lines, from the x axis towards the y axis")
       .unit("degrees")
       .at_least(-180)

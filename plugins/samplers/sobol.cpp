@@ -23,21 +23,17 @@ class PreparedSobol final : public PreparedSampler {
   }
   float value_1d(const SampleStream& stream, Dimension dimension) const override {
     const Seeds seeds = seeds_of(stream.state() >> 32, dimension);
-    const std::uint32_t index = shuffled(stream, seeds);
-    return owen::scrambled_number(owen::sobol_x_reversed(index), seeds.x);
+    return owen::sobol_number(shuffled(stream, seeds), seeds.x);
   }
   Vec2 value_2d(const SampleStream& stream, Dimension dimension) const override {
     const Seeds seeds = seeds_of(stream.state() >> 32, dimension);
-    const std::uint32_t index = shuffled(stream, seeds);
-    return owen::scrambled_point(owen::sobol_x_reversed(index), seeds.x,
-                                 owen::sobol_y_reversed(index), seeds.y);
+    return owen::sobol_point(shuffled(stream, seeds), seeds.x, seeds.y);
   }
 
  private:
-  /// The sample's place in the sequence.
+  /// The sample's place in the sequence, reversed.
   static std::uint32_t shuffled(const SampleStream& stream, const Seeds& seeds) {
-    const auto reversed = static_cast<std::uint32_t>(stream.state());
-    return owen::reverse_bits(owen::scramble_reversed(reversed, seeds.order));
+    return owen::scramble_reversed(static_cast<std::uint32_t>(stream.state()), seeds.order);
   }
 };
 

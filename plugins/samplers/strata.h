@@ -4,6 +4,8 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -59,16 +61,17 @@ class DrawnPermutations {
  public:
   /// Of the numbers below `count`, 1 to 2^16. `seed` draws the tables: for small counts many, as
   /// the rotations of each are few.
-  DrawnPermutations(std::uint32_t count, std::uint64_t seed)
-      : count_(count),
-        table_bits_(std::clamp(12 - static_cast<int>(std::bit_width(count - 1)), 0, 8)) {
+  DrawnPermutations(std::uint32_t count, std::uint64_t seed) : count_(count) {
+    const int index_bits = static_cast<int>(std::bit_width(count - 1));
+    const int table_bits = std::clamp(12 - index_bits, 0, 8);
+    shift_ = 32 - table_bits - index_bits;
+    tables_ = ((1u << table_bits) - 1) << index_bits;
+    images_.resize(std::size_t{1} << (table_bits + index_bits));
     RandomStream random(seed, count);
-    for (std::uint32_t table = 0; table < (1u << table_bits_); ++table) {
-      const std::size_t first = images_.size();
-      for (std::uint32_t i = 0; i < count; ++i) images_.push_back(static_cast<std::uint16_t>(i));
-      for (std::uint32_t i = count; i-- > 1;) {
-        std::swap(images_[first + i], images_[first + random() % (i + 1)]);
-      }
+    for (std::uint32_t table = 0; table < (1u << table_bits); ++table) {
+      const std::span<std::uint16_t> images(&images_[table << index_bits], count);
+      std::iota(images.begin(), images.end(), std::uint16_t{0});
+      for (std::uint32_t i = count; i-- > 1;) std::swap(images[i], images[random() % (i + 1)]);
     }
   }
 
@@ -95,8 +98,7 @@ class DrawnPermutations {
  private:
   /// The image of `index` in the table that the lower half of `choice` picks.
   std::uint32_t image(std::uint32_t index, std::uint64_t choice) const {
-    const std::uint64_t table = (choice & 0xffffffffu) >> (32 - table_bits_);
-    return images_[table * count_ + index];
+    return images_[((static_cast<std::uint32_t>(choice) >> shift_) & tables_) + index];
   }
   /// Rotated by the upper half of `choice`, a number below the count.
   std::uint32_t rotated(std::uint32_t index, std::uint64_t choice) const {
@@ -105,15 +107,14 @@ class DrawnPermutations {
   }
 
   std::uint32_t count_;
-  int table_bits_;
-  std::vector<std::uint16_t> images_;  ///< of all tables
+  int shift_;
+  std::uint32_t tables_;               ///< where each table begins, as bits of places in images_
+  std::vector<std::uint16_t> images_;  ///< of all tables, each padded to a power of two
 };
 
 /// Two unrelated fractions of 32 bits for a sample of a set: its jitter.
 constexpr std::uint64_t jitter_bits(std::uint32_t index, const Seeds& seeds) {
-  const std::uint64_t place =
-      (std::uint64_t{seeds.more} << 32) + index * 0x9e3779b97f4a7c15ull + seeds.x;
-  return folded_product(place, place ^ 0xe7037ed1a0b428dbull);
+  return mix_sum((std::uint64_t{seeds.more} << 32) + index * 0x9e3779b97f4a7c15ull + seeds.x);
 }
 
 /// Equal strata of [0, 1) whose numbers never leave them by rounding.
@@ -125,19 +126,16 @@ class Strata {
   /// The number at `offset`, a fraction of 32 bits, within a stratum: one of the multiples of 2^-24
   /// that lie in it.
   constexpr float at(std::uint32_t stratum, std::uint32_t offset) const {
-    const std::uint32_t first = first_of(stratum), count = first_of(stratum + 1) - first;
-    const auto steps = static_cast<std::int32_t>(first + ((std::uint64_t{offset} * count) >> 32));
+    // The stratum's begin and end in steps of 2^-24, rounded up. Those that are no whole steps keep
+    // 1.8e-6 of a step away from these; the product is too small by 0.95e-6 at most.
+    constexpr std::uint64_t kStep = std::uint64_t{1} << 39, kSlack = std::uint64_t{1} << 18;
+    const std::uint64_t begin = stratum * width_ + (kStep - kSlack);
+    const std::uint64_t first = begin >> 39, count = ((begin + width_) >> 39) - first;
+    const auto steps = static_cast<std::int32_t>(first + ((offset * count) >> 32));
     return static_cast<float>(steps) * 0x1p-24f;
   }
 
  private:
-  /// The stratum's begin in steps of 2^-24, rounded up. Begins that are no whole steps keep 1.8e-6
-  /// of a step away from these; the product is too small by 0.95e-6 at most.
-  constexpr std::uint32_t first_of(std::uint32_t stratum) const {
-    constexpr std::uint64_t kStep = std::uint64_t{1} << 39, kSlack = std::uint64_t{1} << 18;
-    return static_cast<std::uint32_t>((stratum * width_ + (kStep - kSlack)) >> 39);
-  }
-
   std::uint64_t width_;
 };
 

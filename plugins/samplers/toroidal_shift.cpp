@@ -23,20 +23,14 @@ class PreparedToroidalShift final : public PreparedSampler {
 
   std::uint64_t begin(const PathKey& key) const override { return base_->begin(base_key(key)); }
   float value_1d(const SampleStream& stream, Dimension dimension) const override {
-    return moved(base_->value_1d(base_stream(stream), dimension), offset(stream, dimension).x);
+    const float u = base_->value_1d(base_stream(stream), dimension);
+    return moved({u, 0}, offset(stream, dimension)).x;
   }
   Vec2 value_2d(const SampleStream& stream, Dimension dimension) const override {
-    const Vec2 u = base_->value_2d(base_stream(stream), dimension);
-    const Offset by = offset(stream, dimension);
-    return {moved(u.x, by.x), moved(u.y, by.y)};
+    return moved(base_->value_2d(base_stream(stream), dimension), offset(stream, dimension));
   }
 
  private:
-  /// In steps of 2^-24, modulo one.
-  struct Offset {
-    std::int32_t x, y;
-  };
-
   /// Of the first pixel. The seed is another one, so that a base that moves points itself does not
   /// move them by this one's offsets.
   static PathKey base_key(PathKey key) {
@@ -47,11 +41,10 @@ class PreparedToroidalShift final : public PreparedSampler {
   SampleStream base_stream(const SampleStream& stream) const {
     return SampleStream(*base_, base_key(stream.key()), stream.state());
   }
-  static Offset offset(const SampleStream& stream, Dimension dimension) {
-    const std::uint64_t bits = hash_pixel(stream.key(), dimension.code());
-    return {static_cast<std::int32_t>(bits >> 40), static_cast<std::int32_t>(bits & 0xffffff)};
+  /// Of both coordinates, in the upper 24 bits of each half, as steps of 2^-24.
+  static std::uint64_t offset(const SampleStream& stream, Dimension dimension) {
+    return hash_pixel(stream.key(), dimension.code());
   }
-  static float moved(float u, std::int32_t by) { return number_of(steps_of(u) + by); }
 
   std::unique_ptr<const PreparedSampler> base_;
 };
@@ -59,7 +52,7 @@ class PreparedToroidalShift final : public PreparedSampler {
 }  // namespace
 
 void ToroidalShiftSampler::Settings::describe(Schema<Settings>& s) {
-  s.field("base", &Settings::base, "Sampler of the points that are moved").otherwise("sobol");
+  s.field("base", &Settings::base, "Sampler of the points that are moved").otherwise("pmj02");
   s.example("{ base: { type: multi_jittered, samples: 16 } }");
 }
 

@@ -27,7 +27,7 @@ constexpr std::uint32_t with_pairings(std::uint32_t reversed, const Seeds& seeds
   // a level apart, the low bits of the factor those of nodes.
   const std::uint32_t product = (reversed + seeds.x) * ((seeds.order << 1) | 1);
   const std::uint32_t a = product ^ (product * 0x05526c56u) ^ reversed;
-  const std::uint32_t b = (a ^ seeds.more) * 0x9e3779bfu;
+  const std::uint32_t b = ((product ^ seeds.more) * 0x9e3779bfu) ^ reversed;
   const std::uint32_t differ = (reversed ^ (reversed >> 1)) & a & digits;
   const std::uint32_t swapped = reversed ^ differ ^ (differ << 1);
   return swapped ^ ((swapped >> 1) & b & digits);

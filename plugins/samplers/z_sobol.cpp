@@ -51,21 +51,19 @@ class PreparedZSobol final : public PreparedSampler {
   }
   float value_1d(const SampleStream& stream, Dimension dimension) const override {
     const Seeds seeds = seeds_of(stream.state() >> 32, dimension);
-    return owen::scrambled_number(owen::sobol_x_reversed(place(stream, seeds)), seeds.x);
+    return owen::sobol_number(place(stream, seeds), seeds.x);
   }
   Vec2 value_2d(const SampleStream& stream, Dimension dimension) const override {
     const Seeds seeds = seeds_of(stream.state() >> 32, dimension);
-    const std::uint32_t index = place(stream, seeds);
-    return owen::scrambled_point(owen::sobol_x_reversed(index), seeds.x,
-                                 owen::sobol_y_reversed(index), seeds.y);
+    return owen::sobol_point(place(stream, seeds), seeds.x, seeds.y);
   }
 
  private:
-  /// The shuffled place in the sequence.
+  /// The shuffled place in the sequence, reversed.
   std::uint32_t place(const SampleStream& stream, const Seeds& seeds) const {
     const auto reversed = static_cast<std::uint32_t>(stream.state());
     const std::uint32_t paired = z_order::with_pairings(reversed, seeds, pixel_digits_);
-    return owen::reverse_bits(owen::scramble_reversed(paired, seeds.order)) >> padding_;
+    return owen::scramble_reversed(paired, seeds.order) << padding_;
   }
 
   std::uint64_t width_;

@@ -34,7 +34,7 @@ TEST_CASE("Sobol' points: the first ones of the sequence") {
   const double x[] = {0, 0.5, 0.25, 0.75, 0.125, 0.625, 0.375, 0.875};
   const double y[] = {0, 0.5, 0.75, 0.25, 0.625, 0.125, 0.375, 0.875};
   for (std::uint32_t i = 0; i < 8; ++i) {
-    CHECK(fraction(owen::sobol_x_reversed(i)) == x[i]);
+    CHECK(fraction(i) == x[i]);
     CHECK(fraction(owen::sobol_y_reversed(i)) == y[i]);
   }
   // The second dimension's direction numbers: v_j = v_(j-1) xor (v_(j-1) >> 1).
@@ -42,6 +42,16 @@ TEST_CASE("Sobol' points: the first ones of the sequence") {
   for (int bit = 0; bit < 32; ++bit) {
     CHECK(owen::reverse_bits(owen::sobol_y_reversed(1u << bit)) == direction);
     direction ^= direction >> 1;
+  }
+}
+
+TEST_CASE("Sobol' points: the table has those that the matrices give") {
+  RandomStream random(2);
+  for (int i = 0; i < 1000; ++i) {
+    const auto index = static_cast<std::uint32_t>(random());
+    const std::uint64_t point = owen::sobol_reversed(owen::reverse_bits(index));
+    CHECK(static_cast<std::uint32_t>(point) == index);
+    CHECK(static_cast<std::uint32_t>(point >> 32) == owen::sobol_y_reversed(index));
   }
 }
 
