@@ -35,7 +35,6 @@ Line::Line(const Box& box, Point3 from, Vec3 direction) {
   // a plane between cells, what is ahead of the origin counts to the upper cell and what is behind
   // to the lower one: never to both.
   constexpr double kParallel = 1e60;
-  bool downwards[3];
   for (int axis = 0; axis < 3; ++axis) {
     const double reciprocal = direction[axis] != 0 ? 1.0 / direction[axis] : kParallel;
     const double size = box.size[axis] * reciprocal;
@@ -44,17 +43,6 @@ Line::Line(const Box& box, Point3 from, Vec3 direction) {
     width[axis] = std::abs(size);
     downwards[axis] = size < 0;
   }
-  steps.half_x = Quad::all(0.5 * width[0]);
-  steps.half_y = Quad::all(0.5 * width[1]);
-  steps.half_z = Quad::all(0.5 * width[2]);
-  // The children that a line enters last along an axis are those of the upper half, or for lines
-  // that go downwards those of the lower half.
-  alignas(32) static constexpr double kLastX[2][4] = {{0, 1, 0, 1}, {1, 0, 1, 0}};
-  alignas(32) static constexpr double kLastY[2][4] = {{0, 0, 1, 1}, {1, 1, 0, 0}};
-  steps.x = steps.half_x * Quad::load(kLastX[downwards[0]]);
-  steps.y = steps.half_y * Quad::load(kLastY[downwards[1]]);
-  steps.lower_z = steps.half_z * Quad::all(downwards[2] ? 1 : 0);
-  steps.upper_z = steps.half_z * Quad::all(downwards[2] ? 0 : 1);
 }
 
 Octree::Octree(const Box& box, std::vector<Node> nodes)

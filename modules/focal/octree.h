@@ -30,28 +30,14 @@ struct Box {
   friend bool operator==(const Box&, const Box&) = default;
 };
 
-/// What the crossings of all nodes of one level of an octree have in common. The children below one
-/// another along z are computed together: x and y are the same for them.
-struct Steps {
-  Quad half_x, half_y, half_z;  ///< width of a child along the line [scene units]
-  Quad x, y, lower_z,
-      upper_z;  ///< how much later the line enters each child's slabs than its node's
-
-  void scale(double factor) {
-    for (Quad* quad : {&half_x, &half_y, &half_z, &x, &y, &lower_z, &upper_z}) {
-      *quad = *quad * Quad::all(factor);
-    }
-  }
-};
-
-/// A line as a box, and any octree over it, sees it. Distances along it are in scene units, as the
-/// direction is a unit vector; before the origin they are negative.
+/// A line as a box sees it. Distances along it are in scene units, as the direction is a unit
+/// vector; before the origin they are negative.
 struct Line {
   Line(const Box& box, Point3 from, Vec3 direction);
 
-  Double3 entry;  ///< where it enters the slab of the box, by axis
-  Double3 width;  ///< how long it stays in there, by axis
-  Steps steps;    ///< of the box's own children
+  Double3 entry;                  ///< where it enters the slab of the box, by axis
+  Double3 width;                  ///< how long it stays in there, by axis
+  std::array<bool, 3> downwards;  ///< by axis
 };
 
 /// The two halves of a line at its origin.
@@ -130,6 +116,7 @@ class Octree {
   [[gnu::always_inline]] void traverse(const Line& line, Visit&& visit) const;
 
  private:
+  struct Steps;
   struct Front;
 
   static constexpr std::uint32_t kInner = 0x80000000u;
@@ -151,12 +138,42 @@ class Octree {
   double mass_ = 0;
 };
 
+/// What the crossings of all nodes of one level have in common. The children below one another
+/// along z are computed together: x and y are the same for them.
+struct Octree::Steps {
+  explicit Steps(const Line& line);
+
+  Quad half_x, half_y, half_z;  ///< width of a child along the line [scene units]
+  Quad x, y, lower_z,
+      upper_z;  ///< how much later the line enters each child's slabs than its node's
+
+  void scale(double factor) {
+    for (Quad* quad : {&half_x, &half_y, &half_z, &x, &y, &lower_z, &upper_z}) {
+      *quad = *quad * Quad::all(factor);
+    }
+  }
+};
+
 /// The children of up to eight nodes that a line crosses on one level.
 struct alignas(64) Octree::Front {
   double x[64], y[64], z[64];  ///< where the line enters their slabs
   std::uint32_t children[64];  ///< as in nodes
   std::uint64_t pending;       ///< those that have yet to be visited
 };
+
+inline Octree::Steps::Steps(const Line& line)
+    : half_x(Quad::all(0.5 * line.width[0])),
+      half_y(Quad::all(0.5 * line.width[1])),
+      half_z(Quad::all(0.5 * line.width[2])) {
+  // The children that a line enters last along an axis are those of the upper half, or for lines
+  // that go downwards those of the lower half.
+  alignas(32) static constexpr double kLastX[2][4] = {{0, 1, 0, 1}, {1, 0, 1, 0}};
+  alignas(32) static constexpr double kLastY[2][4] = {{0, 0, 1, 1}, {1, 1, 0, 0}};
+  x = half_x * Quad::load(kLastX[line.downwards[0]]);
+  y = half_y * Quad::load(kLastY[line.downwards[1]]);
+  lower_z = half_z * Quad::all(line.downwards[2] ? 1 : 0);
+  upper_z = half_z * Quad::all(line.downwards[2] ? 0 : 1);
+}
 
 template <Side side, class Visit>
 inline std::uint64_t Octree::cross(const Front& front, std::uint64_t& pending, const Steps& steps,
@@ -199,7 +216,7 @@ inline void Octree::traverse(const Line& line, Visit&& visit) const {
   front->y[0] = line.entry[1];
   front->z[0] = line.entry[2];
   front->children[0] = 0;
-  Steps steps = line.steps;
+  Steps steps(line);
   std::uint32_t unfinished = 0;  // levels with nodes left for another round
   for (std::uint64_t pending = 1;;) {
     const std::uint64_t found = cross<side>(*front, pending, steps, front[1], visit);
