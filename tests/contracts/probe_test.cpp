@@ -58,7 +58,7 @@ TEST_CASE("a probed value is what the integrator finds with those numbers") {
   for (const auto& [x, y] : {std::pair{2, 8}, {13, 9}, {3, 10}}) {
     PathKey key{.seed = 3, .index = static_cast<std::uint64_t>(y) * 16 + x};
     std::vector<Rgb> values(points.size());
-    probe->evaluate(x, y, kLight, key, points, values);
+    probe->evaluate({.x = x, .y = y, .dimension = kLight, .others = key}, points, values);
     // A whole path may also hit the light by its BSDF sample, the same one for every point: the
     // differences between points are the light sample's alone.
     const auto whole = [&](Vec2 light) {
@@ -98,8 +98,15 @@ TEST_CASE("with all lights every light has a branch of its own") {
   CHECK(probe->light_branches() == 2);
   const std::vector<Vec2> points{{0.3f, 0.6f}, {0.7f, 0.2f}, {0.1f, 0.9f}, {0.6f, 0.4f}};
   std::vector<Rgb> wall(points.size()), ball(points.size());
-  probe->evaluate(8, 8, {Purpose::light_position, 1, 0}, {.seed = 3}, points, wall);
-  probe->evaluate(8, 8, {Purpose::light_position, 1, 1}, {.seed = 3}, points, ball);
+  const auto evaluate = [&](std::uint16_t branch, std::span<Rgb> values) {
+    probe->evaluate({.x = 8,
+                     .y = 8,
+                     .dimension = {Purpose::light_position, 1, branch},
+                     .others = {.seed = 3}},
+                    points, values);
+  };
+  evaluate(0, wall);
+  evaluate(1, ball);
   int lit = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     lit += mean(wall[i]) > 0 ? 1 : 0;
