@@ -52,9 +52,8 @@ ScatterValue DiffuseTransmitter::evaluate(const SurfacePoint& point, Vec3 wo, Ve
   const auto [reflectance, transmittance, choice] = lobes(point, options.events);
   const bool same_side = (wo.z > 0) == (wi.z > 0);
   const float density = hemisphere_pdf(settings_.warp, {wi.x, wi.y, std::abs(wi.z)});
-  return {
-      warp::cosine_hemisphere_pdf(std::abs(wi.z)) * (same_side ? reflectance : transmittance),
-      density * (same_side ? choice.first() : choice.second())};
+  return {warp::cosine_hemisphere_pdf(std::abs(wi.z)) * (same_side ? reflectance : transmittance),
+          density * (same_side ? choice.first() : choice.second())};
 }
 
 std::optional<ScatterSample> DiffuseTransmitter::sample(const SurfacePoint& point, Vec3 wo,

@@ -99,11 +99,9 @@ TEST_CASE("with all lights every light has a branch of its own") {
   const std::vector<Vec2> points{{0.3f, 0.6f}, {0.7f, 0.2f}, {0.1f, 0.9f}, {0.6f, 0.4f}};
   std::vector<Rgb> wall(points.size()), ball(points.size());
   const auto evaluate = [&](std::uint16_t branch, std::span<Rgb> values) {
-    probe->evaluate({.x = 8,
-                     .y = 8,
-                     .dimension = {Purpose::light_position, 1, branch},
-                     .others = {.seed = 3}},
-                    points, values);
+    probe->evaluate(
+        {.x = 8, .y = 8, .dimension = {Purpose::light_position, 1, branch}, .others = {.seed = 3}},
+        points, values);
   };
   evaluate(0, wall);
   evaluate(1, ball);
