@@ -10,20 +10,21 @@ namespace {
 
 constexpr Dimension kLight{Purpose::light_position, 1, 0};
 
-/// The numbers that a probe holds fixed, with a light position of our own.
+/// The numbers that a probe holds fixed, with one of our own.
 class Pinned final : public PreparedSampler {
  public:
-  explicit Pinned(Vec2 light) : light_(light) {}
+  Pinned(Dimension pinned, Vec2 value) : pinned_(pinned), value_(value) {}
   std::uint64_t begin(const PathKey& key) const override { return hash_key(key); }
   float value_1d(const SampleStream& stream, Dimension dimension) const override {
     return keyed_numbers(stream.state(), dimension).x;
   }
   Vec2 value_2d(const SampleStream& stream, Dimension dimension) const override {
-    return dimension == kLight ? light_ : keyed_numbers(stream.state(), dimension);
+    return dimension == pinned_ ? value_ : keyed_numbers(stream.state(), dimension);
   }
 
  private:
-  Vec2 light_;
+  Dimension pinned_;
+  Vec2 value_;
 };
 
 /// A floor under a square light, seen from the side; black but for direct light.
@@ -62,7 +63,7 @@ TEST_CASE("a probed value is what the integrator finds with those numbers") {
     // A whole path may also hit the light by its BSDF sample, the same one for every point: the
     // differences between points are the light sample's alone.
     const auto whole = [&](Vec2 light) {
-      return mean(p.integrator->replay(key, {Pinned(light)}).radiance);
+      return mean(p.integrator->replay(key, {Pinned(kLight, light)}).radiance);
     };
     CHECK(mean(values[0]) > 0);
     for (std::size_t i = 1; i < points.size(); ++i) {
@@ -71,6 +72,39 @@ TEST_CASE("a probed value is what the integrator finds with those numbers") {
             doctest::Approx(whole(points[i]) - whole(points[0])).epsilon(1e-3));
     }
   }
+}
+
+TEST_CASE("numbers of other dimensions are probed by whole paths") {
+  const Prepared p(path_config(kFloorAndLight, 3, "", 1));
+  const auto probe = p.integrator->probe();
+  const std::vector<Vec2> points{{0.1f, 0.2f}, {0.5f, 0.5f}, {0.9f, 0.3f}};
+  const PathKey key{.seed = 3, .index = 8 * 16 + 2};
+  std::vector<Rgb> values(points.size());
+  for (const Dimension dimension : {Dimension{Purpose::bsdf_direction, 1}, {Purpose::pixel}}) {
+    probe->evaluate({.x = 2, .y = 8, .dimension = dimension, .others = key}, points, values);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      CHECK(values[i] == p.integrator->replay(key, {Pinned(dimension, points[i])}).radiance);
+    }
+  }
+}
+
+TEST_CASE("paths longer than is asked for do not count") {
+  const Prepared p(path_config(kFloorAndLight, 3, "", 1));
+  const auto probe = p.integrator->probe();
+  const std::vector<Vec2> points{{0.3f, 0.6f}};
+  const auto value = [&](Dimension dimension, std::uint16_t max_depth) {
+    std::vector<Rgb> values(1);
+    probe->evaluate(
+        {.x = 2, .y = 8, .dimension = dimension, .others = {.seed = 3}, .max_depth = max_depth},
+        points, values);
+    return mean(values[0]);
+  };
+  // The floor does not emit: it takes a second segment to find light.
+  for (const Dimension dimension : {kLight, Dimension{Purpose::bsdf_direction, 1}}) {
+    CHECK(value(dimension, 1) == 0);
+    CHECK(value(dimension, 2) > 0);
+  }
+  CHECK(value({Purpose::light_position, 1, 1}, 3) == 0);  // there is one branch
 }
 
 TEST_CASE("first hits know depth and normal") {
