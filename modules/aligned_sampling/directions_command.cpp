@@ -58,13 +58,16 @@ void DirectionsCommand::Settings::describe(Schema<Settings>& s) {
       .unit("pixels")
       .at_least(1)
       .at_most(16);
+  s.example("{ render: scene.yaml, output: directions.png }");
+}
+
+DirectionsCommand::DirectionsCommand(const Settings& settings) : settings_(settings) {
+  if (settings.output.extension() == ".png") return;
+  throw InputError(fmt::format("output: expected a name that ends in .png, found '{}'",
+                               settings.output.filename().string()));
 }
 
 CommandEnd DirectionsCommand::run(const CommandControl& control) const {
-  if (settings_.output.extension() != ".png") {
-    throw InputError(
-        fmt::format("{}: error: expected a name that ends in .png", settings_.output.string()));
-  }
   check_writable(settings_.output);
   const Registry registry = load_default_modules();
   RenderConfig config = load_render_config(settings_.render, {}, registry).config;

@@ -19,8 +19,8 @@ class DirectionsCommand final : public Command {
 
     static void describe(Schema<Settings>& schema);
   };
-  explicit DirectionsCommand(const Settings& settings) : settings_(settings) {}
-
+  /// Throws InputError for a picture of another kind than PNG.
+  explicit DirectionsCommand(const Settings& settings);
   CommandEnd run(const CommandControl& control) const override;
 
  private:
