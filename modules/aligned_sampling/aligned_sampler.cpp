@@ -11,10 +11,10 @@
 // which the integrator must sample `all`. All other numbers, and those of integrands without an
 // edge, are the base's.
 //
-// Sets have 64, 256, 1024 or 4096 points, the most that the samples of a pixel fill; with fewer than
-// 64 samples all numbers are the base's and nothing is looked at. With `directions: 4` two edges
-// are aligned with at once. Sets for that are made when they are first needed, which takes about a
-// second for one of 4096 points, and kept in the user's cache.
+// Sets have 64, 256, 1024 or 4096 points, the most that the samples of a pixel fill; with fewer
+// than 64 samples all numbers are the base's and nothing is looked at. With `directions: 4` two
+// edges are aligned with at once. Sets for that are made when they are first needed, which takes
+// about a second for one of 4096 points, and kept in the user's cache.
 //
 //     sampler: { type: aligned }
 //     integrator: { type: path, light_selection: all }
@@ -90,8 +90,9 @@ class PreparedAligned final : public PreparedSampler {
         places_(field.dimensions()),
         sets_(field, library, size),
         bits_(std::countr_zero(size)) {
-    const PixelRegions& regions = field.regions();
-    for (std::size_t i = 0; i < regions.pixel_count(); ++i) region_of_.push_back(regions.of(i));
+    for (std::size_t i = 0; i < field.regions().pixel_count(); ++i) {
+      region_of_.push_back(field.regions().of(i));
+    }
   }
 
   std::uint64_t begin(const PathKey& key) const override { return base_->begin(key); }
@@ -129,7 +130,7 @@ class PreparedAligned final : public PreparedSampler {
   std::unique_ptr<const PreparedSampler> base_;
   DimensionPlaces places_;
   SetTable sets_;
-  std::vector<std::uint32_t> region_of_;  ///< by pixel; empty: all are of region 0
+  std::vector<std::uint32_t> region_of_;  ///< by pixel
   int bits_;                              ///< of a set's size
 };
 
@@ -149,8 +150,7 @@ void AlignedSettings::describe(Schema<AlignedSettings>& s) {
   using S = AlignedSettings;
   s.field("base", &S::base, "Sampler of all numbers that are not aligned").otherwise("pmj02bn");
   s.field("purposes", &S::purposes,
-          "What is aligned: the numbers of the first hit's lights and "
-          "direction, and of the lens")
+          "What is aligned: numbers of the first hit's lights and direction, and of the lens")
       .check("of light_position, bsdf_direction and lens", [](const std::vector<Purpose>& all) {
         return std::all_of(all.begin(), all.end(), can_be_aligned);
       });
@@ -213,9 +213,8 @@ std::uint32_t AlignedSampler::preferred_samples(const SamplePlan& plan) const {
 DirectionField AlignedSampler::estimate(const IntegrandProbe* probe, std::uint64_t seed) const {
   if (probe == nullptr) {
     throw InputError(
-        "the sampler 'aligned' looks at integrands before rendering, which this integrator does "
-        "not "
-        "lay open: state its angles");
+        "the sampler 'aligned' looks at integrands before rendering, which this integrator keeps "
+        "to itself: state its angles");
   }
   const int lights = std::min(settings_.lights, probe->light_branches());
   return estimate_directions(*probe, aligned_dimensions(settings_.purposes, lights),
