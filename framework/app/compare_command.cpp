@@ -9,12 +9,12 @@
 #include <pharos/core/atomic_file.h>
 #include <pharos/core/error.h>
 #include <pharos/core/log.h>
+#include <pharos/core/writable.h>
 #include <pharos/experiments/comparison.h>
 #include <pharos/experiments/error_images.h>
 
 #include "commands.h"
 #include "threads.h"
-#include "writable.h"
 
 namespace pharos {
 namespace {

@@ -5,6 +5,7 @@
 
 #include <pharos/config/module_loader.h>
 #include <pharos/core/log.h>
+#include <pharos/core/writable.h>
 #include <pharos/experiments/output_folder.h>
 #include <pharos/laboratory/integrands/add_integrands.h>
 #include <pharos/laboratory/laboratory.h>
@@ -14,7 +15,6 @@
 #include "interrupt.h"
 #include "progress_bar.h"
 #include "threads.h"
-#include "writable.h"
 
 namespace pharos {
 namespace {

@@ -6,6 +6,7 @@
 
 #include <pharos/config/module_loader.h>
 #include <pharos/core/log.h>
+#include <pharos/core/writable.h>
 #include <pharos/experiments/experiment.h>
 #include <pharos/experiments/results_files.h>
 
@@ -14,7 +15,6 @@
 #include "interrupt.h"
 #include "progress_bar.h"
 #include "threads.h"
-#include "writable.h"
 
 namespace pharos {
 namespace {

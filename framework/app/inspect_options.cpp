@@ -9,8 +9,7 @@
 
 #include <pharos/config/values.h>
 #include <pharos/core/error.h>
-
-#include "writable.h"
+#include <pharos/core/writable.h>
 
 namespace pharos {
 namespace {

@@ -7,12 +7,21 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <pharos/config/module_loader.h>
 #include <pharos/core/error.h>
 #include <pharos/core/version.h>
 
 #include "commands.h"
+#include "module_commands.h"
 
 namespace {
+
+/// Whether the first argument asks for what only modules can tell: anything but a subcommand of the
+/// program itself and the version.
+bool needs_modules(const CLI::App& app, int argc, char** argv) {
+  const std::string first = argc > 1 ? argv[1] : "";
+  return first != "--version" && !pharos::has_command(app, first);
+}
 
 /// The first argument is a subcommand or an option; CLI11 would not tell what is wrong with it.
 void check_command(const CLI::App& app, int argc, char** argv) {
@@ -42,7 +51,12 @@ int run(int argc, char** argv) {
   add_inspect_command(app, exit_code);
   add_points_command(app, exit_code);
   add_import_command(app, exit_code);
+  Registry modules;
   try {
+    if (needs_modules(app, argc, argv)) {
+      modules = load_default_modules();
+      add_module_commands(app, modules, exit_code);
+    }
     check_command(app, argc, argv);
     app.parse(argc, argv);
     if (app.get_subcommands().empty()) throw InputError("pharos: error: expected a command");

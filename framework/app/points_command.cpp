@@ -9,11 +9,11 @@
 #include <pharos/config/module_loader.h>
 #include <pharos/core/error.h>
 #include <pharos/core/log.h>
+#include <pharos/core/writable.h>
 #include <pharos/sampling/purpose_names.h>
 
 #include "commands.h"
 #include "sampler_pictures.h"
-#include "writable.h"
 
 namespace pharos {
 namespace {

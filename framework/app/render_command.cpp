@@ -9,6 +9,7 @@
 #include <pharos/core/error.h>
 #include <pharos/core/host_port.h>
 #include <pharos/core/log.h>
+#include <pharos/core/writable.h>
 #include <pharos/rendering/render_config.h>
 #include <pharos/rendering/render_job.h>
 #include <pharos/rendering/tev_packets.h>
@@ -20,7 +21,6 @@
 #include "interrupt.h"
 #include "progress_bar.h"
 #include "threads.h"
-#include "writable.h"
 
 namespace pharos {
 namespace {

@@ -25,10 +25,10 @@ class StageProbe final : public IntegrandProbe {
   explicit StageProbe(PixelGrid grid) : grid_(grid) {}
   PixelGrid grid() const override { return grid_; }
   int light_branches() const override { return 1; }
-  void evaluate(int x, int y, Dimension, const PathKey&, std::span<const Vec2> points,
+  void evaluate(const ProbeQuery& query, std::span<const Vec2> points,
                 std::span<Rgb> values) const override {
-    const Vec2 peak{static_cast<float>(x) / static_cast<float>(grid_.width),
-                    static_cast<float>(y) / static_cast<float>(grid_.height)};
+    const Vec2 peak{static_cast<float>(query.x) / static_cast<float>(grid_.width),
+                    static_cast<float>(query.y) / static_cast<float>(grid_.height)};
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Vec2 d = points[i] - peak;
       values[i] = Rgb(0.1f + std::exp(-8 * (d.x * d.x + d.y * d.y)));

@@ -43,6 +43,12 @@ Vec2 square_from_cosine_hemisphere(Vec3 direction) {
   return square_from_disk({direction.x, direction.y});
 }
 
+Vec2 square_from_octahedral_hemisphere(Vec3 direction) {
+  const float sum = std::abs(direction.x) + std::abs(direction.y) + direction.z;
+  const float x = direction.x / sum, y = direction.y / sum;
+  return {primary(0.5f * (x + y + 1)), primary(0.5f * (x - y + 1))};
+}
+
 Vec3 sphere_from_square(Vec2 u) {
   return from_cylinder(1 - 2 * u.x, 2 * safe_sqrt(u.x * (1 - u.x)), u.y);
 }

@@ -53,6 +53,24 @@ constexpr float cosine_hemisphere_pdf(float cos_theta) {
   return cos_theta > 0 ? cos_theta / kPi : 0.0f;
 }
 
+/// Direction of the hemisphere about +z by way of an octahedron: the square is folded to the upper
+/// four faces of |x| + |y| + |z| = 1, which are seen from the origin (Engelhardt and Dachsbacher
+/// 2008, "Octahedron Environment Maps"). Within a face straight lines of the square become great
+/// circles, the images of straight edges. Density octahedral_hemisphere_pdf [1/sr].
+inline Vec3 octahedral_hemisphere_from_square(Vec2 u) {
+  const float a = 2 * u.x - 1, b = 2 * u.y - 1;
+  // The diamond |x| + |y| <= 1 is the square turned by 45 degrees.
+  return normalize({0.5f * (a + b), 0.5f * (a - b), 1 - std::max(std::abs(a), std::abs(b))});
+}
+/// Inverse of octahedral_hemisphere_from_square for unit directions with z >= 0.
+Vec2 square_from_octahedral_hemisphere(Vec3 direction);
+/// A face lies 1 / (|x| + |y| + z) away along a unit direction, and the square has twice the faces'
+/// area seen along z: from 0.096 where x = y = z to 0.5 along the axes [1/sr].
+inline float octahedral_hemisphere_pdf(Vec3 direction) {
+  const float sum = std::abs(direction.x) + std::abs(direction.y) + direction.z;
+  return direction.z > 0 ? 0.5f / (sum * sum * sum) : 0.0f;
+}
+
 /// Uniform direction. Density 1/(4 pi) [1/sr].
 Vec3 sphere_from_square(Vec2 u);
 /// Inverse of sphere_from_square for unit directions.

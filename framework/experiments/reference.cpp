@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <pharos/core/file_lock.h>
+#include <pharos/core/user_cache.h>
 #include <pharos/core/version.h>
 #include <pharos/experiments/build_key.h>
 #include <pharos/experiments/content_key.h>
@@ -135,12 +136,7 @@ class Cache {
 }  // namespace
 
 fs::path default_reference_cache() {
-  const char* cache = std::getenv("XDG_CACHE_HOME");
-  const char* home = std::getenv("HOME");
-  fs::path folder = cache != nullptr && *cache != '\0' ? fs::path(cache)
-                    : home != nullptr && *home != '\0' ? fs::path(home) / ".cache"
-                                                       : fs::temp_directory_path();
-  return folder / "pharos" / "references";
+  return user_cache_folder() / "references";
 }
 
 std::optional<Reference> find_or_render(const PlannedReference& planned,

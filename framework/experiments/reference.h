@@ -25,7 +25,7 @@ struct Reference {
   std::optional<double> mse, relative_mse;
 };
 
-/// The folder for references in the user's cache: $XDG_CACHE_HOME or ~/.cache, pharos/references.
+/// The folder for references in the user's cache, see user_cache_folder(): references.
 std::filesystem::path default_reference_cache();
 
 /// Called before each part of a reference is rendered.

@@ -17,6 +17,16 @@ struct FirstHit {
   std::uint32_t object = 0;
 };
 
+/// What of a pixel's integrand is asked for.
+struct ProbeQuery {
+  int x = 0, y = 0;  ///< the pixel
+  Dimension dimension{Purpose::light_position, 1};
+  /// All other numbers of the path are keyed_numbers() of this key, at the pixel.
+  PathKey others;
+  /// Segments of the longest path that counts; the integrator's own limit holds as well.
+  std::uint16_t max_depth = 0xffff;
+};
+
 /// The integrand of one dimension, laid open before rendering: offered by an integrator, asked by a
 /// sampler. Thread-safe.
 class IntegrandProbe {
@@ -27,13 +37,12 @@ class IntegrandProbe {
   /// How many branches of light_position there are: the lights with selection `all`, else 1.
   virtual int light_branches() const = 0;
 
-  /// The part of pixel (x, y)'s integrand that depends on `dimension`, as a function of the very
-  /// primary numbers that a sampler would deliver for it, before any warp; all other numbers of the
-  /// path are held at keyed_numbers() of the key `others` at this pixel. For light_position the
+  /// The part of the pixel's integrand that depends on the dimension, as a function of the very
+  /// primary numbers that a sampler would deliver for it, before any warp. For light_position the
   /// contribution of that light sample alone; for other dimensions that of the whole path.
-  /// values[i] belongs to points[i].
-  virtual void evaluate(int x, int y, Dimension dimension, const PathKey& others,
-                        std::span<const Vec2> points, std::span<Rgb> values) const = 0;
+  /// values[i] belongs to points[i]; what the points share is done once.
+  virtual void evaluate(const ProbeQuery& query, std::span<const Vec2> points,
+                        std::span<Rgb> values) const = 0;
 
   virtual FirstHit first_hit(int x, int y) const = 0;
 };

@@ -1,5 +1,7 @@
 // diffuse: an ideally matt surface, f = reflectance / pi (Lambert 1760). Light is scattered on the
-// side of the shading normal only; the other side is black.
+// side of the shading normal only; the other side is black. Samples are drawn in proportion to the
+// cosine, so that all weigh the same; `warp: octahedral` draws them by a map that keeps straight
+// edges straight (Engelhardt and Dachsbacher 2008), which samplers align with.
 //
 //     { type: diffuse, reflectance: [0.7, 0.3, 0.2] }
 #include "diffuse.h"
@@ -14,22 +16,25 @@ namespace pharos {
 void Diffuse::Settings::describe(Schema<Settings>& s) {
   describe_share(s, "reflectance", &Settings::reflectance, "Share of light that is reflected",
                  "0.5");
+  describe_warp(s);
 }
 
 ScatterValue Diffuse::evaluate(const SurfacePoint& point, Vec3 wo, Vec3 wi,
                                ScatterOptions options) const {
   if (wo.z <= 0 || wi.z <= 0 || !contains(options.events, Event::smooth_reflect)) return {};
-  const float pdf = warp::cosine_hemisphere_pdf(wi.z);
-  return {pdf * reflectance_->evaluate(point), pdf};
+  return {warp::cosine_hemisphere_pdf(wi.z) * settings_.reflectance->evaluate(point),
+          hemisphere_pdf(settings_.warp, wi)};
 }
 
 std::optional<ScatterSample> Diffuse::sample(const SurfacePoint& point, Vec3 wo, float, Vec2 u,
                                              ScatterOptions options) const {
   if (wo.z <= 0 || !contains(options.events, Event::smooth_reflect)) return {};
-  const Vec3 wi = warp::cosine_hemisphere_from_square(u);
+  const Vec3 wi = hemisphere_from_square(settings_.warp, u);
   if (wi.z <= 0) return {};
-  return ScatterSample{wi, Event::smooth_reflect, reflectance_->evaluate(point),
-                       warp::cosine_hemisphere_pdf(wi.z)};
+  const float pdf = hemisphere_pdf(settings_.warp, wi);
+  return ScatterSample{
+      wi, Event::smooth_reflect,
+      (warp::cosine_hemisphere_pdf(wi.z) / pdf) * settings_.reflectance->evaluate(point), pdf};
 }
 
 }  // namespace pharos

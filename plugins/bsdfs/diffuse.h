@@ -4,15 +4,18 @@
 #include <pharos/scene/bsdf.h>
 #include <pharos/scene/texture.h>
 
+#include "hemisphere_warp.h"
+
 namespace pharos {
 
 class Diffuse final : public Bsdf {
  public:
   struct Settings {
     Ref<Texture> reflectance;
+    HemisphereWarp warp = HemisphereWarp::concentric;
     static void describe(Schema<Settings>& s);
   };
-  explicit Diffuse(const Settings& settings) : reflectance_(settings.reflectance) {}
+  explicit Diffuse(const Settings& settings) : settings_(settings) {}
 
   EventMask events() const override { return mask_of(Event::smooth_reflect); }
   ScatterValue evaluate(const SurfacePoint& point, Vec3 wo, Vec3 wi,
@@ -20,10 +23,12 @@ class Diffuse final : public Bsdf {
   std::optional<ScatterSample> sample(const SurfacePoint& point, Vec3 wo, float u_choice, Vec2 u,
                                       ScatterOptions options) const override;
   float roughness(const SurfacePoint&) const override { return 1; }
-  Rgb albedo(const SurfacePoint& point) const override { return reflectance_->evaluate(point); }
+  Rgb albedo(const SurfacePoint& point) const override {
+    return settings_.reflectance->evaluate(point);
+  }
 
  private:
-  Ref<Texture> reflectance_;
+  Settings settings_;
 };
 
 }  // namespace pharos

@@ -1,7 +1,7 @@
 // diffuse_transmitter: thin paper, cloth or a leaf, lit from either side. Light is scattered by
 // Lambert's cosine law, transmittance / pi on the side it did not come from and reflectance / pi on
 // the side it came from. Both sides are alike. sample() chooses between them by the mean of the
-// channels.
+// channels; `warp` is that of `diffuse`.
 //
 // The two must not add up to more than 1. Of textures that vary only the largest value of each
 // channel is known, which stands for all places.
@@ -20,6 +20,7 @@ void DiffuseTransmitter::Settings::describe(Schema<Settings>& s) {
   describe_share(s, "transmittance", &Settings::transmittance, "Share of light that is let through",
                  "0.5");
   describe_share(s, "reflectance", &Settings::reflectance, "Share of light that is reflected", "0");
+  describe_warp(s);
   s.example("{ transmittance: 0.3, reflectance: 0.7 }");
   s.example("{ transmittance: [0.1, 0.6, 0.2], reflectance: [0.3, 0.3, 0.05] }");
 }
@@ -50,8 +51,8 @@ ScatterValue DiffuseTransmitter::evaluate(const SurfacePoint& point, Vec3 wo, Ve
   if (wo.z == 0 || wi.z == 0) return {};
   const auto [reflectance, transmittance, choice] = lobes(point, options.events);
   const bool same_side = (wo.z > 0) == (wi.z > 0);
-  const float density = warp::cosine_hemisphere_pdf(std::abs(wi.z));
-  return {density * (same_side ? reflectance : transmittance),
+  const float density = hemisphere_pdf(settings_.warp, {wi.x, wi.y, std::abs(wi.z)});
+  return {warp::cosine_hemisphere_pdf(std::abs(wi.z)) * (same_side ? reflectance : transmittance),
           density * (same_side ? choice.first() : choice.second())};
 }
 
@@ -59,16 +60,17 @@ std::optional<ScatterSample> DiffuseTransmitter::sample(const SurfacePoint& poin
                                                         float u_choice, Vec2 u,
                                                         ScatterOptions options) const {
   const auto [reflectance, transmittance, choice] = lobes(point, options.events);
-  Vec3 wi = warp::cosine_hemisphere_from_square(u);
+  Vec3 wi = hemisphere_from_square(settings_.warp, u);
   if (choice.nothing() || wo.z == 0 || wi.z == 0) return {};
-  const float density = warp::cosine_hemisphere_pdf(wi.z);
+  const float density = hemisphere_pdf(settings_.warp, wi);
+  const float weight = warp::cosine_hemisphere_pdf(wi.z) / density;
   const bool reflects = choice.takes_first(u_choice);
   if (reflects != (wo.z > 0)) wi.z = -wi.z;
   if (reflects) {
-    return ScatterSample{wi, Event::smooth_reflect, reflectance / choice.first(),
+    return ScatterSample{wi, Event::smooth_reflect, (weight / choice.first()) * reflectance,
                          density * choice.first()};
   }
-  return ScatterSample{wi, Event::smooth_transmit, transmittance / choice.second(),
+  return ScatterSample{wi, Event::smooth_transmit, (weight / choice.second()) * transmittance,
                        density * choice.second()};
 }
 

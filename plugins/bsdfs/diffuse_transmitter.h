@@ -4,6 +4,7 @@
 #include <pharos/scene/bsdf.h>
 #include <pharos/scene/texture.h>
 
+#include "hemisphere_warp.h"
 #include "lobe_choice.h"
 
 namespace pharos {
@@ -14,6 +15,7 @@ class DiffuseTransmitter final : public Bsdf {
   struct Settings {
     Ref<Texture> transmittance;
     Ref<Texture> reflectance;
+    HemisphereWarp warp = HemisphereWarp::concentric;
     static void describe(Schema<Settings>& s);
   };
   /// Throws InputError when more light might leave than arrives; see the .cpp for what is tested.

@@ -10,7 +10,8 @@
 // qualitative model instead, f = r / pi (A + B max(0, cos(p)) sin(a) tan(b)), which does without it
 // and is darker. `alpha` is the roughness of microfacets, their root mean square slope, from which
 // s = alpha / sqrt(2) as in Mitsuba; at 0 the surface is `diffuse`. Of textures in colour the mean
-// of the channels counts. sample() follows the cosine law.
+// of the channels counts. sample() follows the cosine law,
+// or `warp` as in `diffuse`.
 //
 // The formulas are fits, and a white surface seen at a grazing angle reflects up to 4% more light
 // than arrives; with a reflectance of at most 0.95 none does.
@@ -22,7 +23,6 @@
 #include <cmath>
 
 #include <pharos/config/registry.h>
-#include <pharos/core/warp.h>
 
 #include "parameters.h"
 
@@ -82,6 +82,7 @@ void RoughDiffuse::Settings::describe(Schema<Settings>& s) {
   describe_share(s, "alpha", &Settings::alpha, "Root mean square slope of the facets", "0.2");
   s.field("use_fast_approx", &Settings::use_fast_approx,
           "Whether to take the paper's qualitative model");
+  describe_warp(s);
   s.example("{ reflectance: [0.9, 0.5, 0.2], alpha: 0.5 }");
   s.example("{ reflectance: 0.95, alpha: 0.3 }");
   s.example("{ reflectance: 0.8, alpha: 1, use_fast_approx: true }");
@@ -96,12 +97,12 @@ ScatterValue RoughDiffuse::evaluate(const SurfacePoint& point, Vec3 wo, Vec3 wi,
                                                   : full_model(grooves, sigma_squared);
   const Rgb facet = settings_.reflectance->evaluate(point);
   return {(Rgb(orders.once) + orders.twice * facet) * facet / kPi,
-          warp::cosine_hemisphere_pdf(wi.z)};
+          hemisphere_pdf(settings_.warp, wi)};
 }
 
 std::optional<ScatterSample> RoughDiffuse::sample(const SurfacePoint& point, Vec3 wo, float, Vec2 u,
                                                   ScatterOptions options) const {
-  const Vec3 wi = warp::cosine_hemisphere_from_square(u);
+  const Vec3 wi = hemisphere_from_square(settings_.warp, u);
   const ScatterValue value = evaluate(point, wo, wi, options);
   if (value.pdf == 0) return {};
   return ScatterSample{wi, Event::smooth_reflect, value.value / value.pdf, value.pdf};

@@ -4,6 +4,8 @@
 #include <pharos/scene/bsdf.h>
 #include <pharos/scene/texture.h>
 
+#include "hemisphere_warp.h"
+
 namespace pharos {
 
 /// See rough_diffuse.cpp.
@@ -13,6 +15,7 @@ class RoughDiffuse final : public Bsdf {
     Ref<Texture> reflectance;
     Ref<Texture> alpha;
     bool use_fast_approx = false;
+    HemisphereWarp warp = HemisphereWarp::concentric;
     static void describe(Schema<Settings>& s);
   };
   explicit RoughDiffuse(const Settings& settings) : settings_(settings) {}

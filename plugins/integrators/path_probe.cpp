@@ -1,5 +1,7 @@
 #include "path_probe.h"
 
+#include <algorithm>
+
 #include <pharos/sampling/keyed_numbers.h>
 
 #include "path_walk.h"
@@ -32,12 +34,16 @@ class PathProbe final : public IntegrandProbe {
   PixelGrid grid() const override { return {shared_.target.width, shared_.target.height}; }
   int light_branches() const override { return shared_.lights.branches(); }
 
-  void evaluate(int x, int y, Dimension dimension, const PathKey& others,
-                std::span<const Vec2> points, std::span<Rgb> values) const override {
-    PathKey key = others;
-    key.index = static_cast<std::uint64_t>(y) * shared_.target.width + x;
+  void evaluate(const ProbeQuery& query, std::span<const Vec2> points,
+                std::span<Rgb> values) const override {
+    PathKey key = query.others;
+    key.index = static_cast<std::uint64_t>(query.y) * shared_.target.width + query.x;
+    if (query.dimension.purpose() == Purpose::light_position) {
+      evaluate_light(query, key, points, values);
+      return;
+    }
     for (std::size_t i = 0; i < points.size(); ++i) {
-      values[i] = evaluate_one(key, dimension, points[i]);
+      values[i] = evaluate_path(query, key, points[i]);
     }
   }
 
@@ -54,22 +60,36 @@ class PathProbe final : public IntegrandProbe {
   }
 
  private:
-  Rgb evaluate_one(const PathKey& key, Dimension dimension, Vec2 point) const {
-    const PinnedSampler sampler(dimension, point);
+  /// All points share the path up to the vertex.
+  void evaluate_light(const ProbeQuery& query, const PathKey& key, std::span<const Vec2> points,
+                      std::span<Rgb> values) const {
+    std::fill(values.begin(), values.end(), Rgb());
+    const std::uint16_t bounce = query.dimension.bounce(), branch = query.dimension.branch();
+    // A light sample at vertex b belongs to paths of b + 1 segments.
+    if (bounce >= query.max_depth || branch >= shared_.lights.branches()) return;
+    const PinnedSampler sampler(query.dimension, {});
     const SampleStream stream(sampler, key);
     const IterationContext context{.sampler = sampler, .seed = key.seed};
     Arena arena;
     RenderCounters counters;
-    if (dimension.purpose() == Purpose::light_position) {
-      // A light sample at vertex b belongs to paths of b + 1 segments.
-      LightProbeRecorder recorder({dimension.bounce(), dimension.branch()});
-      PathWalk walk(shared_, context, stream, arena, counters, recorder);
-      walk.run(static_cast<std::uint16_t>(dimension.bounce() + 1));
-      return recorder.sum();
+    LightProbeRecorder recorder;
+    PathWalk walk(shared_, context, stream, arena, counters, recorder);
+    if (!walk.walk_to_lights(bounce)) return;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      walk.sample_light(branch, points[i]);
+      values[i] = recorder.take();
     }
+  }
+
+  Rgb evaluate_path(const ProbeQuery& query, const PathKey& key, Vec2 point) const {
+    const PinnedSampler sampler(query.dimension, point);
+    const SampleStream stream(sampler, key);
+    const IterationContext context{.sampler = sampler, .seed = key.seed};
+    Arena arena;
+    RenderCounters counters;
     SilentRecorder recorder;
     PathWalk walk(shared_, context, stream, arena, counters, recorder);
-    return walk.run(shared_.settings.max_depth).radiance;
+    return walk.run(std::min(query.max_depth, shared_.settings.max_depth)).radiance;
   }
 
   const PathScene& shared_;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <utility>
+
 #include <pharos/guiding/path_record.h>
 #include <pharos/rendering/scatter_step.h>
 #include <pharos/scene/emitter.h>
@@ -114,20 +116,18 @@ class LogRecorder {
   std::uint32_t current_ = kNoVertex;
 };
 
-/// Keeps the contribution of one light sample, throughput included, for the integrand probe.
+/// Keeps the contribution of the last light sample, throughput included, for the integrand probe.
 class LightProbeRecorder : public SilentRecorder {
  public:
-  explicit LightProbeRecorder(LightSampleId wanted) : wanted_(wanted) {}
-
-  void light(LightSampleId id, const LightSample&, Event, const StepDensity&, float,
-             Rgb contribution, Rgb throughput) {
-    if (id == wanted_) sum_ += throughput * contribution;
+  void light(LightSampleId, const LightSample&, Event, const StepDensity&, float, Rgb contribution,
+             Rgb throughput) {
+    last_ = throughput * contribution;
   }
-  Rgb sum() const { return sum_; }
+  /// That contribution; black where there was none since take() was called last.
+  Rgb take() { return std::exchange(last_, Rgb()); }
 
  private:
-  LightSampleId wanted_;
-  Rgb sum_;
+  Rgb last_;
 };
 
 }  // namespace pharos

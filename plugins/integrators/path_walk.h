@@ -48,13 +48,41 @@ class PathWalk {
     std::optional<ScatterStep> step = first_step();
     while (step && advance(*step)) {
       add_emission();
-      if (arrival().kind == VertexKind::environment || bounce_ >= max_depth) break;
+      if (!goes_on(max_depth)) break;
       begin_scattering();
-      if (settings_.next_event_estimation && !scattering_->purely_discrete()) add_light_samples();
+      if (samples_lights()) add_light_samples();
       step = next_step();
     }
     result_.radiance = radiance_;
     return result_;
+  }
+
+  /// Instead of run(): walks to the vertex of this number, so that sample_light() may be called.
+  /// False when no light is sampled there.
+  bool walk_to_lights(std::uint16_t bounce) {
+    std::optional<ScatterStep> step = first_step();
+    while (step && advance(*step) && goes_on(settings_.max_depth)) {
+      begin_scattering();
+      if (bounce_ == bounce) return samples_lights();
+      step = next_step();
+    }
+    return false;
+  }
+
+  /// Samples the light of a branch at the primary numbers `u`, from the current vertex.
+  void sample_light(std::uint16_t branch, Vec2 u) {
+    const float u_choice = shared_.lights.needs_number()
+                               ? stream_.get_1d({Purpose::light_choice, bounce_, branch})
+                               : 0;
+    const int index = shared_.lights.choose(branch, u_choice);
+    LightSample light = scene_.lights()[static_cast<std::size_t>(index)]->sample(position(), u);
+    if (!planted(PlantedFault::light_choice_forgotten)) {
+      light.pdf *= shared_.lights.probability(index);
+    }
+    if (light.kind == VertexKind::environment) {
+      light.point.position = scene_.environment_point(position(), light.direction);
+    }
+    if (light.pdf > 0) add_light_sample(light, branch);
   }
 
  private:
@@ -67,6 +95,13 @@ class PathWalk {
 
   const Arrival& arrival() const { return arrivals_[current_]; }
   Point3 position() const { return arrival().surface.position; }
+  /// Whether the path may have a segment beyond the current vertex.
+  bool goes_on(std::uint16_t max_depth) const {
+    return arrival().kind != VertexKind::environment && bounce_ < max_depth;
+  }
+  bool samples_lights() const {
+    return settings_.next_event_estimation && !scattering_->purely_discrete();
+  }
 
   // --- the first vertex ----------------------------------------------------------------------
 
@@ -260,19 +295,7 @@ class PathWalk {
 
   void add_light_samples() {
     for (std::uint16_t branch = 0; branch < shared_.lights.branches(); ++branch) {
-      const float u = shared_.lights.needs_number()
-                          ? stream_.get_1d({Purpose::light_choice, bounce_, branch})
-                          : 0;
-      const int index = shared_.lights.choose(branch, u);
-      LightSample light = scene_.lights()[static_cast<std::size_t>(index)]->sample(
-          position(), stream_.get_2d({Purpose::light_position, bounce_, branch}));
-      if (!planted(PlantedFault::light_choice_forgotten)) {
-        light.pdf *= shared_.lights.probability(index);
-      }
-      if (light.kind == VertexKind::environment) {
-        light.point.position = scene_.environment_point(position(), light.direction);
-      }
-      if (light.pdf > 0) add_light_sample(light, branch);
+      sample_light(branch, stream_.get_2d({Purpose::light_position, bounce_, branch}));
     }
   }
 

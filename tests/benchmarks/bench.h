@@ -27,5 +27,6 @@ std::vector<Measurement> bench_startup(int repeats);
 std::vector<Measurement> bench_guiding(int repeats);
 std::vector<Measurement> bench_samplers(int repeats);
 std::vector<Measurement> bench_growth(int repeats);
+std::vector<Measurement> bench_aligned(int repeats);
 
 }  // namespace pharos::bench

@@ -10,20 +10,21 @@ namespace {
 
 constexpr Dimension kLight{Purpose::light_position, 1, 0};
 
-/// The numbers that a probe holds fixed, with a light position of our own.
+/// The numbers that a probe holds fixed, with one of our own.
 class Pinned final : public PreparedSampler {
  public:
-  explicit Pinned(Vec2 light) : light_(light) {}
+  Pinned(Dimension pinned, Vec2 value) : pinned_(pinned), value_(value) {}
   std::uint64_t begin(const PathKey& key) const override { return hash_key(key); }
   float value_1d(const SampleStream& stream, Dimension dimension) const override {
     return keyed_numbers(stream.state(), dimension).x;
   }
   Vec2 value_2d(const SampleStream& stream, Dimension dimension) const override {
-    return dimension == kLight ? light_ : keyed_numbers(stream.state(), dimension);
+    return dimension == pinned_ ? value_ : keyed_numbers(stream.state(), dimension);
   }
 
  private:
-  Vec2 light_;
+  Dimension pinned_;
+  Vec2 value_;
 };
 
 /// A floor under a square light, seen from the side; black but for direct light.
@@ -58,11 +59,11 @@ TEST_CASE("a probed value is what the integrator finds with those numbers") {
   for (const auto& [x, y] : {std::pair{2, 8}, {13, 9}, {3, 10}}) {
     PathKey key{.seed = 3, .index = static_cast<std::uint64_t>(y) * 16 + x};
     std::vector<Rgb> values(points.size());
-    probe->evaluate(x, y, kLight, key, points, values);
+    probe->evaluate({.x = x, .y = y, .dimension = kLight, .others = key}, points, values);
     // A whole path may also hit the light by its BSDF sample, the same one for every point: the
     // differences between points are the light sample's alone.
     const auto whole = [&](Vec2 light) {
-      return mean(p.integrator->replay(key, {Pinned(light)}).radiance);
+      return mean(p.integrator->replay(key, {Pinned(kLight, light)}).radiance);
     };
     CHECK(mean(values[0]) > 0);
     for (std::size_t i = 1; i < points.size(); ++i) {
@@ -71,6 +72,40 @@ TEST_CASE("a probed value is what the integrator finds with those numbers") {
             doctest::Approx(whole(points[i]) - whole(points[0])).epsilon(1e-3));
     }
   }
+}
+
+TEST_CASE("numbers of other dimensions are probed by whole paths") {
+  const Prepared p(path_config(kFloorAndLight, 3, "", 1));
+  const auto probe = p.integrator->probe();
+  const std::vector<Vec2> points{{0.1f, 0.2f}, {0.5f, 0.5f}, {0.9f, 0.3f}};
+  const PathKey key{.seed = 3, .index = 8 * 16 + 2};
+  std::vector<Rgb> values(points.size());
+  for (const Dimension dimension : {Dimension{Purpose::bsdf_direction, 1}, {Purpose::pixel}}) {
+    probe->evaluate({.x = 2, .y = 8, .dimension = dimension, .others = key}, points, values);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Rgb path = p.integrator->replay(key, {Pinned(dimension, points[i])}).radiance;
+      CHECK(mean(values[i]) == doctest::Approx(mean(path)).epsilon(1e-5));
+    }
+  }
+}
+
+TEST_CASE("paths longer than is asked for do not count") {
+  const Prepared p(path_config(kFloorAndLight, 3, "", 1));
+  const auto probe = p.integrator->probe();
+  const std::vector<Vec2> points{{0.3f, 0.6f}};
+  const auto value = [&](Dimension dimension, std::uint16_t max_depth) {
+    std::vector<Rgb> values(1);
+    probe->evaluate(
+        {.x = 2, .y = 8, .dimension = dimension, .others = {.seed = 3}, .max_depth = max_depth},
+        points, values);
+    return mean(values[0]);
+  };
+  // The floor does not emit: it takes a second segment to find light.
+  for (const Dimension dimension : {kLight, Dimension{Purpose::bsdf_direction, 1}}) {
+    CHECK(value(dimension, 1) == 0);
+    CHECK(value(dimension, 2) > 0);
+  }
+  CHECK(value({Purpose::light_position, 1, 1}, 3) == 0);  // there is one branch
 }
 
 TEST_CASE("first hits know depth and normal") {
@@ -98,8 +133,13 @@ TEST_CASE("with all lights every light has a branch of its own") {
   CHECK(probe->light_branches() == 2);
   const std::vector<Vec2> points{{0.3f, 0.6f}, {0.7f, 0.2f}, {0.1f, 0.9f}, {0.6f, 0.4f}};
   std::vector<Rgb> wall(points.size()), ball(points.size());
-  probe->evaluate(8, 8, {Purpose::light_position, 1, 0}, {.seed = 3}, points, wall);
-  probe->evaluate(8, 8, {Purpose::light_position, 1, 1}, {.seed = 3}, points, ball);
+  const auto evaluate = [&](std::uint16_t branch, std::span<Rgb> values) {
+    probe->evaluate(
+        {.x = 8, .y = 8, .dimension = {Purpose::light_position, 1, branch}, .others = {.seed = 3}},
+        points, values);
+  };
+  evaluate(0, wall);
+  evaluate(1, ball);
   int lit = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     lit += mean(wall[i]) > 0 ? 1 : 0;

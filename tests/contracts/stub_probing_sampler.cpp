@@ -71,7 +71,7 @@ class ProbingSampler final : public Sampler {
                         (static_cast<float>(i / kGrid) + 0.5f) / kGrid});
     }
     std::vector<Rgb> values(points.size());
-    probe.evaluate(x, y, kProbed, others, points, values);
+    probe.evaluate({.x = x, .y = y, .dimension = kProbed, .others = others}, points, values);
     std::size_t best = 0;
     for (std::size_t i = 0; i < values.size(); ++i) {
       if (mean(values[i]) > mean(values[best])) best = i;

@@ -23,8 +23,10 @@ std::uint64_t allocations_of(const PreparedSampler& sampler) {
     for (const std::uint32_t sample : {0u, 15u, 63u, 64u, 5000u, 1'000'000u}) {
       const SampleStream stream(sampler, {.seed = 1, .index = pixel, .sample = sample});
       for (int purpose = 0; purpose < kPurposeCount; ++purpose) {
-        const Dimension dimension{static_cast<Purpose>(purpose), 3, 1};
-        sum += stream.get_1d(dimension) + stream.get_2d(dimension).x;
+        for (const std::uint16_t bounce : {1, 3}) {
+          const Dimension dimension{static_cast<Purpose>(purpose), bounce, 1};
+          sum += stream.get_1d(dimension) + stream.get_2d(dimension).x;
+        }
       }
     }
   }
@@ -43,15 +45,19 @@ TEST_CASE("samplers: no number takes memory from the heap") {
   load_modules(registry, PHAROS_PLUGINS, true);
   const conformance::ExampleFolder folder;
   int tested = 0;
-  for (const auto& s : conformance::first_cases(registry, Sampler::contract_name, folder.path())) {
-    const auto& sampler = static_cast<const Sampler&>(*s.component);
-    if (sampler.needs_probe()) continue;
-    CAPTURE(s.plugin->name);
-    for (const std::uint32_t samples : {0u, 64u}) {
-      const auto prepared = sampler.prepare({64, 64}, {1, samples}, nullptr);
-      const std::uint64_t taken = allocations_of(*prepared);
-      CHECK(taken == 0);
-      ++tested;
+  for (const std::string& name : registry.names(Sampler::contract_name)) {
+    const PluginInfo& plugin = *registry.find(Sampler::contract_name, name);
+    for (const auto& s : conformance::cases_of(registry, plugin, folder.path()).subjects) {
+      const auto& sampler = static_cast<const Sampler&>(*s.component);
+      if (sampler.needs_probe()) continue;
+      CAPTURE(name);
+      CAPTURE(s.settings);
+      for (const std::uint32_t samples : {0u, 64u}) {
+        const auto prepared = sampler.prepare({64, 64}, {1, samples}, nullptr);
+        const std::uint64_t taken = allocations_of(*prepared);
+        CHECK(taken == 0);
+        ++tested;
+      }
     }
   }
   CHECK(tested >= 20);

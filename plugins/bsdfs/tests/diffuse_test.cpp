@@ -27,4 +27,21 @@ TEST_CASE("diffuse: the weight is the reflectance") {
   CHECK(s->event == Event::smooth_reflect);
 }
 
+TEST_CASE("diffuse: the map of samples changes their density alone") {
+  const Diffuse round({.reflectance = test::uniform(Rgb(0.6f))});
+  const Diffuse straight(
+      {.reflectance = test::uniform(Rgb(0.6f)), .warp = HemisphereWarp::octahedral});
+  const Vec3 wo = test::direction(10, 0);
+  for (const double theta : {20.0, 70.0}) {
+    const Vec3 wi = test::direction(theta, 30);
+    CHECK(straight.evaluate({}, wo, wi, {}).value == round.evaluate({}, wo, wi, {}).value);
+    CHECK_FALSE(straight.evaluate({}, wo, wi, {}).pdf == round.evaluate({}, wo, wi, {}).pdf);
+  }
+  // Upwards: 0.6 / pi over 1/2.
+  const auto up = straight.sample({}, wo, 0, {0.5f, 0.5f}, {});
+  REQUIRE(up);
+  CHECK(up->direction == Vec3{0, 0, 1});
+  CHECK(up->weight.g == doctest::Approx(1.2 / M_PI));
+}
+
 }  // namespace pharos

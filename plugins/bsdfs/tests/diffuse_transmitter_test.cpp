@@ -71,4 +71,18 @@ TEST_CASE("diffuse transmitter: gives no light away") {
   CHECK_THROWS_WITH_AS(build({0, 0.7f, 0}), doctest::Contains("are 0.4 and 0.7"), InputError);
 }
 
+TEST_CASE("diffuse transmitter: samples follow the density of either map") {
+  for (const HemisphereWarp warp : {HemisphereWarp::concentric, HemisphereWarp::octahedral}) {
+    const DiffuseTransmitter bsdf({.transmittance = test::uniform(Rgb(0.5f)),
+                                   .reflectance = test::uniform(Rgb(0.3f)),
+                                   .warp = warp});
+    const Vec3 wo = test::direction(130, 20);
+    const auto fit = test::fit_smooth(bsdf, wo, {}, 5);
+    CHECK(fit.is_density());
+    CHECK(fit.integral == doctest::Approx(1).epsilon(2e-3));
+    CHECK(fit.chi_square.p_value > 1e-3);
+    test::check_samples(bsdf, wo, {});
+  }
+}
+
 }  // namespace pharos

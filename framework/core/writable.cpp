@@ -1,10 +1,9 @@
-#include "writable.h"
-
 #include <unistd.h>
 
 #include <fmt/format.h>
 
 #include <pharos/core/error.h>
+#include <pharos/core/writable.h>
 
 namespace pharos {
 

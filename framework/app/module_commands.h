@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+#include <pharos/config/registry.h>
+
+namespace CLI {
+class App;
+}
+
+namespace pharos {
+
+/// Whether the program has a subcommand of this name.
+bool has_command(const CLI::App& app, const std::string& name);
+
+/// Adds every registered Command as a subcommand; its callback stores the exit code in `exit_code`.
+/// The registry must outlive the parsing. Throws InputError for a name that `app` has already.
+void add_module_commands(CLI::App& app, const Registry& registry, int& exit_code);
+
+}  // namespace pharos

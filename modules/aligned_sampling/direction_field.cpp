@@ -1,0 +1,86 @@
+#include "direction_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include <pharos/core/parallel.h>
+
+namespace pharos::aligned {
+namespace {
+
+/// Looks at one dimension of one region.
+class RegionProbe {
+ public:
+  RegionProbe(const IntegrandProbe& probe, const ProbeGrid& grid,
+              std::span<const std::uint32_t> pixels, Dimension dimension, std::uint64_t seed)
+      : probe_(probe), grid_(grid), pixels_(pixels), dimension_(dimension), seed_(seed) {}
+
+  /// The values at all points of the grid, tile after tile. What is not finite counts as zero.
+  std::vector<float> values() const {
+    const std::vector<std::uint32_t> pixels = tile_pixels();
+    std::vector<float> values;
+    values.reserve(grid_.size());
+    std::vector<Rgb> colors(grid_.tile_size());
+    for (int tile = 0; tile < grid_.tile_count(); ++tile) {
+      probe_.evaluate(query(pixels[static_cast<std::size_t>(tile)], tile),
+                      grid_.points(tile, seed_), colors);
+      for (const Rgb color : colors) values.push_back(is_finite(color) ? mean(color) : 0);
+    }
+    return values;
+  }
+
+ private:
+  /// A pixel for each tile: spread evenly over the region, and unrelated to where the tile lies.
+  std::vector<std::uint32_t> tile_pixels() const {
+    const auto tiles = static_cast<std::size_t>(grid_.tile_count());
+    RandomStream random(seed_, tiles);
+    std::vector<std::uint32_t> chosen;
+    for (std::size_t i = 0; i < tiles; ++i) {
+      const double place = (static_cast<double>(i) + random.next_1d()) / static_cast<double>(tiles);
+      chosen.push_back(
+          pixels_[static_cast<std::size_t>(place * static_cast<double>(pixels_.size()))]);
+    }
+    for (std::size_t i = tiles; i-- > 1;) std::swap(chosen[i], chosen[random() % (i + 1)]);
+    return chosen;
+  }
+
+  ProbeQuery query(std::uint32_t pixel, int tile) const {
+    const auto width = static_cast<std::uint32_t>(probe_.grid().width);
+    return {.x = static_cast<int>(pixel % width),
+            .y = static_cast<int>(pixel / width),
+            .dimension = dimension_,
+            .others = {.seed = seed_, .index = pixel, .sample = static_cast<std::uint32_t>(tile)},
+            .max_depth = static_cast<std::uint16_t>(dimension_.bounce() + 2)};
+  }
+
+  const IntegrandProbe& probe_;
+  const ProbeGrid& grid_;
+  std::span<const std::uint32_t> pixels_;
+  Dimension dimension_;
+  std::uint64_t seed_;
+};
+
+}  // namespace
+
+DirectionField estimate_directions(const IntegrandProbe& probe, std::vector<Dimension> dimensions,
+                                   const EstimationSettings& settings, int most,
+                                   std::uint64_t seed) {
+  PixelRegions regions = settings.surfaces
+                             ? surface_regions(probe, settings.block, *settings.surfaces)
+                             : block_regions(probe.grid(), settings.block);
+  std::vector<FreeDirections> directions(dimensions.size() * regions.count());
+  parallel_for(directions.size(), [&](std::size_t i) {
+    const Dimension dimension = dimensions[i / regions.count()];
+    const std::size_t region = i % regions.count();
+    const std::uint64_t key = hash_combine(hash_combine(mix_bits(seed), dimension.code()), region);
+    const RegionProbe look(probe, settings.grid, regions.pixels(region), dimension, key);
+    directions[i] =
+        principal_directions(direction_histogram(look.values(), settings.grid, settings.edges),
+                             settings.principal, most);
+  });
+  return {std::move(regions), std::move(dimensions), std::move(directions)};
+}
+
+}  // namespace pharos::aligned

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+#include <pharos/config/command.h>
+#include <pharos/config/schema.h>
+
+namespace pharos::aligned {
+
+/// See directions_command.cpp.
+class DirectionsCommand final : public Command {
+ public:
+  struct Settings {
+    std::filesystem::path render;
+    std::filesystem::path output;
+    std::uint32_t samples = 16;
+    int scale = 4;
+
+    static void describe(Schema<Settings>& schema);
+  };
+  /// Throws InputError for a picture of another kind than PNG.
+  explicit DirectionsCommand(const Settings& settings);
+  CommandEnd run(const CommandControl& control) const override;
+
+ private:
+  Settings settings_;
+};
+
+}  // namespace pharos::aligned

@@ -1,0 +1,14 @@
+#include <pharos/config/module.h>
+
+#include "aligned_sampler.h"
+#include "directions_command.h"
+#include "synthesize_command.h"
+
+PHAROS_MODULE(registry) {
+  using namespace pharos::aligned;
+  registry.add<AlignedSampler>("aligned", "Points aligned with the edges of integrands");
+  registry.add<DirectionsCommand>("directions",
+                                  "Make a picture of the directions that edges have in a scene");
+  registry.add<SynthesizeCommand>("synthesize",
+                                  "Make point sets with low energy in stated directions");
+}

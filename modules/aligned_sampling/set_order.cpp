@@ -1,0 +1,29 @@
+#include "set_order.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <tuple>
+
+namespace pharos::aligned {
+namespace {
+
+void sort(std::span<GridPoint> points, bool by_x) {
+  if (points.size() < 2) return;
+  const std::size_t half = points.size() / 2;
+  // Points of the same x are told apart by y, and the other way round: only equal ones are not.
+  const auto is_lower = [by_x](GridPoint a, GridPoint b) {
+    return by_x ? std::tie(a.x, a.y) < std::tie(b.x, b.y) : std::tie(a.y, a.x) < std::tie(b.y, b.x);
+  };
+  std::nth_element(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(half), points.end(),
+                   is_lower);
+  sort(points.first(half), !by_x);
+  sort(points.subspan(half), !by_x);
+}
+
+}  // namespace
+
+void sort_into_cells(std::span<GridPoint> points) {
+  sort(points, true);
+}
+
+}  // namespace pharos::aligned

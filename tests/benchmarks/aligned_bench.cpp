@@ -1,0 +1,116 @@
+// What aligned sampling costs. `aligned.synthesis_s.N` is the time, on all cores, of a set of N
+// points with one direction beside the axes. `aligned.value_ns` is that of an aligned number, with
+// its share of a path's beginning, and `sampler.aligned.*` is as in sampler_costs.h: of eleven
+// numbers two are aligned and nine the base's. `aligned.estimation_spp` is the time that the
+// sampler takes before rendering, less its base's, over that of a plain sample of all pixels, of
+// the Cornell box with direct light alone, whose samples cost little.
+
+#include <aligned_sampling/synthesis.h>
+#include <chrono>
+
+#include <fmt/format.h>
+
+#include <pharos/config/module_loader.h>
+#include <pharos/rendering/render_job.h>
+
+#include "bench_scenes.h"
+#include "renders.h"
+#include "sampler_costs.h"
+
+namespace pharos::bench {
+namespace {
+
+constexpr PixelGrid kFilm{256, 256};
+constexpr std::uint32_t kSamples = 64;
+constexpr std::uint16_t kLights = 4;  ///< that values are asked for
+
+template <class Work>
+double seconds_of(Work&& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+Measurement synthesis(int repeats) {
+  aligned::SynthesisSettings settings;
+  settings.points = 4096;
+  settings.directions = {30};
+  Measurement seconds{fmt::format("aligned.synthesis_s.{}", settings.points), "s", {}};
+  for (int i = 0; i < repeats; ++i) {
+    seconds.runs.push_back(seconds_of([&] { aligned::synthesize(settings); }));
+  }
+  return seconds;
+}
+
+/// The numbers that the sampler is asked for here are all aligned.
+float aligned_values(const SampleStream& stream) {
+  const Vec2 lens = stream.get_2d({Purpose::lens});
+  const Vec2 bsdf = stream.get_2d({Purpose::bsdf_direction, 1});
+  float sum = (lens.x + lens.y) + (bsdf.x + bsdf.y);
+  for (std::uint16_t light = 0; light < kLights; ++light) {
+    const Vec2 u = stream.get_2d({Purpose::light_position, 1, light});
+    sum += u.x + u.y;
+  }
+  return sum;
+}
+
+std::vector<Measurement> values(int repeats) {
+  const Registry registry = load_default_modules();
+  BuildContext context{.registry = registry};
+  ConfigNode resolved;
+  const auto sampler = registry.build<Sampler>(
+      parse_yaml(
+          "{ type: aligned, angles: [30], purposes: [light_position, bsdf_direction, lens] }",
+          "aligned"),
+      context, resolved);
+  const auto prepared = sampler->prepare(kTimedFilm, kTimedPlan, nullptr);
+  Measurement value{"aligned.value_ns", "ns", {}};
+  for (int i = 0; i < repeats; ++i) {
+    value.runs.push_back(time_paths(*prepared, aligned_values) / (2 + kLights));
+  }
+  std::vector<Measurement> all = measure_sampler("aligned", *sampler, repeats);
+  all.insert(all.begin(), value);
+  return all;
+}
+
+LoadedConfig direct_light(const std::string& sampler) {
+  return testing::config_from(
+      scene_entry("cornell-box") +
+      fmt::format("film: {{ width: {}, height: {}, filter: box }}\n"
+                  "integrator: {{ type: path, max_depth: 2, light_selection: all }}\n"
+                  "sampler: {}\nbudget: {{ spp: {} }}\n",
+                  kFilm.width, kFilm.height, sampler, kSamples));
+}
+
+Measurement estimation(int repeats) {
+  const LoadedConfig aligned = direct_light("aligned"), plain = direct_light("pmj02bn");
+  const Scene scene(aligned.config.scene);
+  const auto sensor = scene.sensor().prepare(kFilm.width, kFilm.height);
+  const auto integrator =
+      aligned.config.integrator->prepare({scene, *sensor, kFilm.width, kFilm.height});
+  const auto probe = integrator->probe();
+  const SamplePlan plan{.seed = 1, .samples_per_pixel = kSamples};
+  const auto prepare = [&](const LoadedConfig& loaded) {
+    return seconds_of([&] { loaded.config.sampler->prepare(kFilm, plan, probe.get()); });
+  };
+  prepare(aligned);  // sets are read once
+  RenderJob job(plain.config);
+  Measurement spp{"aligned.estimation_spp", "samples", {}};
+  for (int i = 0; i < repeats; ++i) {
+    const double looking = prepare(aligned) - prepare(plain);
+    const double sample = job.run().times.rendering / kSamples;
+    spp.runs.push_back(looking / sample);
+  }
+  return spp;
+}
+
+}  // namespace
+
+std::vector<Measurement> bench_aligned(int repeats) {
+  std::vector<Measurement> all{synthesis(repeats)};
+  for (Measurement& m : values(repeats)) all.push_back(std::move(m));
+  all.push_back(estimation(repeats));
+  return all;
+}
+
+}  // namespace pharos::bench

@@ -1,0 +1,20 @@
+// A module with a command of the program's own name.
+#include <pharos/config/command.h>
+#include <pharos/config/module.h>
+
+namespace {
+
+class OtherRender final : public pharos::Command {
+ public:
+  using Settings = pharos::NoSettings;
+  explicit OtherRender(const Settings&) {}
+  pharos::CommandEnd run(const pharos::CommandControl&) const override {
+    return pharos::CommandEnd::done;
+  }
+};
+
+}  // namespace
+
+PHAROS_MODULE(registry) {
+  registry.add<OtherRender>("render", "Another rendering");
+}
