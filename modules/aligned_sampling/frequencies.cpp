@@ -13,14 +13,16 @@ int squared_length(const TargetPower& v) {
   return v.x * v.x + v.y * v.y;
 }
 
-/// The frequencies of the half plane in the wedges and strips, up to a length.
-std::vector<TargetPower> members(std::span<const Direction> directions, const SuppressionRule& rule,
-                                 double longest) {
+/// The frequencies of the half plane in the wedges and strips.
+std::vector<TargetPower> members(std::uint32_t points, std::span<const Direction> directions,
+                                 const SuppressionRule& rule) {
+  const double longest = rule.radius * std::sqrt(points);
+  const double strip = rule.strip * std::sqrt(std::sqrt(points));
   const double slope = std::tan(rule.half_angle * kRadians);
   const auto is_near = [&](int x, int y) {
     return std::ranges::any_of(directions, [&](const Direction& d) {
       const double along = std::abs(x * d.x + y * d.y), across = std::abs(x * d.y - y * d.x);
-      return across <= std::max(rule.strip, slope * along);
+      return across <= std::max(strip, slope * along);
     });
   };
   std::vector<TargetPower> all;
@@ -81,7 +83,7 @@ void SuppressionRule::describe(Schema<SuppressionRule>& s) {
       .at_most(45);
   s.field("strip", &SuppressionRule::strip,
           "Frequencies as near as this to a direction's line are suppressed, too")
-      .unit("1/edge")
+      .unit("fourth root of the number of points")
       .at_least(0);
   s.field("share", &SuppressionRule::share,
           "Most frequencies that are suppressed: if there were more, the radius is shorter")
@@ -103,7 +105,7 @@ Direction direction_of(double degrees) {
 std::vector<TargetPower> suppressed_frequencies(std::uint32_t points,
                                                 std::span<const Direction> directions,
                                                 const SuppressionRule& rule) {
-  std::vector<TargetPower> all = members(directions, rule, rule.radius * std::sqrt(points));
+  std::vector<TargetPower> all = members(points, directions, rule);
   keep_shortest(all, static_cast<std::size_t>(rule.share * points));
   set_weights(all, rule.low_frequencies);
   return all;

@@ -21,11 +21,12 @@ struct TargetPower {
 
 /// Which frequencies are suppressed.
 struct SuppressionRule {
-  double radius = 2;           ///< highest length, in units of the square root of N
-  double half_angle = 4;       ///< of the wedge about each direction [degrees]
-  double strip = 1;            ///< frequencies no further than this from a direction's line, too
-  double share = 0.9;          ///< most of them, in units of N
-  double low_frequencies = 1;  ///< weights are the length to the power of minus this
+  double radius = 2;      ///< highest length, in units of the square root of N
+  double half_angle = 3;  ///< of the wedge about each direction [degrees]
+  double strip = 0.75;  ///< half width of a strip along each direction's line, too, in units of the
+                        ///< fourth root of N
+  double share = 0.9;   ///< most of them, in units of N
+  double low_frequencies = 2;  ///< weights are the length to the power of minus this
 
   friend bool operator==(const SuppressionRule&, const SuppressionRule&) = default;
   static void describe(Schema<SuppressionRule>& schema);

@@ -95,12 +95,16 @@ class Descent {
     statistics::AdamRates rates;
     rates.learning_rate = length;
     for (std::size_t i = 0; i < points_.size(); ++i) {
-      points_.x[i] += by_x_[i].step(gradient.x[i], rates);
-      points_.y[i] += by_y_[i].step(gradient.y[i], rates);
+      points_.x[i] = on_torus(points_.x[i] + by_x_[i].step(gradient.x[i], rates));
+      points_.y[i] = on_torus(points_.y[i] + by_y_[i].step(gradient.y[i], rates));
     }
   }
 
  private:
+  /// What leaves the square comes in on its other side, before projections are sorted again: a rank
+  /// lost there would put all others off by one.
+  static double on_torus(double u) { return u - std::floor(u); }
+
   Coordinates points_;
   std::vector<statistics::Adam> by_x_, by_y_;
 };
@@ -110,7 +114,6 @@ double step_length(const SynthesisSettings& settings, int step) {
   return settings.step / std::sqrt(settings.points) * 0.5 * (1 + std::cos(phase));
 }
 
-/// (Points that left the square come in on its other side: spectra are those of the torus.)
 PointSet rounded(const Coordinates& points) {
   PointSet set;
   set.reserve(points.size());
