@@ -60,7 +60,7 @@ constexpr float cosine_hemisphere_pdf(float cos_theta) {
 inline Vec3 octahedral_hemisphere_from_square(Vec2 u) {
   const float a = 2 * u.x - 1, b = 2 * u.y - 1;
   // The diamond |x| + |y| <= 1 is the square turned by 45 degrees.
-  return normalize({0.5f * (a + b), 0.5f * (a - b), 1 - std::max(std::abs(a), std::abs(b))});
+  return normalize(Vec3{0.5f * (a + b), 0.5f * (a - b), 1 - std::max(std::abs(a), std::abs(b))});
 }
 /// Inverse of octahedral_hemisphere_from_square for unit directions with z >= 0.
 Vec2 square_from_octahedral_hemisphere(Vec3 direction);
