@@ -112,10 +112,10 @@ TEST_CASE("octahedral hemisphere: straight lines become great circles") {
   // Within one face; the concentric map bends the same line.
   const auto bend = [](auto&& warp) {
     const Vec3 from = warp(Vec2{0.6f, 0.55f}), to = warp(Vec2{0.95f, 0.8f});
-    return std::abs(dot(cross(from, to), warp(Vec2{0.775f, 0.675f})));
+    return std::abs(dot(normalize(cross(from, to)), warp(Vec2{0.775f, 0.675f})));
   };
   CHECK(bend(octahedral_hemisphere_from_square) < 1e-6f);
-  CHECK(bend(cosine_hemisphere_from_square) > 1e-2f);
+  CHECK(bend(cosine_hemisphere_from_square) > 1e-3f);
 }
 
 TEST_CASE("the fits have the power that is claimed for them") {

@@ -21,7 +21,7 @@ std::vector<Dimension> aligned_dimensions(std::span<const Purpose> purposes, int
 DimensionPlaces::DimensionPlaces(std::span<const Dimension> dimensions) {
   for (std::size_t i = 0; i < dimensions.size(); ++i) {
     Branches& b = branches_[static_cast<std::size_t>(dimensions[i].purpose())];
-    if (b.count == 0) b = {dimensions[i].bounce(), 0, static_cast<int>(i)};
+    if (b.count == 0) b = {dimensions[i].code(), 0, static_cast<std::uint32_t>(i)};
     ++b.count;
   }
 }

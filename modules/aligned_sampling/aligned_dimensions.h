@@ -29,15 +29,17 @@ class DimensionPlaces {
   /// -1 when the dimension is not in the list.
   int find(Dimension dimension) const {
     const Branches& b = branches_[static_cast<std::size_t>(dimension.purpose())];
-    const bool is_here = dimension.bounce() == b.bounce && dimension.branch() < b.count;
-    return is_here ? b.first + dimension.branch() : -1;
+    // Another bounce is further away than there are branches, in either direction.
+    const std::uint64_t branch = (dimension.code() - b.first_code) >> 8;
+    return branch < b.count ? static_cast<int>(b.first_place + branch) : -1;
   }
 
  private:
   /// Those of one purpose.
   struct Branches {
-    std::uint16_t bounce = 0, count = 0;
-    int first = 0;
+    std::uint64_t first_code = 0;
+    std::uint32_t count = 0;
+    std::uint32_t first_place = 0;
   };
 
   std::array<Branches, kPurposeCount> branches_;

@@ -40,47 +40,45 @@
 namespace pharos::aligned {
 namespace {
 
-/// The point sets in use, and which one is for what number in what region.
+/// Gathers the point sets in use.
 class SetTable {
  public:
-  static constexpr std::uint16_t kNone = 0xffff;
+  static constexpr std::uint32_t kNone = 0xffffffff;
 
-  SetTable(const DirectionField& field, const PointSetLibrary& library, std::uint32_t size)
-      : size_(size), regions_(std::max<std::size_t>(field.regions().count(), 1)) {
-    std::map<std::vector<int>, std::uint16_t> known;
-    for (std::size_t i = 0; i < field.dimensions().size(); ++i) {
-      for (std::size_t region = 0; region < field.regions().count(); ++region) {
-        const FreeDirections& wanted = field.at(i, region);
-        const std::vector<double> angles(wanted.begin(), wanted.end());
-        sets_.push_back(angles.empty() ? kNone : set_for(angles, library, known));
-      }
-    }
-  }
+  SetTable(const PointSetLibrary& library, std::uint32_t size) : library_(library), size_(size) {}
 
-  /// Null: none.
-  const GridPoint* find(int dimension, std::uint32_t region) const {
-    const std::uint16_t set = sets_[static_cast<std::size_t>(dimension) * regions_ + region];
-    return set == kNone ? nullptr : points_.data() + static_cast<std::size_t>(set) * size_;
-  }
-
- private:
-  std::uint16_t set_for(const std::vector<double>& angles, const PointSetLibrary& library,
-                        std::map<std::vector<int>, std::uint16_t>& known) {
-    const auto next = static_cast<std::uint16_t>(known.size());
-    const auto [entry, is_new] = known.try_emplace(library.snapped(angles), next);
+  /// Where in points() the set for these directions begins; kNone where there are none.
+  std::uint32_t begin_of(const FreeDirections& directions) {
+    if (directions.count == 0) return kNone;
+    const std::vector<double> wanted(directions.begin(), directions.end());
+    const auto next = static_cast<std::uint32_t>(points_.size());
+    const auto [entry, is_new] = begins_.try_emplace(library_.snapped(wanted), next);
     if (is_new) {
-      PointSet set = library.find(angles, size_);
+      PointSet set = library_.find(wanted, size_);
       sort_into_cells(set);
       points_.insert(points_.end(), set.begin(), set.end());
     }
     return entry->second;
   }
+  /// Set after set, each sorted into cells.
+  const PointSet& points() const { return points_; }
 
+ private:
+  const PointSetLibrary& library_;
   std::uint32_t size_;
-  std::size_t regions_;
-  std::vector<GridPoint> points_;    ///< set after set, each sorted into cells
-  std::vector<std::uint16_t> sets_;  ///< by dimension and region
+  std::map<std::vector<int>, std::uint32_t> begins_;
+  PointSet points_;
 };
+
+/// A product of 128 bits.
+struct WideProduct {
+  std::uint64_t high, low;
+};
+WideProduct wide_product(std::uint64_t a, std::uint64_t b) {
+  __extension__ using Long = unsigned __int128;
+  const Long product = Long{a} * b;
+  return {static_cast<std::uint64_t>(product >> 64), static_cast<std::uint64_t>(product)};
+}
 
 class PreparedAligned final : public PreparedSampler {
  public:
@@ -88,11 +86,20 @@ class PreparedAligned final : public PreparedSampler {
                   const PointSetLibrary& library, std::uint32_t size)
       : base_(std::move(base)),
         places_(field.dimensions()),
-        sets_(field, library, size),
-        bits_(std::countr_zero(size)) {
-    for (std::size_t i = 0; i < field.regions().pixel_count(); ++i) {
-      region_of_.push_back(field.regions().of(i));
+        bits_(std::countr_zero(size)),
+        orders_(bits_),
+        pixel_count_(field.regions().pixel_count()) {
+    SetTable table(library, size);
+    for (std::size_t i = 0; i < field.dimensions().size(); ++i) {
+      std::vector<std::uint32_t> of_regions;
+      for (std::size_t region = 0; region < field.regions().count(); ++region) {
+        of_regions.push_back(table.begin_of(field.at(i, region)));
+      }
+      for (std::size_t pixel = 0; pixel < pixel_count_; ++pixel) {
+        sets_.push_back(of_regions[field.regions().of(pixel)]);
+      }
     }
+    points_ = table.points();
   }
 
   std::uint64_t begin(const PathKey& key) const override { return base_->begin(key); }
@@ -102,26 +109,31 @@ class PreparedAligned final : public PreparedSampler {
   Vec2 value_2d(const SampleStream& stream, Dimension dimension) const override {
     const int place = places_.find(dimension);
     if (place < 0) return base_->value_2d(stream, dimension);
-    const GridPoint* set = sets_.find(place, region_of(stream.key().index));
-    if (set == nullptr) return base_->value_2d(stream, dimension);
-    return shifted(set, stream.key(), dimension);
+    const std::uint32_t set = set_of(stream.key().index, place);
+    if (set == SetTable::kNone) return base_->value_2d(stream, dimension);
+    return shifted(points_.data() + set, stream.key(), dimension);
   }
 
  private:
-  /// Paths that are of no pixel of the film, such as those of other films, belong to the first
-  /// region: any set's points are uniform.
-  std::uint32_t region_of(std::uint64_t pixel) const {
-    return pixel < region_of_.size() ? region_of_[pixel] : 0;
+  /// Where in `points_` the set begins. Paths that are of no pixel of the film have that of the
+  /// first pixel: any set's points are uniform.
+  std::uint32_t set_of(std::uint64_t pixel, int place) const {
+    const std::size_t known = pixel < pixel_count_ ? pixel : 0;
+    return sets_[static_cast<std::size_t>(place) * pixel_count_ + known];
   }
 
-  /// The sample's point, moved by an offset that all samples of the pixel's set share.
+  /// The sample's point, moved by an offset that all samples of the pixel's set share. Every path
+  /// pays for the hash: both halves of two wide products, each of whose bits hangs on many of both
+  /// factors.
   Vec2 shifted(const GridPoint* set, const PathKey& key, Dimension dimension) const {
-    const std::uint64_t offset =
-        mix_bits(key.seed * 0xd1342543de82ef95ull + key.iteration * 0xaf251af3b0f025b5ull +
-                 key.index * 0xb564ef22ec7aece5ull + (key.sample >> bits_) * 0xf7c2ebc08f67f2b5ull +
-                 dimension.code() * 0x9fb21c651e98df25ull + 0x2545f4914f6cdd1dull);
-    const auto order = static_cast<std::uint32_t>((offset * 0x9e3779b97f4a7c15ull) >> 32);
-    const GridPoint p = set[place_in_set(key.sample, bits_, order)];
+    const std::uint64_t pixel = key.index * 0xb564ef22ec7aece5ull + key.seed;
+    const std::uint64_t part = dimension.code() * 0x9fb21c651e98df25ull +
+                               ((std::uint64_t{key.iteration} << 32) | (key.sample >> bits_));
+    const WideProduct mixed =
+        wide_product(pixel ^ 0xd1342543de82ef95ull, part ^ 0xaf251af3b0f025b5ull);
+    const WideProduct bits = wide_product(mixed.high ^ mixed.low, 0xf7c2ebc08f67f2b5ull);
+    const std::uint64_t offset = bits.high ^ bits.low;
+    const GridPoint p = set[orders_.place(key.sample, static_cast<std::uint32_t>(bits.high))];
     // Sums of 32 bits wrap around as the torus does.
     return {to_unit_float((std::uint32_t{p.x} << 16) + static_cast<std::uint32_t>(offset >> 32)),
             to_unit_float((std::uint32_t{p.y} << 16) + static_cast<std::uint32_t>(offset))};
@@ -129,9 +141,11 @@ class PreparedAligned final : public PreparedSampler {
 
   std::unique_ptr<const PreparedSampler> base_;
   DimensionPlaces places_;
-  SetTable sets_;
-  std::vector<std::uint32_t> region_of_;  ///< by pixel
-  int bits_;                              ///< of a set's size
+  int bits_;  ///< of a set's size
+  SetOrders orders_;
+  std::size_t pixel_count_;
+  std::vector<std::uint32_t> sets_;  ///< by dimension, then by pixel
+  PointSet points_;
 };
 
 /// The same directions for all numbers, everywhere.

@@ -26,4 +26,12 @@ void sort_into_cells(std::span<GridPoint> points) {
   sort(points, true);
 }
 
+SetOrders::SetOrders(int bits) : mask_((1u << bits) - 1), shift_(32 - bits) {
+  reversed_.assign(std::size_t{1} << bits, 0);
+  // An index has the bits of its half, and one more at the other end.
+  for (std::uint32_t i = 1; i <= mask_; ++i) {
+    reversed_[i] = reversed_[i / 2] / 2 | (i % 2) << 31;
+  }
+}
+
 }  // namespace pharos::aligned

@@ -48,13 +48,8 @@ TEST_CASE("set order: points are sorted into the cells of a kd-tree") {
   CHECK(again == points);
 }
 
-TEST_CASE("set order: bits in reverse") {
-  CHECK(reversed_bits(1) == 0x80000000u);
-  CHECK(reversed_bits(0x00012345u) == 0xa2c48000u);
-  static_assert(reversed_bits(reversed_bits(0xdeadbeefu)) == 0xdeadbeefu);
-}
-
 TEST_CASE("set order: aligned runs of samples have a point in each cell") {
+  const SetOrders orders(kBits);
   for (const std::uint32_t seed : {0u, 1u, 0x12345678u, 0xffffffffu}) {
     CAPTURE(seed);
     for (int level = 0; level <= kBits; ++level) {
@@ -62,7 +57,7 @@ TEST_CASE("set order: aligned runs of samples have a point in each cell") {
       for (std::uint32_t first = 0; first < 3 * kCount; first += run) {
         std::vector<int> counts(run);
         for (std::uint32_t i = first; i < first + run; ++i) {
-          const std::uint32_t place = place_in_set(i, kBits, seed);
+          const std::uint32_t place = orders.place(i, seed);
           REQUIRE(place < kCount);
           ++counts[place >> (kBits - level)];
         }
@@ -74,18 +69,26 @@ TEST_CASE("set order: aligned runs of samples have a point in each cell") {
 
 TEST_CASE("set order: orders of different seeds are unrelated") {
   // How often sample i is in half a of one order and in half b of another.
+  const SetOrders orders(kBits);
   int same = 0, count = 0;
   RandomStream random(2);
   for (int pair = 0; pair < 200; ++pair) {
     const auto one = static_cast<std::uint32_t>(random()),
                other = static_cast<std::uint32_t>(random());
     for (std::uint32_t i = 0; i < kCount; ++i) {
-      const std::uint32_t a = place_in_set(i, kBits, one), b = place_in_set(i, kBits, other);
+      const std::uint32_t a = orders.place(i, one), b = orders.place(i, other);
       same += a >> (kBits - 1) == b >> (kBits - 1) ? 1 : 0;
       ++count;
     }
   }
   CHECK(same / static_cast<double>(count) == doctest::Approx(0.5).epsilon(0.04));
+}
+
+TEST_CASE("set order: of the largest sets too") {
+  const SetOrders orders(16);
+  std::vector<int> counts(65536);
+  for (std::uint32_t i = 65536; i < 2 * 65536; ++i) ++counts[orders.place(i, 12345)];
+  CHECK(std::ranges::count(counts, 1) == 65536);
 }
 
 }  // namespace pharos::aligned
