@@ -65,7 +65,7 @@ TEST_CASE("the nearest surface is found, with its object and primitive") {
   CHECK(scene.intersect({{0.5f, -0.5f, 5}, {0, 0, -1}}, p) == doctest::Approx(3));
   CHECK(p.object == 1);
   CHECK(p.primitive == 0);
-  CHECK(p.position == Point3{0.5f, -0.5f, 2});
+  CHECK(length(p.position - Point3{0.5f, -0.5f, 2}) < 1e-6f);
   CHECK(scene.intersect({{-0.5f, 0.5f, 1.5f}, {0, 0, -1}}, p) == doctest::Approx(0.5));
   CHECK(p.object == 2);
   CHECK(p.primitive == 1);

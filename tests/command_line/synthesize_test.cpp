@@ -52,7 +52,7 @@ TEST_CASE("synthesize: points as text, the same from options and from a file") {
   CHECK(points_of("points.yaml --set seed=6", settings) ==
         points_of("points.yaml --seed 6", settings));
   CHECK(points_of("points.yaml --threads 3", settings) == text);
-  CHECK(points_of("points.yaml --rule '{ radius: 1 }'", settings) != text);
+  CHECK(points_of("points.yaml --rule '{ radius: 0.4 }'", settings) != text);
 }
 
 TEST_CASE("synthesize: binary points and a picture") {
