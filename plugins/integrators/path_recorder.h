@@ -9,12 +9,6 @@
 
 namespace pharos {
 
-/// Which of a path's light samples: at which vertex, in which branch.
-struct LightSampleId {
-  std::uint16_t bounce = 0, branch = 0;
-  friend bool operator==(LightSampleId, LightSampleId) = default;
-};
-
 /// What a PathWalk reports to, call by call along the path. Nobody listens here: everything
 /// compiles to nothing. Other recorders replace what they want to hear.
 struct SilentRecorder {
@@ -25,7 +19,7 @@ struct SilentRecorder {
   void film(Vec2) {}
   void arrival(const GuidingVertex&, Rgb) {}
   void emission(Rgb, float) {}
-  void light(LightSampleId, const LightSample&, Event, const StepDensity&, float, Rgb, Rgb) {}
+  void light(const LightSample&, Event, const StepDensity&, float, Rgb, Rgb) {}
   void scattering(const LocalScattering&, float, const Guidance&) {}
   void step(const ScatterStep&, const StepDensity&, const Guidance&, Rgb, VertexKind) {}
 };
@@ -67,8 +61,8 @@ class LogRecorder {
   }
 
   /// Light found by next event estimation; `contribution` without throughput.
-  void light(LightSampleId, const LightSample& light, Event event, const StepDensity& density,
-             float mis_weight, Rgb contribution, Rgb) {
+  void light(const LightSample& light, Event event, const StepDensity& density, float mis_weight,
+             Rgb contribution, Rgb) {
     log_.add({.vertex = current_,
               .light = {.position = light.point.position,
                         .normal = light.point.normal,
@@ -119,7 +113,7 @@ class LogRecorder {
 /// Keeps the contribution of the last light sample, throughput included, for the integrand probe.
 class LightProbeRecorder : public SilentRecorder {
  public:
-  void light(LightSampleId, const LightSample&, Event, const StepDensity&, float, Rgb contribution,
+  void light(const LightSample&, Event, const StepDensity&, float, Rgb contribution,
              Rgb throughput) {
     last_ = throughput * contribution;
   }

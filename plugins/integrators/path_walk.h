@@ -82,7 +82,7 @@ class PathWalk {
     if (light.kind == VertexKind::environment) {
       light.point.position = scene_.environment_point(position(), light.direction);
     }
-    if (light.pdf > 0) add_light_sample(light, branch);
+    if (light.pdf > 0) add_light_sample(light);
   }
 
  private:
@@ -299,7 +299,7 @@ class PathWalk {
     }
   }
 
-  void add_light_sample(const LightSample& light, std::uint16_t branch) {
+  void add_light_sample(const LightSample& light) {
     const ScatterValue scatter = scattering_->evaluate(light.direction);
     Rgb value = scatter.value * light.radiance / light.pdf;
     if (is_black(value)) return;
@@ -330,8 +330,7 @@ class PathWalk {
     const float weight =
         light.discrete ? 1.0f : mis_weight(settings_.mis, light.pdf, density.total);
     radiance_ += weight * throughput_ * value;
-    recorder_.light({bounce_, branch}, light, resolved.event, density, weight, weight * value,
-                    throughput_);
+    recorder_.light(light, resolved.event, density, weight, weight * value, throughput_);
   }
 
   /// Ends a shadow ray just before the light's surface, by as much as surfaces' positions are
