@@ -40,9 +40,9 @@ TEST_CASE("modules that do not fit this program") {
                 {"no_registration.pharos.so: error: ", "'pharos_module_register'"});
   check_refused(with_modules(folder + "/taken_name"),
                 {"taken_name.pharos.so: error: ", "filter 'box'", "module 'filters'"});
-  check_refused({.arguments = "synthesize",
-                 .environment = "PHAROS_MODULE_PATH=" + folder + "/taken_command"},
-                {"module 'taken_command'", "command 'render'"});
+  check_refused(
+      {.arguments = "synthesize", .environment = "PHAROS_MODULE_PATH=" + folder + "/taken_command"},
+      {"module 'taken_command'", "command 'render'"});
 }
 
 }  // namespace
