@@ -9,19 +9,14 @@
 #include <pharos/core/error.h>
 #include <pharos/core/parallel.h>
 
+#include "lanes.h"
+
 namespace pharos::aligned {
 namespace {
 
-/// Sixteen points side by side. Compilers make of it what registers there are; the order of all
-/// sums is the same.
-constexpr std::size_t kLanes = 16;
-using Lanes = float __attribute__((vector_size(64)));
-using HalfOfLanes = float __attribute__((vector_size(32)));
-using QuarterOfLanes = float __attribute__((vector_size(16)));
-
 /// Points whose waves are multiplied at once: few enough for their table to stay in the cache.
 constexpr std::size_t kBlock = 128;
-constexpr std::size_t kVectors = kBlock / kLanes;
+constexpr std::size_t kVectors = kBlock / Lanes::kCount;
 
 /// Amplitudes are added up in so many parts, whatever the number of threads.
 constexpr std::size_t kMostParts = 16;
@@ -57,24 +52,6 @@ Waves waves_of(const std::vector<double>& coordinates, std::size_t begin, std::s
   return waves;
 }
 
-/// Adds the upper half of a vector to the lower one.
-template <class Whole, class Half>
-void fold(const Whole& whole, Half& sums) {
-  static_assert(sizeof(Whole) == 2 * sizeof(Half));
-  Half upper;
-  std::memcpy(&sums, &whole, sizeof sums);
-  std::memcpy(&upper, reinterpret_cast<const char*>(&whole) + sizeof sums, sizeof upper);
-  sums += upper;
-}
-
-float sum(const Lanes& lanes) {
-  HalfOfLanes half;
-  QuarterOfLanes quarter;
-  fold(lanes, half);
-  fold(half, quarter);
-  return (quarter[0] + quarter[2]) + (quarter[1] + quarter[3]);
-}
-
 /// Where part `part` of `parts` begins among `count`.
 std::size_t part_begin(std::size_t part, std::size_t parts, std::size_t count) {
   return part * count / parts;
@@ -106,14 +83,14 @@ class PowerSpectrumLoss::Block {
     for_each_row([&](const Row& row, const Waves& along_x) {
       for (std::size_t i = row.begin; i < row.end; ++i) {
         const Waves& along_y = along_y_[static_cast<std::size_t>(loss_.terms_[i].y)];
-        Lanes real{}, imaginary{};
+        Lanes real, imaginary;
         for (std::size_t k = 0; k < kVectors; ++k) {
           real += along_x.real[k] * along_y.real[k] - along_x.imaginary[k] * along_y.imaginary[k];
           imaginary +=
               along_x.real[k] * along_y.imaginary[k] + along_x.imaginary[k] * along_y.real[k];
         }
-        sums[2 * i] += sum(real);
-        sums[2 * i + 1] += sum(imaginary);
+        sums[2 * i] += real.sum();
+        sums[2 * i + 1] += imaginary.sum();
       }
     });
   }
@@ -121,11 +98,11 @@ class PowerSpectrumLoss::Block {
   /// Adds to the gradient of this block's points, for each term with the factor f, the imaginary
   /// part of conj(f) times their wave, times the frequency. `factors` has both parts of each.
   void add_gradient(const std::vector<float>& factors, Coordinates& gradient) const {
-    Lanes by_x[kVectors] = {}, by_y[kVectors] = {};
+    Lanes by_x[kVectors], by_y[kVectors];
     for_each_row([&](const Row& row, const Waves& along_x) {
       for (std::size_t k = 0; k < kVectors; ++k) {
         const Lanes x_real = along_x.real[k], x_imaginary = along_x.imaginary[k];
-        Lanes of_row{}, of_y = by_y[k];
+        Lanes of_row, of_y = by_y[k];
         for (std::size_t i = row.begin; i < row.end; ++i) {
           const Waves& along_y = along_y_[static_cast<std::size_t>(loss_.terms_[i].y)];
           const Lanes real = x_real * along_y.real[k] - x_imaginary * along_y.imaginary[k];
@@ -139,8 +116,9 @@ class PowerSpectrumLoss::Block {
       }
     });
     for (std::size_t i = begin_; i < end_; ++i) {
-      gradient.x[i] += static_cast<double>(by_x[(i - begin_) / kLanes][(i - begin_) % kLanes]);
-      gradient.y[i] += static_cast<double>(by_y[(i - begin_) / kLanes][(i - begin_) % kLanes]);
+      const std::size_t k = (i - begin_) / Lanes::kCount, lane = (i - begin_) % Lanes::kCount;
+      gradient.x[i] += static_cast<double>(by_x[k][lane]);
+      gradient.y[i] += static_cast<double>(by_y[k][lane]);
     }
   }
 
