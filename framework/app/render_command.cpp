@@ -51,7 +51,7 @@ void replay_path(RenderJob& job, const RenderConfig& config,
                  const std::vector<std::uint32_t>& numbers) {
   const int x = static_cast<int>(numbers[0]), y = static_cast<int>(numbers[1]);
   const PixelRect window = config.film.window();
-  if (x < window.x0 || y < window.y0 || x >= window.x1 || y >= window.y1) {
+  if (!window.contains(x, y)) {
     throw InputError(fmt::format("--replay: error: pixel ({}, {}) is not on the film of {} x {}{}",
                                  numbers[0], numbers[1], config.film.width, config.film.height,
                                  config.film.crop ? ", or not in its window" : ""));

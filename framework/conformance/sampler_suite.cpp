@@ -24,6 +24,7 @@ class StageProbe final : public IntegrandProbe {
  public:
   explicit StageProbe(PixelGrid grid) : grid_(grid) {}
   PixelGrid grid() const override { return grid_; }
+  PixelRect window() const override { return {0, 0, grid_.width, grid_.height}; }
   int light_branches() const override { return 1; }
   void evaluate(const ProbeQuery& query, std::span<const Vec2> points,
                 std::span<Rgb> values) const override {

@@ -60,11 +60,14 @@ std::vector<RunMeasure> all_measures() {
   add("error_times_seconds", "relMSE x time", "s",
       "relMSE times the seconds it took: the inverse of efficiency", Better::lower, true,
       [](const R& r) { return r.errors[Metric::relative_mse] * r.seconds(); });
-  add("seconds", "time", "s", "Wall-clock time of training, updates and rendering", Better::neither,
-      true, [](const R& r) { return r.seconds(); });
+  add("seconds", "time", "s", "Wall-clock time of what a budget counts: all but the preparation",
+      Better::neither, true, [](const R& r) { return r.seconds(); });
   add("seconds_preparation", "preparation", "s",
-      "Wall-clock time of acceleration structure and sampler, not counted in a budget",
+      "Wall-clock time of building the acceleration structure, not counted in a budget",
       Better::lower, false, [](const R& r) { return r.times.preparation; });
+  add("seconds_sampler", "sampler", "s",
+      "Wall-clock time that the sampler took to prepare itself: tables, looks at the integrand",
+      Better::lower, false, [](const R& r) { return r.times.sampler; });
   add("seconds_training", "training", "s", "Wall-clock time of rendering training iterations",
       Better::neither, false, [](const R& r) { return r.times.training; });
   add("seconds_update", "updates", "s", "Wall-clock time of the learners' updates", Better::lower,

@@ -9,23 +9,11 @@
 
 #include <pharos/config/schema.h>
 #include <pharos/core/image.h>
+#include <pharos/core/pixel_rect.h>
 #include <pharos/core/rgb.h>
 #include <pharos/rendering/filter.h>
 
 namespace pharos {
-
-/// A rectangle of pixels, upper bounds exclusive.
-struct PixelRect {
-  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-
-  int width() const { return x1 - x0; }
-  int height() const { return y1 - y0; }
-  std::size_t area() const { return static_cast<std::size_t>(width()) * height(); }
-  /// Row-major index of a pixel within the rectangle.
-  std::size_t index(int x, int y) const {
-    return static_cast<std::size_t>(y - y0) * width() + (x - x0);
-  }
-};
 
 /// First-hit features of a path, averaged over a pixel.
 struct Features {

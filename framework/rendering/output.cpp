@@ -16,6 +16,7 @@ Metadata metadata_of(const RenderResult& result, const LoadedConfig& loaded) {
       {"pharos:seed", std::to_string(loaded.config.seed)},
       {"pharos:samples_per_pixel", fmt::format("{:g}", result.samples_per_pixel)},
       {"pharos:seconds_preparation", fmt::format("{:.3f}", result.times.preparation)},
+      {"pharos:seconds_sampler", fmt::format("{:.3f}", result.times.sampler)},
       {"pharos:seconds_training", fmt::format("{:.3f}", result.times.training)},
       {"pharos:seconds_update", fmt::format("{:.3f}", result.times.update)},
       {"pharos:seconds_rendering", fmt::format("{:.3f}", result.times.rendering)},

@@ -129,15 +129,17 @@ class RenderJob::Implementation {
     const TrainingSchedule untrained{.iterations = 0};
     set_size_ = config.sampler->preferred_samples({config.seed, config.budget.spp.value_or(0)});
     iterations_ = (learns ? guiding->training : untrained).divide(config.budget, set_size_);
+    preparation_seconds_ = watch_.seconds();
     const auto probe = config.sampler->needs_probe() ? integrator_->probe() : nullptr;
     sampler_ = config.sampler->prepare({config.film.width, config.film.height},
                                        {config.seed, longest(iterations_)}, probe.get());
-    preparation_seconds_ = watch_.seconds();
+    sampler_seconds_ = watch_.seconds() - preparation_seconds_;
   }
 
   RenderResult run(const RenderControl& control) {
     begin(control);
     result_.times.preparation = preparation_seconds_;
+    result_.times.sampler = sampler_seconds_;
     for (std::uint32_t i = 0; i < iterations_.size() && !stopped(); ++i) run_iteration(i);
     // A render that was stopped while training has only training images to show.
     result_.image = combiner_.empty() ? last_image_ : combiner_.combine();
@@ -198,7 +200,7 @@ class RenderJob::Implementation {
     Film film = make_film();
     PassSizes sizes(iteration, set_size_);
     std::uint32_t done = 0;
-    const double deadline = work_up_to(index + 1);
+    const double deadline = work_up_to(index + 1) - sampler_seconds_;
     while (true) {
       const double now = watch_.seconds();
       const std::uint32_t size = sizes.next(done, now - start, deadline - now);
@@ -276,8 +278,9 @@ class RenderJob::Implementation {
 
   double film_area() const { return static_cast<double>(config_.film.window().area()); }
 
-  /// The budget of the iterations before `end`: samples a pixel, or seconds since the start. What
-  /// updates take in between is taken off the iterations that follow them.
+  /// The budget of the iterations before `end`: samples a pixel, or seconds, which count from when
+  /// the sampler began to prepare itself. What that and updates take is taken off the iterations
+  /// that follow.
   double work_up_to(std::size_t end) const {
     double work = 0;
     for (std::size_t i = 0; i < end; ++i) {
@@ -288,8 +291,8 @@ class RenderJob::Implementation {
 
   /// How far it is after `samples` a pixel of iteration `index`.
   Progress progress(std::uint32_t index, double samples) const {
-    const double done =
-        iterations_[index].samples > 0 ? work_up_to(index) + samples : watch_.seconds();
+    const double done = iterations_[index].samples > 0 ? work_up_to(index) + samples
+                                                       : sampler_seconds_ + watch_.seconds();
     return {.iteration = index,
             .iteration_count = static_cast<std::uint32_t>(iterations_.size()),
             .training = iterations_[index].training,
@@ -308,7 +311,7 @@ class RenderJob::Implementation {
   std::uint32_t set_size_ = 1;  ///< that passes fill
   std::vector<Iteration> iterations_;
   std::unique_ptr<const PreparedSampler> sampler_;
-  double preparation_seconds_ = 0;
+  double preparation_seconds_ = 0, sampler_seconds_ = 0;
 
   // Of the run in progress.
   RenderControl control_;

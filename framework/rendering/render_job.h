@@ -47,13 +47,14 @@ struct RenderControl {
 
 /// Seconds of wall-clock time by what they were spent on.
 struct RenderTimes {
-  double preparation = 0;  ///< acceleration structure, sampler
+  double preparation = 0;  ///< acceleration structure
+  double sampler = 0;      ///< the sampler's preparation: tables, looks at the integrand
   double training = 0;     ///< rendering of training iterations
   double update = 0;       ///< learners' updates
   double rendering = 0;    ///< of the final image
 
   /// What a time budget counts.
-  double budgeted() const { return training + update + rendering; }
+  double budgeted() const { return sampler + training + update + rendering; }
 };
 
 /// What a render has made.

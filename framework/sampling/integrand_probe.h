@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <span>
 
+#include <pharos/core/pixel_rect.h>
 #include <pharos/core/rgb.h>
 #include <pharos/core/vec.h>
 #include <pharos/sampling/dimension.h>
@@ -34,6 +35,8 @@ class IntegrandProbe {
   virtual ~IntegrandProbe() = default;
 
   virtual PixelGrid grid() const = 0;
+  /// The pixels that will be rendered.
+  virtual PixelRect window() const = 0;
   /// How many branches of light_position there are: the lights with selection `all`, else 1.
   virtual int light_branches() const = 0;
 

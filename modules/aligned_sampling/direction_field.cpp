@@ -62,6 +62,19 @@ class RegionProbe {
   std::uint64_t seed_;
 };
 
+/// By region, whether a pixel of it will be rendered.
+std::vector<bool> rendered_regions(const PixelRegions& regions, const IntegrandProbe& probe) {
+  const PixelRect window = probe.window();
+  const int width = probe.grid().width;
+  std::vector<bool> is_rendered(regions.count());
+  for (int y = window.y0; y < window.y1; ++y) {
+    for (int x = window.x0; x < window.x1; ++x) {
+      is_rendered[regions.of(static_cast<std::size_t>(y) * width + x)] = true;
+    }
+  }
+  return is_rendered;
+}
+
 }  // namespace
 
 DirectionField estimate_directions(const IntegrandProbe& probe, std::vector<Dimension> dimensions,
@@ -70,8 +83,10 @@ DirectionField estimate_directions(const IntegrandProbe& probe, std::vector<Dime
   PixelRegions regions = settings.surfaces
                              ? surface_regions(probe, settings.block, *settings.surfaces)
                              : block_regions(probe.grid(), settings.block);
+  const std::vector<bool> is_rendered = rendered_regions(regions, probe);
   std::vector<FreeDirections> directions(dimensions.size() * regions.count());
   parallel_for(directions.size(), [&](std::size_t i) {
+    if (!is_rendered[i % regions.count()]) return;
     const Dimension dimension = dimensions[i / regions.count()];
     const std::size_t region = i % regions.count();
     const std::uint64_t key = hash_combine(hash_combine(mix_bits(seed), dimension.code()), region);

@@ -47,11 +47,12 @@ class DirectionField {
   std::vector<FreeDirections> directions_;
 };
 
-/// Looks at the integrands of `dimensions` on the whole film and finds at most `most` principal
-/// directions in each region. Of each region grid.size() points are probed, whatever its size, of
-/// grid.tile_count() pixels. All other numbers of a path are held, and only its light up to the
-/// vertex after the one that the number decides on counts, as later ones would be noise. The same
-/// for any number of threads; `seed` decides on all that is random.
+/// Looks at the integrands of `dimensions` and finds at most `most` principal directions in each
+/// region that has a pixel in the probe's window; there are none in others. Of each region
+/// grid.size() points are probed, whatever its size, of grid.tile_count() pixels. All other numbers
+/// of a path are held, and only its light up to the vertex after the one that the number decides on
+/// counts, as later ones would be noise. The same for any number of threads; `seed` decides on all
+/// that is random.
 DirectionField estimate_directions(const IntegrandProbe& probe, std::vector<Dimension> dimensions,
                                    const EstimationSettings& settings, int most,
                                    std::uint64_t seed);

@@ -40,8 +40,10 @@ struct FreeDirections {
   const int* end() const { return degrees.data() + count; }
   /// Adds one more, of fewer than kMostFree.
   void add(int direction) {
-    degrees[static_cast<std::size_t>(count++)] = direction;
-    std::sort(degrees.begin(), degrees.begin() + count);
+    int* const last = degrees.data() + count++;
+    int* const place = std::upper_bound(degrees.data(), last, direction);
+    std::copy_backward(place, last, last + 1);
+    *place = direction;
   }
   friend auto operator<=>(const FreeDirections&, const FreeDirections&) = default;
 };

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <functional>
 #include <numbers>
 
 namespace pharos::aligned {
@@ -9,47 +11,29 @@ namespace {
 
 constexpr double kRadians = std::numbers::pi / 180;
 
-int squared_length(const TargetPower& v) {
-  return v.x * v.x + v.y * v.y;
+/// The mean of 1 / (1 + (slope sin phi)^2) over the angles phi from `first` to `last`, within a
+/// right angle: as if the sine rose evenly between them.
+double mean_across(double slope, double first, double last) {
+  if (first == last) return 1 / (1 + slope * std::sin(first) * slope * std::sin(first));
+  const double to = slope * std::sin(std::min(last, std::numbers::pi / 2));
+  const double from = slope * std::sin(first);
+  return (std::atan(to) - std::atan(from)) / (to - from);
 }
 
-/// The frequencies of the half plane in the wedges and strips.
-std::vector<TargetPower> members(std::uint32_t points, std::span<const Direction> directions,
-                                 const SuppressionRule& rule) {
-  const double longest = rule.radius * std::sqrt(points);
-  const double strip = rule.strip * std::sqrt(std::sqrt(points));
-  const double slope = std::tan(rule.half_angle * kRadians);
-  const auto is_near = [&](int x, int y) {
-    return std::ranges::any_of(directions, [&](const Direction& d) {
-      const double along = std::abs(x * d.x + y * d.y), across = std::abs(x * d.y - y * d.x);
-      return across <= std::max(strip, slope * along);
-    });
-  };
-  std::vector<TargetPower> all;
-  const int edge = static_cast<int>(longest);
-  for (int y = 0; y <= edge; ++y) {
-    for (int x = y == 0 ? 1 : -edge; x <= edge; ++x) {
-      if (x * x + y * y <= longest * longest && is_near(x, y)) all.push_back({x, y});
-    }
-  }
-  return all;
-}
-
-/// Leaves the shortest, at most `most`, all of a length or none.
-void keep_shortest(std::vector<TargetPower>& frequencies, std::size_t most) {
+/// Leaves those of the highest weights, at most `most`, of equal ones all or none.
+void keep_heaviest(std::vector<TargetPower>& frequencies, std::size_t most) {
   if (frequencies.size() <= most) return;
-  std::ranges::stable_sort(frequencies, {}, squared_length);
-  const int first_left_out = squared_length(frequencies[most]);
-  std::erase_if(frequencies,
-                [&](const TargetPower& v) { return squared_length(v) >= first_left_out; });
+  const auto first_left_out = frequencies.begin() + static_cast<std::ptrdiff_t>(most);
+  std::ranges::nth_element(frequencies, first_left_out, std::greater{}, &TargetPower::weight);
+  // What is equal by symmetry differs by rounding.
+  const double bound = first_left_out->weight * (1 + 1e-9);
+  std::erase_if(frequencies, [&](const TargetPower& v) { return v.weight <= bound; });
 }
 
-void set_weights(std::vector<TargetPower>& frequencies, double exponent) {
+/// Divides weights by their mean.
+void normalize(std::vector<TargetPower>& frequencies) {
   double sum = 0;
-  for (TargetPower& v : frequencies) {
-    v.weight = std::pow(squared_length(v), -0.5 * exponent);
-    sum += v.weight;
-  }
+  for (const TargetPower& v : frequencies) sum += v.weight;
   for (TargetPower& v : frequencies) v.weight *= static_cast<double>(frequencies.size()) / sum;
 }
 
@@ -69,30 +53,31 @@ void TargetPower::describe(Schema<TargetPower>& s) {
       .at_most(kHighest);
   s.field("power", &TargetPower::power, "What its power should be; 1 is that of random points")
       .at_least(0);
-  s.field("weight", &TargetPower::weight, "Weight of its squared error").at_least(0);
+  s.field("weight", &TargetPower::weight, "Weight of its error").at_least(0);
 }
 
 void SuppressionRule::describe(Schema<SuppressionRule>& s) {
   s.field("radius", &SuppressionRule::radius, "Highest length of suppressed frequencies")
       .unit("square root of the number of points")
       .above(0)
-      .at_most(4);
-  s.field("half_angle", &SuppressionRule::half_angle, "Of the wedge about each direction")
+      .at_most(8);
+  s.field("exact", &SuppressionRule::exact, "Share of edges taken to be normal to a direction")
+      .at_least(0)
+      .at_most(1);
+  s.field("half_angle", &SuppressionRule::half_angle,
+          "Normals of the other edges are taken to lie so near to each direction")
       .unit("degrees")
       .at_least(0)
       .at_most(45);
-  s.field("strip", &SuppressionRule::strip,
-          "Frequencies as near as this to a direction's line are suppressed, too")
-      .unit("fourth root of the number of points")
-      .at_least(0);
+  s.field("edge_length", &SuppressionRule::edge_length, "How long edges are taken to be")
+      .unit("edge of the square")
+      .above(0)
+      .at_most(1.5);
   s.field("share", &SuppressionRule::share,
-          "Most frequencies that are suppressed: if there were more, the radius is shorter")
+          "How many frequencies are suppressed: those where such edges have most energy")
       .unit("number of points")
-      .above(0);
-  s.field("low_frequencies", &SuppressionRule::low_frequencies,
-          "Errors are weighted by the length of the frequency to the power of minus this")
-      .at_least(0)
-      .at_most(4);
+      .above(0)
+      .at_most(16);
 }
 
 Direction direction_of(double degrees) {
@@ -102,12 +87,36 @@ Direction direction_of(double degrees) {
   return {std::cos(turned * kRadians), std::sin(turned * kRadians)};
 }
 
+double edge_energy(int x, int y, Direction normal, const SuppressionRule& rule) {
+  const double squared = static_cast<double>(x) * x + static_cast<double>(y) * y;
+  const double along = std::abs(x * normal.x + y * normal.y);
+  const double across = std::abs(x * normal.y - y * normal.x);
+  const bool is_axis = normal.x == 0 || normal.y == 0;
+  const double angle = std::atan2(across, along);
+  const double spread = rule.half_angle * kRadians, exact = is_axis ? 1 : rule.exact;
+  const double slope =
+      std::numbers::sqrt2 * std::numbers::pi * rule.edge_length * std::sqrt(squared);
+  const double mean = exact * mean_across(slope, angle, angle) +
+                      (1 - exact) * mean_across(slope, angle - spread, angle + spread);
+  return along * along / (squared * squared) * mean;
+}
+
 std::vector<TargetPower> suppressed_frequencies(std::uint32_t points,
                                                 std::span<const Direction> directions,
                                                 const SuppressionRule& rule) {
-  std::vector<TargetPower> all = members(points, directions, rule);
-  keep_shortest(all, static_cast<std::size_t>(rule.share * points));
-  set_weights(all, rule.low_frequencies);
+  const double longest = rule.radius * std::sqrt(points);
+  const int edge = static_cast<int>(longest);
+  std::vector<TargetPower> all;
+  for (int y = 0; y <= edge; ++y) {
+    for (int x = y == 0 ? 1 : -edge; x <= edge; ++x) {
+      if (std::hypot(x, y) > longest) continue;
+      double energy = 0;
+      for (const Direction& d : directions) energy += edge_energy(x, y, d, rule);
+      all.push_back({x, y, 0, energy});
+    }
+  }
+  keep_heaviest(all, static_cast<std::size_t>(rule.share * points));
+  normalize(all);
   return all;
 }
 

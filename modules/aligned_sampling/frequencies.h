@@ -13,20 +13,19 @@ namespace pharos::aligned {
 struct TargetPower {
   int x = 0, y = 0;
   double power = 0;   ///< >= 0
-  double weight = 1;  ///< >= 0: of its squared error in the loss
+  double weight = 1;  ///< >= 0: of its error in the loss
 
   friend bool operator==(const TargetPower&, const TargetPower&) = default;
   static void describe(Schema<TargetPower>& schema);
 };
 
-/// Which frequencies are suppressed.
+/// Which frequencies are suppressed: those where edges have most energy.
 struct SuppressionRule {
-  double radius = 2;      ///< highest length, in units of the square root of N
-  double half_angle = 3;  ///< of the wedge about each direction [degrees]
-  double strip = 0.75;  ///< half width of a strip along each direction's line, too, in units of the
-                        ///< fourth root of N
-  double share = 0.9;   ///< most of them, in units of N
-  double low_frequencies = 2;  ///< weights are the length to the power of minus this
+  double radius = 8;         ///< highest length, in units of the square root of N
+  double exact = 0.3;        ///< share of the edges whose normal is a direction itself
+  double half_angle = 5;     ///< the normals of the others lie so far about it, evenly [degrees]
+  double edge_length = 0.4;  ///< of the edges, in units of the square's edge
+  double share = 2;          ///< most of them, in units of N
 
   friend bool operator==(const SuppressionRule&, const SuppressionRule&) = default;
   static void describe(Schema<SuppressionRule>& schema);
@@ -41,11 +40,21 @@ struct Direction {
 /// multiples of 90 degrees are exact.
 Direction direction_of(double degrees);
 
-/// The frequencies to suppress for `points` points and these directions: those that are no longer
-/// than the radius and lie in a wedge or strip about the line of a direction, in the half plane
-/// y > 0 or y = 0 < x, as spectra are symmetric. Where these are more than the share allows it is
-/// the shortest of them, whole rings only: N points have 2 N coordinates, and N complex amplitudes
-/// are the most that they could make zero. The mean of the weights is one.
+/// The energy that a straight edge of the rule has at the frequency (x, y), which is not (0, 0),
+/// but for a factor. At v, an edge of length l with the normal n has
+///
+///     (v.n)^2 / |v|^4 sinc^2(l t),   t = v x n,
+///
+/// whose waves across the line of n are smoothed here to 1 / (1 + 2 (pi l t)^2). The mean over the
+/// normals at and about `normal`; those of an axis are all exact, as the edges of the square
+/// itself.
+double edge_energy(int x, int y, Direction normal, const SuppressionRule& rule);
+
+/// The frequencies to suppress for `points` points and these directions: within the radius those
+/// where the energies of edges along all directions add up to most, in the half plane y > 0 or
+/// y = 0 < x, as spectra are symmetric. No more than the share, and of equal ones all or none.
+/// Their weights are these energies, with the mean one: so the loss is the variance of integrals of
+/// such edges, but for a factor (eq. 5 of the paper).
 std::vector<TargetPower> suppressed_frequencies(std::uint32_t points,
                                                 std::span<const Direction> directions,
                                                 const SuppressionRule& rule);

@@ -184,10 +184,13 @@ double PowerSpectrumLoss::evaluate(const Coordinates& points, double scale,
   for (std::size_t i = 0; i < terms_.size(); ++i) {
     const Term& term = terms_[i];
     const double real = amplitude[2 * i], imaginary = amplitude[2 * i + 1];
-    const double error = (real * real + imaginary * imaginary) / count - term.power;
+    const double root = std::sqrt((real * real + imaginary * imaginary) / count);
+    const double error = root - std::sqrt(term.power);
     loss += term.weight * error * error;
+    // The derivative of the squared error by P_v; without a power there is no direction to go.
+    const double slope = root > 0 ? error / root : 0;
     // d P_v / d x = (4 pi v_x / N) Im(conj(F_v) exp(-2 pi i v.x)), and the same in y.
-    const double factor = scale * 2 * term.weight * error * 4 * std::numbers::pi / count;
+    const double factor = scale * term.weight * slope * 4 * std::numbers::pi / count;
     factors[2 * i] = static_cast<float>(factor * real);
     factors[2 * i + 1] = static_cast<float>(factor * imaginary);
   }

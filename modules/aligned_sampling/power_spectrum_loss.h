@@ -8,12 +8,14 @@
 
 namespace pharos::aligned {
 
-/// How far the power spectrum of points is from a target at some frequencies (eq. 11 of the paper):
+/// How far the spectrum of points is from a target at some frequencies:
 ///
-///     L_spec = sum over v of w_v (P_v - T_v)^2 / sum over v of w_v,
+///     L_spec = sum over v of w_v (sqrt(P_v) - sqrt(T_v))^2 / sum over v of w_v,
 ///     P_v = |F_v|^2 / N,   F_v = sum over points of exp(-2 pi i v.x).
 ///
-/// P_v is N times the paper's power, so that independent points have 1 for any N. The exponentials
+/// P_v is N times the paper's power, so that independent points have 1 for any N. The paper squares
+/// differences of powers (eq. 11). Here they are of amplitudes: where nothing is wanted, T = 0, the
+/// loss is the power itself, which is what variance is made of (eq. 5). The exponentials
 /// are products of powers of exp(-2 pi i x) and exp(-2 pi i y), in single precision, sixteen points
 /// side by side. Takes time in proportion to N times the number of frequencies.
 class PowerSpectrumLoss {

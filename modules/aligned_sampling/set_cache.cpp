@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// To be raised whenever synthesize() makes other points of the same settings.
-constexpr int kSynthesisVersion = 1;
+constexpr int kSynthesisVersion = 2;
 
 /// All that determines the points.
 std::string text_of(const SynthesisSettings& s) {
@@ -29,7 +29,7 @@ std::string text_of(const SynthesisSettings& s) {
   std::string text =
       fmt::format("{} | {} | {} | {} {} | {} {} | {} | {} {} {} {} {}", kSynthesisVersion, s.points,
                   fmt::join(s.directions, " "), s.steps, s.step, s.spectrum, s.wasserstein, s.seed,
-                  r.radius, r.half_angle, r.strip, r.share, r.low_frequencies);
+                  r.radius, r.exact, r.half_angle, r.edge_length, r.share);
   for (const TargetPower& v : s.mask) {
     text += fmt::format(" | {} {} {} {}", v.x, v.y, v.power, v.weight);
   }

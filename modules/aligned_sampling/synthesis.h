@@ -24,12 +24,12 @@ constexpr bool is_set_size(std::uint32_t points) {
 struct SynthesisSettings {
   std::uint32_t points = 4096;     ///< N, see is_set_size()
   std::vector<double> directions;  ///< of low energy, beside the axes [degrees]
-  int steps = 500;                 ///< of gradient descent, >= 1
+  int steps = 400;                 ///< of gradient descent, >= 1
   /// Length of the first steps, in units of 1 / sqrt(N), the points' spacing; it falls to zero as
   /// half a period of a cosine does.
-  double step = 0.05;
+  double step = 0.1;
   double spectrum = 1;         ///< weight of the power spectrum loss, >= 0 (eq. 10)
-  double wasserstein = 0.005;  ///< c, weight of the sliced Wasserstein loss, >= 0 (eq. 10)
+  double wasserstein = 0.001;  ///< c, weight of the sliced Wasserstein loss, >= 0 (eq. 10)
   SuppressionRule rule;
   /// Where not empty: the frequencies of the power spectrum loss instead of those of the rule.
   std::vector<TargetPower> mask;

@@ -73,8 +73,8 @@ struct Lanes {
   }
 };
 
-/// Eight words of 32 bits.
-using Words = std::array<std::uint32_t, 8>;
+/// Eight words of 32 bits. (As an array it would pass through memory on its way.)
+using Words = std::uint32_t __attribute__((vector_size(32)));
 
 inline Quad larger(const Quad& a, const Quad& b) {
   return Quad::each([&](int k) -> Register {
@@ -115,6 +115,18 @@ inline unsigned negative_bits(const Quad& a) {
 
 inline unsigned negative_bits(const Lanes& a) {
   return negative_bits(a.lower) | negative_bits(a.upper) << 4;
+}
+
+/// The words in another order: word `order[i]` at place i.
+inline Words permuted(const Words& words, const Words& order) {
+#if defined(__AVX2__)
+  return std::bit_cast<Words>(
+      _mm256_permutevar8x32_epi32(std::bit_cast<__m256i>(words), std::bit_cast<__m256i>(order)));
+#else
+  Words result{};
+  for (unsigned i = 0; i < 8; ++i) result[i] = words[order[i]];
+  return result;
+#endif
 }
 
 /// The words whose highest bit is set, as bits.

@@ -35,13 +35,14 @@ Line::Line(const Box& box, Point3 from, Vec3 direction) {
   // a plane between cells, what is ahead of the origin counts to the upper cell and what is behind
   // to the lower one: never to both.
   constexpr double kParallel = 1e60;
+  mirror = 0;
   for (int axis = 0; axis < 3; ++axis) {
     const double reciprocal = direction[axis] != 0 ? 1.0 / direction[axis] : kParallel;
     const double size = box.size[axis] * reciprocal;
     const double low = (box.low[axis] - from[axis]) * reciprocal;
     entry[axis] = low + std::min(size, 0.0);
     width[axis] = std::abs(size);
-    downwards[axis] = size < 0;
+    mirror |= (size < 0 ? 1u : 0u) << axis;
   }
 }
 
@@ -100,19 +101,21 @@ double Octree::directional_density(const Line& line, Side side) const {
   Quad sum{};
   const auto add = [&](std::uint32_t, const Node& node, const Spans& spans) {
     const Lanes lengths = spans.lengths(), densities = node.densities();
-    // t1^3 - t0^3, without its cancellation.
-    const auto cubes = [](const Quad& length, const Quad& t0, const Quad& t1) {
-      return length * (t1 * (t1 + t0) + t0 * t0);
+    // A third of t1^3 - t0^3 over the length, without its cancellation.
+    const auto squares = [](const Quad& length, const Quad& t0, const Quad& t1) {
+      return t0 * t1 + length * Quad::all(1.0 / 3) * length;
     };
-    sum = sum + (densities.lower * cubes(lengths.lower, spans.begin.lower, spans.end.lower) +
-                 densities.upper * cubes(lengths.upper, spans.begin.upper, spans.end.upper));
+    sum = sum + densities.lower * lengths.lower *
+                    squares(lengths.lower, spans.begin.lower, spans.end.lower);
+    sum = sum + densities.upper * lengths.upper *
+                    squares(lengths.upper, spans.begin.upper, spans.end.upper);
   };
   if (side == Side::ahead) {
     traverse<Side::ahead>(line, add);
   } else {
     traverse<Side::behind>(line, add);
   }
-  return sum.sum() / 3;
+  return sum.sum();
 }
 
 Double3 Octree::sample(const Double3& u) const {

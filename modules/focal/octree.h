@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <vector>
 
 #include <pharos/core/bounds.h>
@@ -35,9 +36,9 @@ struct Box {
 struct Line {
   Line(const Box& box, Point3 from, Vec3 direction);
 
-  Double3 entry;                  ///< where it enters the slab of the box, by axis
-  Double3 width;                  ///< how long it stays in there, by axis
-  std::array<bool, 3> downwards;  ///< by axis
+  Double3 entry;    ///< where it enters the slab of the box, by axis
+  Double3 width;    ///< how long it stays in there, by axis
+  unsigned mirror;  ///< bit d is set where it goes down along axis d
 };
 
 /// The two halves of a line at its origin.
@@ -70,6 +71,8 @@ class Octree {
 
     bool is_leaf(unsigned c) const { return static_cast<std::int32_t>(children[c]) >= 0; }
     float density(unsigned c) const { return std::bit_cast<float>(children[c]); }
+    /// With child order[c] in place of child c.
+    Node mirrored(const Words& order) const { return {permuted(children, order)}; }
     /// The inner children as bits.
     unsigned inner_bits() const { return high_bits(children); }
     /// Densities of leaves; 0 in the lanes of inner children.
@@ -79,7 +82,9 @@ class Octree {
       children[c] = std::bit_cast<std::uint32_t>(density);
     }
     void set_index(unsigned c, std::uint32_t index) { children[c] = index | kInner; }
-    friend bool operator==(const Node&, const Node&) = default;
+    friend bool operator==(const Node& a, const Node& b) {
+      return std::memcmp(&a, &b, sizeof a) == 0;
+    }
   };
 
   /// One node without density.
@@ -110,8 +115,9 @@ class Octree {
   Double3 sample(const Double3& u) const;
 
   /// Calls `visit(i, node, spans)` for every node i that a side of `line` (of a line through box())
-  /// crosses, with the stretches within its children. In no particular but always the same order.
-  /// Inlined, so that sums of visitors stay in registers.
+  /// crosses, with the stretches within its children. Both are mirrored so that the line goes
+  /// upwards along all axes: what is said of c is of child c ^ line.mirror. In no particular but
+  /// always the same order. Inlined, so that sums of visitors stay in registers.
   template <Side side, class Visit>
   [[gnu::always_inline]] void traverse(const Line& line, Visit&& visit) const;
 
@@ -144,13 +150,11 @@ struct Octree::Steps {
   explicit Steps(const Line& line);
 
   Quad half_x, half_y, half_z;  ///< width of a child along the line [scene units]
-  Quad x, y, lower_z,
-      upper_z;  ///< how much later the line enters each child's slabs than its node's
+  Quad x, y;    ///< how much later the line enters each child's slabs than its node's
+  Words order;  ///< of the children as the line meets them
 
   void scale(double factor) {
-    for (Quad* quad : {&half_x, &half_y, &half_z, &x, &y, &lower_z, &upper_z}) {
-      *quad = *quad * Quad::all(factor);
-    }
+    for (Quad* quad : {&half_x, &half_y, &half_z, &x, &y}) *quad = *quad * Quad::all(factor);
   }
 };
 
@@ -165,14 +169,10 @@ inline Octree::Steps::Steps(const Line& line)
     : half_x(Quad::all(0.5 * line.width[0])),
       half_y(Quad::all(0.5 * line.width[1])),
       half_z(Quad::all(0.5 * line.width[2])) {
-  // The children that a line enters last along an axis are those of the upper half, or for lines
-  // that go downwards those of the lower half.
-  alignas(32) static constexpr double kLastX[2][4] = {{0, 1, 0, 1}, {1, 0, 1, 0}};
-  alignas(32) static constexpr double kLastY[2][4] = {{0, 0, 1, 1}, {1, 1, 0, 0}};
-  x = half_x * Quad::load(kLastX[line.downwards[0]]);
-  y = half_y * Quad::load(kLastY[line.downwards[1]]);
-  lower_z = half_z * Quad::all(line.downwards[2] ? 1 : 0);
-  upper_z = half_z * Quad::all(line.downwards[2] ? 0 : 1);
+  alignas(32) static constexpr double kUpperX[4] = {0, 1, 0, 1}, kUpperY[4] = {0, 0, 1, 1};
+  x = half_x * Quad::load(kUpperX);
+  y = half_y * Quad::load(kUpperY);
+  for (std::uint32_t c = 0; c < 8; ++c) order[c] = c ^ line.mirror;
 }
 
 template <Side side, class Visit>
@@ -182,21 +182,20 @@ inline std::uint64_t Octree::cross(const Front& front, std::uint64_t& pending, c
   for (unsigned slot = 0; pending != 0 && slot < 64; slot += 8, pending &= pending - 1) {
     const auto at = static_cast<unsigned>(std::countr_zero(pending));
     const std::uint32_t i = front.children[at] & ~kInner;
-    const Node& node = nodes_[i];
+    const Node node = nodes_[i].mirrored(steps.order);
     const Quad x = Quad::all(front.x[at]) + steps.x, y = Quad::all(front.y[at]) + steps.y;
-    const Quad z = Quad::all(front.z[at]);
-    const Quad lower_z = z + steps.lower_z, upper_z = z + steps.upper_z;
+    const Quad z = Quad::all(front.z[at]), middle = z + steps.half_z;
     Quad begin = larger(x, y), end = smaller(x + steps.half_x, y + steps.half_y);
     if constexpr (side == Side::ahead) begin = larger(begin, Quad{});
     if constexpr (side == Side::behind) end = smaller(end, Quad{});
-    const Spans spans{{larger(begin, lower_z), larger(begin, upper_z)},
-                      {smaller(end, lower_z + steps.half_z), smaller(end, upper_z + steps.half_z)}};
+    const Spans spans{{larger(begin, z), larger(begin, middle)},
+                      {smaller(end, middle), smaller(end, middle + steps.half_z)}};
     // All that a child may need, at its own place: which will be visited is not known yet.
     for (const unsigned half : {0u, 4u})
       x.store(&next.x[slot + half]), y.store(&next.y[slot + half]);
-    lower_z.store(&next.z[slot]);
-    upper_z.store(&next.z[slot + 4]);
-    std::copy_n(node.children.begin(), 8, &next.children[slot]);
+    z.store(&next.z[slot]);
+    middle.store(&next.z[slot + 4]);
+    std::memcpy(__builtin_assume_aligned(&next.children[slot], 32), &node.children, 32);
     visit(i, node, spans);
     const unsigned crossed = ~negative_bits(spans.end - spans.begin) & node.inner_bits();
     found |= std::uint64_t{crossed} << slot;

@@ -42,7 +42,7 @@ void save_octree(const Octree& octree, std::ostream& out) {
   }
   save_number(out, static_cast<std::uint32_t>(octree.nodes().size()));
   for (const Octree::Node& node : octree.nodes()) {
-    for (const std::uint32_t child : node.children) save_number(out, child);
+    for (unsigned c = 0; c < 8; ++c) save_number(out, std::uint32_t{node.children[c]});
   }
 }
 
@@ -59,9 +59,8 @@ Octree load_octree(std::istream& in) {
   // Nodes come one by one, so that a wrong count costs no memory.
   std::vector<Octree::Node> nodes;
   while (nodes.size() < count) {
-    for (std::uint32_t& child : nodes.emplace_back().children) {
-      child = load_number<std::uint32_t>(in);
-    }
+    Words& children = nodes.emplace_back().children;
+    for (unsigned c = 0; c < 8; ++c) children[c] = load_number<std::uint32_t>(in);
   }
   check_nodes(nodes);
   return {box, std::move(nodes)};

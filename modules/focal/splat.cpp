@@ -13,8 +13,8 @@ struct Reach {
   double ahead, behind;
 };
 
-/// Adds `amount(node, c, t0, t1)` to every leaf that a side of the line crosses within (begin,
-/// end).
+/// Adds `amount(density, t0, t1)` to every leaf that a side of the line crosses within (begin,
+/// end); `density` is the leaf's.
 template <Side side, class Amount>
 void add_to_leaves(const Octree& octree, const Line& line, double begin, double end,
                    std::vector<double>& sums, Amount&& amount) {
@@ -22,7 +22,8 @@ void add_to_leaves(const Octree& octree, const Line& line, double begin, double 
   octree.traverse<side>(line, [&](std::uint32_t i, const Octree::Node& node, const Spans& spans) {
     for (unsigned c = 0; c < 8; ++c) {
       const double t0 = std::max(spans.begin[c], begin), t1 = std::min(spans.end[c], end);
-      if (node.is_leaf(c) && t0 < t1) sums[8 * std::size_t{i} + c] += amount(node, c, t0, t1);
+      if (!node.is_leaf(c) || !(t0 < t1)) continue;
+      sums[8 * std::size_t{i} + (c ^ line.mirror)] += amount(node.density(c), t0, t1);
     }
   });
 }
@@ -44,9 +45,8 @@ void splat_length(const Octree& octree, const Line& line, double begin, double e
   if (unit == 0) unit = length_within(line, begin, end);
   if (!(unit > 0)) return;
   const double scale = contribution / unit;
-  add_to_leaves<side>(
-      octree, line, begin, end, sums,
-      [&](const Octree::Node&, unsigned, double t0, double t1) { return scale * (t1 - t0); });
+  add_to_leaves<side>(octree, line, begin, end, sums,
+                      [&](float, double t0, double t1) { return scale * (t1 - t0); });
 }
 
 void splat_length(const Segment& segment, const FocalDensity& density, double unit,
@@ -69,8 +69,8 @@ void splat_narrowed(const Segment& segment, const FocalDensity& density, bool mi
   const double scale = (1 - unguided) * double{segment.contribution} / pdf;
   const Line line(density.converging.box(), segment.origin, segment.direction);
   const Reach reach(segment);
-  const auto amount = [&](const Octree::Node& node, unsigned c, double t0, double t1) {
-    return scale * node.density(c) * (t1 - t0) * (t1 * t1 + t1 * t0 + t0 * t0) / 3;
+  const auto amount = [&](float density, double t0, double t1) {
+    return scale * double{density} * (t1 - t0) * (t1 * t1 + t1 * t0 + t0 * t0) / 3;
   };
   add_to_leaves<Side::ahead>(density.converging, line, 0, reach.ahead, sums.converging, amount);
   add_to_leaves<Side::behind>(density.diverging, line, reach.behind, 0, sums.diverging, amount);

@@ -32,6 +32,7 @@ class PathProbe final : public IntegrandProbe {
   explicit PathProbe(const PathScene& shared) : shared_(shared) {}
 
   PixelGrid grid() const override { return {shared_.target.width, shared_.target.height}; }
+  PixelRect window() const override { return shared_.target.window; }
   int light_branches() const override { return shared_.lights.branches(); }
 
   void evaluate(const ProbeQuery& query, std::span<const Vec2> points,

@@ -12,13 +12,17 @@
 
 namespace pharos {
 
-enum class MisHeuristic { balance, power };
+/// How light that is found by sampling a light and by running into it is weighted. `light_samples`
+/// counts the former alone wherever lights can be sampled.
+enum class MisHeuristic { balance, power, light_samples };
 enum class Roulette { off, throughput };
 
 template <>
 struct EnumNames<MisHeuristic> {
-  static constexpr std::array<std::pair<std::string_view, MisHeuristic>, 2> names{
-      {{"balance", MisHeuristic::balance}, {"power", MisHeuristic::power}}};
+  static constexpr std::array<std::pair<std::string_view, MisHeuristic>, 3> names{
+      {{"balance", MisHeuristic::balance},
+       {"power", MisHeuristic::power},
+       {"light_samples", MisHeuristic::light_samples}}};
 };
 template <>
 struct EnumNames<Roulette> {
@@ -41,10 +45,23 @@ struct PathSettings {
 
 /// MIS weight [1] of a technique of density `own` against one of density `other`; both in the same
 /// measure (Veach 1997, eq. 9.8 and 9.13 with exponent 2).
-inline float mis_weight(MisHeuristic heuristic, float own, float other) {
-  if (heuristic == MisHeuristic::balance) return own / (own + other);
+inline float mis_weight(float own, float other, bool squared) {
+  if (!squared) return own / (own + other);
   const float ratio = other / own;  // squares of large densities overflow, their ratio does not
   return 1 / (1 + ratio * ratio);
+}
+
+/// MIS weight [1] of a light sample of density `own` that a step of density `step` could have met.
+inline float light_sample_weight(MisHeuristic heuristic, float own, float step) {
+  if (heuristic == MisHeuristic::light_samples) return 1;
+  return mis_weight(own, step, heuristic == MisHeuristic::power);
+}
+
+/// MIS weight [1] of light that a step of density `own` met, and light samples with density
+/// `light`.
+inline float emission_weight(MisHeuristic heuristic, float own, float light) {
+  if (heuristic == MisHeuristic::light_samples) return light > 0 ? 0.0f : 1.0f;
+  return mis_weight(own, light, heuristic == MisHeuristic::power);
 }
 
 /// What every path of a render shares.

@@ -288,7 +288,7 @@ class PathWalk {
   void add_light(Rgb radiance, LightPdf&& light_pdf) {
     const bool alone = arrived_discretely_ || !settings_.next_event_estimation;
     const float own = planted(PlantedFault::mis_without_guide) ? density_.unguided : density_.total;
-    const float weight = alone ? 1.0f : mis_weight(settings_.mis, own, light_pdf());
+    const float weight = alone ? 1.0f : emission_weight(settings_.mis, own, light_pdf());
     radiance_ += weight * throughput_ * radiance;
     recorder_.emission(radiance, weight);
   }
@@ -328,7 +328,7 @@ class PathWalk {
     const StepDensity density =
         wants_density ? step_density(guidance_, resolved, scatter.pdf) : StepDensity{};
     const float weight =
-        light.discrete ? 1.0f : mis_weight(settings_.mis, light.pdf, density.total);
+        light.discrete ? 1.0f : light_sample_weight(settings_.mis, light.pdf, density.total);
     radiance_ += weight * throughput_ * value;
     recorder_.light(light, resolved.event, density, weight, weight * value, throughput_);
   }

@@ -32,8 +32,10 @@ struct Strategy {
   std::string name;
   std::string settings;  ///< of the path integrator
 };
-inline const std::vector<Strategy> kStrategies{
-    {"balance", "mis: balance"}, {"power", "mis: power"}, {"bsdf", "next_event_estimation: false"}};
+inline const std::vector<Strategy> kStrategies{{"balance", "mis: balance"},
+                                               {"power", "mis: power"},
+                                               {"light samples", "mis: light_samples"},
+                                               {"bsdf", "next_event_estimation: false"}};
 
 /// The strategies that find lights without extent.
 inline const std::vector<Strategy> kLightSampling{{"one", "light_selection: one"},

@@ -4,13 +4,20 @@
 // sampler_costs.h: of eleven numbers two are aligned and nine the base's. `aligned.estimation_spp`
 // is the time that the sampler takes before rendering, less its base's, over that of a plain sample
 // of all pixels, of the Cornell box with direct light alone, whose samples cost little.
+// `aligned.slope.*` is how variance falls on one edge and on two, with points aligned with them,
+// over 2^8 to 2^12 points, and `aligned.variance_gain.4096` the least variance that another sampler
+// of configs/convergence/aligned.yaml has on the one edge over that of aligned points.
 
+#include <algorithm>
 #include <aligned_sampling/synthesis.h>
 #include <chrono>
+#include <string_view>
 
 #include <fmt/format.h>
 
 #include <pharos/config/module_loader.h>
+#include <pharos/laboratory/integrands/add_integrands.h>
+#include <pharos/laboratory/laboratory.h>
 #include <pharos/rendering/render_job.h>
 
 #include "bench_scenes.h"
@@ -104,12 +111,51 @@ Measurement estimation(int repeats) {
   return spp;
 }
 
+template <class Named>
+std::size_t index_of(const std::vector<Named>& all, std::string_view name) {
+  return static_cast<std::size_t>(std::ranges::find(all, name, &Named::name) - all.begin());
+}
+
+/// The variances on one edge at the largest number: the others' least over the aligned points'.
+double variance_gain(const laboratory::LaboratoryResults& results, std::size_t edge,
+                     std::size_t aligned) {
+  double least = kInfinity;
+  for (std::size_t i = 0; i < results.samplers.size(); ++i) {
+    if (results.config.samplers[i].sampler->plugin_name() == "aligned") continue;
+    least = std::min(least, results.samplers[i].variances[edge].back().value);
+  }
+  return least / results.samplers[aligned].variances[edge].back().value;
+}
+
+std::vector<Measurement> convergence(int repeats) {
+  Registry registry = load_default_modules();
+  laboratory::add_integrands(registry);
+  std::vector<Measurement> all{{"aligned.slope.one_direction", "", {}},
+                               {"aligned.slope.two_directions", "", {}},
+                               {"aligned.variance_gain.4096", "", {}}};
+  for (int i = 0; i < repeats; ++i) {
+    const auto config = laboratory::load_laboratory(
+        PHAROS_CONFIGS "/convergence/aligned.yaml",
+        {"samples.to=12", "spectrum.points=0", fmt::format("seed={}", i + 1)}, registry);
+    const std::size_t one = index_of(config.samplers, "aligned-31");
+    const std::size_t two = index_of(config.samplers, "aligned-31-110");
+    const std::size_t edge = index_of(config.integrands, "edge-31");
+    const std::size_t edges = index_of(config.integrands, "two-edges");
+    const laboratory::LaboratoryResults results = laboratory::measure(config);
+    all[0].runs.push_back(results.samplers[one].slopes[edge]->slope.value);
+    all[1].runs.push_back(results.samplers[two].slopes[edges]->slope.value);
+    all[2].runs.push_back(variance_gain(results, edge, one));
+  }
+  return all;
+}
+
 }  // namespace
 
 std::vector<Measurement> bench_aligned(int repeats) {
   std::vector<Measurement> all{synthesis(repeats)};
   for (Measurement& m : values(repeats)) all.push_back(std::move(m));
   all.push_back(estimation(repeats));
+  for (Measurement& m : convergence(repeats)) all.push_back(std::move(m));
   return all;
 }
 

@@ -5,7 +5,9 @@
 #include <bit>
 #include <chrono>
 #include <cmath>
+#include <memory>
 #include <thread>
+#include <utility>
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -115,6 +117,30 @@ TEST_CASE("training counts within the budget") {
   CHECK(result.model != nullptr);
   CHECK(result.model_bytes > 0);
   CHECK(result.image.pixel(0, 0)[result.image.channel_index("samples.N")] == 32);
+}
+
+/// Another sampler, after a while.
+class SlowToPrepare final : public Sampler {
+ public:
+  explicit SlowToPrepare(Ref<Sampler> other) : other_(std::move(other)) {}
+  std::unique_ptr<const PreparedSampler> prepare(const PixelGrid& grid, const SamplePlan& plan,
+                                                 const IntegrandProbe* probe) const override {
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    return other_->prepare(grid, plan, probe);
+  }
+
+ private:
+  Ref<Sampler> other_;
+};
+
+TEST_CASE("what the sampler takes to prepare itself counts within a time budget") {
+  LoadedConfig loaded = config_from(cornell("budget: { seconds: 0.1 }\n"));
+  loaded.config.sampler = std::make_shared<SlowToPrepare>(loaded.config.sampler);
+  const RenderResult late = RenderJob(loaded.config).run({});
+  CHECK(late.times.sampler >= 0.2);
+  CHECK(late.times.budgeted() >= 0.2);
+  // No time is left, and still every pixel gets a sample.
+  CHECK(late.samples_per_pixel == 1);
 }
 
 TEST_CASE("the variance layer predicts the spread over seeds") {

@@ -76,6 +76,16 @@ TEST_CASE("direction field: the same for any number of threads, another for anot
   CHECK(asked(1).size() == ProbeGrid().size());
 }
 
+TEST_CASE("direction field: nothing is asked of regions that are not rendered") {
+  test::FunctionProbe probe = turning_edges();
+  probe.set_window({20, 17, 22, 32});
+  const DirectionField field = field_of(probe), whole = field_of(turning_edges());
+  REQUIRE(field.regions().count() == 8);
+  for (std::size_t region = 0; region < 8; ++region) {
+    CHECK(field.at(0, region) == (region == 5 ? whole.at(0, region) : FreeDirections{}));
+  }
+}
+
 TEST_CASE("direction field: what is not finite has no edge") {
   const test::FunctionProbe probe({16, 16}, [](int, int, Dimension, Vec2 u) {
     return u.x + u.y > 1 ? std::numeric_limits<float>::infinity() : 0.0f;

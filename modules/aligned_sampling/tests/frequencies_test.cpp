@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -23,76 +25,115 @@ bool holds(const std::vector<TargetPower>& all, int x, int y) {
   return std::ranges::any_of(all, [&](const TargetPower& v) { return v.x == x && v.y == y; });
 }
 
-/// The angle between lines [degrees].
-double angle_between(const TargetPower& v, double degrees) {
-  const double difference = std::atan2(v.y, v.x) * 180 / std::numbers::pi - degrees;
-  return std::abs(difference - 180 * std::round(difference / 180));
+/// The energy of an edge through the unit square at a frequency, by adding up waves along it: of
+/// length l, about the middle, with the normal at an angle. Relative to edge_energy()'s factor.
+double energy_by_definition(const TargetPower& v, double degrees, double length) {
+  constexpr int kParts = 4000;
+  const Direction n = direction_of(degrees);
+  const double across = v.x * n.y - v.y * n.x, squared = v.x * v.x + v.y * v.y;
+  std::complex<double> sum = 0;
+  for (int i = 0; i < kParts; ++i) {
+    const double along = length * ((i + 0.5) / kParts - 0.5);
+    sum += std::polar(1.0 / kParts, -2 * std::numbers::pi * across * along);
+  }
+  const double normal = v.x * n.x + v.y * n.y;
+  return std::norm(sum) * normal * normal / (squared * squared);
 }
 
 }  // namespace
 
-TEST_CASE("frequencies: a half plane, each but once, near a direction and none further") {
-  const SuppressionRule rule{.radius = 1.5, .half_angle = 6, .strip = 0.25, .share = 2};
-  const auto all = suppressed_frequencies(1024, axes_and({30}), rule);
+TEST_CASE("energy: an edge's, with its waves smoothed") {
+  const SuppressionRule rule{.exact = 1, .edge_length = 0.7};
+  const Direction d = direction_of(30);
+  for (const auto& [x, y] : {std::pair{4, 1}, {7, 4}, {-5, 12}, {40, 21}, {33, 60}}) {
+    CAPTURE(x);
+    CAPTURE(y);
+    // Lengths about the rule's put the waves at all phases.
+    double mean = 0;
+    constexpr int kLengths = 200;
+    for (int i = 0; i < kLengths; ++i) {
+      mean += energy_by_definition({x, y}, 30, 0.7 * (0.5 + (i + 0.5) / kLengths)) / kLengths;
+    }
+    const double ratio = edge_energy(x, y, d, rule) / mean;
+    CHECK(ratio > 0.45);
+    CHECK(ratio < 1.6);
+  }
+  CHECK(edge_energy(3, 4, direction_of(0), rule) ==
+        doctest::Approx(9.0 / 625 / (1 + 2 * std::pow(std::numbers::pi * 0.7 * 4, 2))));
+}
+
+TEST_CASE("energy: the mean over the normals within the half angle") {
+  const SuppressionRule sharp{.exact = 1}, spread{.exact = 0}, mixed{.exact = 0.25};
+  for (const auto& [x, y] : {std::pair{17, 10}, {16, 11}, {20, 0}, {-3, 25}}) {
+    CAPTURE(x);
+    CAPTURE(y);
+    double mean = 0;
+    for (int i = 0; i < 1000; ++i) {
+      mean += edge_energy(x, y, direction_of(30 - 5 + 10 * (i + 0.5) / 1000), sharp) / 1000;
+    }
+    CHECK(edge_energy(x, y, direction_of(30), spread) == doctest::Approx(mean).epsilon(0.1));
+    const double both = 0.25 * edge_energy(x, y, direction_of(30), sharp) +
+                        0.75 * edge_energy(x, y, direction_of(30), spread);
+    CHECK(edge_energy(x, y, direction_of(30), mixed) == doctest::Approx(both));
+  }
+  // Those of an axis are exact.
+  CHECK(edge_energy(20, 1, direction_of(0), spread) == edge_energy(20, 1, direction_of(0), sharp));
+}
+
+TEST_CASE("frequencies: a half plane, each but once, those of most energy, weighted by it") {
+  SuppressionRule rule;
+  rule.share = 0.5;
+  const std::vector<Direction> directions = axes_and({30});
+  const auto all = suppressed_frequencies(1024, directions, rule);
+  CHECK(all.size() <= 512);
+  CHECK(all.size() > 500);
+  const auto energy = [&](int x, int y) {
+    double sum = 0;
+    for (const Direction d : directions) sum += edge_energy(x, y, d, rule);
+    return sum;
+  };
   std::set<std::pair<int, int>> seen;
+  double least = 1e30, weights = 0;
   for (const TargetPower& v : all) {
-    CAPTURE(v.x);
-    CAPTURE(v.y);
     CHECK((v.y > 0 || (v.y == 0 && v.x > 0)));
     CHECK(seen.emplace(v.x, v.y).second);
     CHECK(v.power == 0);
-    const double length = std::hypot(v.x, v.y);
-    CHECK(length <= 1.5 * 32);
-    bool is_near = false;
-    for (const double d : {0.0, 90.0, 30.0}) {
-      const double angle = angle_between(v, d);
-      is_near |= angle <= 6.0001;
-      is_near |= length * std::sin(angle * std::numbers::pi / 180) <= 1.4143;
-    }
-    CHECK(is_near);
+    CHECK(std::hypot(v.x, v.y) <= rule.radius * 32);
+    least = std::min(least, energy(v.x, v.y));
+    weights += v.weight;
+    CHECK(v.weight / all[0].weight ==
+          doctest::Approx(energy(v.x, v.y) / energy(all[0].x, all[0].y)));
   }
-  // Within and beyond the wedges: 30 degrees is (1.732, 1), and 4 / 40 is 5.7 degrees.
-  CHECK(holds(all, 35, 20));
-  CHECK(holds(all, 40, 4));
-  CHECK(holds(all, -40, 4));
-  CHECK(holds(all, 0, 48));
-  CHECK_FALSE(holds(all, 0, 49));
-  CHECK_FALSE(holds(all, 40, 5));
-  CHECK_FALSE(holds(all, -35, 20));
+  CHECK(weights == doctest::Approx(static_cast<double>(all.size())));
+  for (int y = 0; y <= 40; ++y) {
+    for (int x = y == 0 ? 1 : -40; x <= 40; ++x) {
+      if (!holds(all, x, y)) CHECK(energy(x, y) <= least * (1 + 1e-8));
+    }
+  }
+  // Far along each line, not far across: 30 degrees is (1.732, 1).
+  CHECK(holds(all, 26, 15));
+  CHECK(holds(all, 0, 40));
+  CHECK_FALSE(holds(all, -26, 15));
 }
 
-TEST_CASE("frequencies: no more than their share, the shortest of them, symmetric") {
+TEST_CASE("frequencies: none beyond the radius, symmetric where the directions are") {
   for (const std::uint32_t points : {64u, 256u, 4096u}) {
     CAPTURE(points);
     SuppressionRule rule;
-    rule.share = 0.5;
+    rule.radius = 1;
+    rule.share = 16;
     const auto all = suppressed_frequencies(points, axes_and({45}), rule);
-    CHECK(all.size() <= points / 2);
-    CHECK(all.size() > points / 4);
+    const int edge = static_cast<int>(std::sqrt(points));
+    CHECK(holds(all, edge, 0));
+    CHECK_FALSE(holds(all, edge, 1));
+    rule.share = 0.4;
+    const auto few = suppressed_frequencies(points, axes_and({45}), rule);
+    CHECK(few.size() < all.size());
     // The axes may change places.
-    for (const TargetPower& v : all) {
-      CHECK((v.x >= 0 ? holds(all, v.y, v.x) : holds(all, -v.y, -v.x)));
-    }
-    rule.share = 10;
-    double longest = 0;
-    for (const TargetPower& v : all) longest = std::max(longest, std::hypot(v.x, v.y));
-    for (const TargetPower& v : suppressed_frequencies(points, axes_and({45}), rule)) {
-      if (std::hypot(v.x, v.y) <= longest) CHECK(holds(all, v.x, v.y));
+    for (const TargetPower& v : few) {
+      CHECK((v.x >= 0 ? holds(few, v.y, v.x) : holds(few, -v.y, -v.x)));
     }
   }
-}
-
-TEST_CASE("frequencies: weights have the mean 1 and fall as they are told") {
-  SuppressionRule rule;
-  rule.low_frequencies = 2;
-  const auto all = suppressed_frequencies(256, axes_and({}), rule);
-  double sum = 0;
-  for (const TargetPower& v : all) {
-    sum += v.weight;
-    CHECK(v.weight * (v.x * v.x + v.y * v.y) == doctest::Approx(all[0].weight));
-  }
-  REQUIRE(all[0].x * all[0].x + all[0].y * all[0].y == 1);
-  CHECK(sum == doctest::Approx(static_cast<double>(all.size())));
 }
 
 TEST_CASE("directions: modulo 180 degrees, the axes exact") {

@@ -50,9 +50,16 @@ class FunctionProbe final : public IntegrandProbe {
   using Hits = std::function<FirstHit(int x, int y)>;
 
   FunctionProbe(PixelGrid grid, Values value_at, Hits hit_at = {}, int lights = 1)
-      : grid_(grid), value_at_(std::move(value_at)), hit_at_(std::move(hit_at)), lights_(lights) {}
+      : grid_(grid),
+        window_{0, 0, grid.width, grid.height},
+        value_at_(std::move(value_at)),
+        hit_at_(std::move(hit_at)),
+        lights_(lights) {}
 
   PixelGrid grid() const override { return grid_; }
+  PixelRect window() const override { return window_; }
+  /// Lets only these pixels be rendered.
+  void set_window(const PixelRect& window) { window_ = window; }
   int light_branches() const override { return lights_; }
   void evaluate(const ProbeQuery& query, std::span<const Vec2> points,
                 std::span<Rgb> values) const override {
@@ -64,6 +71,7 @@ class FunctionProbe final : public IntegrandProbe {
 
  private:
   PixelGrid grid_;
+  PixelRect window_;
   Values value_at_;
   Hits hit_at_;
   int lights_;

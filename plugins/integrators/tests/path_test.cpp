@@ -12,14 +12,18 @@ namespace pharos {
 namespace {
 
 TEST_CASE("MIS weights of all techniques sum to one") {
-  for (const MisHeuristic heuristic : {MisHeuristic::balance, MisHeuristic::power}) {
+  using enum MisHeuristic;
+  for (const MisHeuristic heuristic : {balance, power, light_samples}) {
     for (const auto& [a, b] : {std::pair{1.0f, 1.0f}, {0.1f, 30.0f}, {1e25f, 2e25f}}) {
-      CHECK(mis_weight(heuristic, a, b) + mis_weight(heuristic, b, a) == doctest::Approx(1));
+      const float sum = light_sample_weight(heuristic, a, b) + emission_weight(heuristic, b, a);
+      CHECK(sum == doctest::Approx(1));
     }
-    CHECK(mis_weight(heuristic, 2, 0) == 1);
+    CHECK(light_sample_weight(heuristic, 2, 0) == 1);
+    CHECK(emission_weight(heuristic, 2, 0) == 1);
   }
-  CHECK(mis_weight(MisHeuristic::balance, 1, 3) == doctest::Approx(0.25));
-  CHECK(mis_weight(MisHeuristic::power, 1, 3) == doctest::Approx(0.1));
+  CHECK(emission_weight(balance, 1, 3) == doctest::Approx(0.25));
+  CHECK(light_sample_weight(power, 1, 3) == doctest::Approx(0.1));
+  CHECK(emission_weight(light_samples, 1e6f, 1e-6f) == 0);
 }
 
 TEST_CASE("path offers what guides need, and no guiding unless asked") {
