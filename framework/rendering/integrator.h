@@ -57,6 +57,8 @@ struct RenderTarget {
   int width = 0, height = 0;  ///< of the whole film, by whose pixels paths are keyed
   /// The part of the film that is rendered; paths start at its pixels alone, as many at each.
   PixelRect window{0, 0, width, height};
+  /// Whether paths pass anywhere through their pixels, or all through the middles.
+  bool jitter = true;
 };
 
 /// One path, step by step, as text; made by replaying its key.

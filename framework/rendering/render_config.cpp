@@ -88,6 +88,9 @@ void FilmSettings::describe(Schema<FilmSettings>& s) {
   s.field("width", &FilmSettings::width, "Width").unit("pixels").at_least(1).at_most(32768);
   s.field("height", &FilmSettings::height, "Height").unit("pixels").at_least(1).at_most(32768);
   s.field("crop", &FilmSettings::crop, "A window of the film, which alone is rendered");
+  s.field("jitter", &FilmSettings::jitter,
+          "Whether paths pass anywhere through a pixel; otherwise all through its middle, without "
+          "anti-aliasing");
   s.field("filter", &FilmSettings::filter, "Reconstruction filter").otherwise("default");
   s.field("tile", &FilmSettings::tile, "Edge of a work unit")
       .unit("pixels")

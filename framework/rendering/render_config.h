@@ -31,7 +31,8 @@ struct FilmSettings {
   /// learned from the window's paths alone.
   std::optional<CropSettings> crop;
   Ref<Filter> filter;
-  int tile = 32;  ///< edge of a work unit [pixels]
+  bool jitter = true;  ///< whether paths pass anywhere through a pixel, or through its middle
+  int tile = 32;       ///< edge of a work unit [pixels]
   /// The least share of the weights' magnitude that a pixel is divided by. Filters without negative
   /// lobes never meet it, nor does Mitchell and Netravali's with B = C = 1/3; the sharper
   /// Catmull-Rom does in one of 2500 pixels of a single sample, and no longer with two.

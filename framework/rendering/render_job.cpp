@@ -121,8 +121,9 @@ class RenderJob::Implementation {
       : config_(config),
         scene_(with_sensor(config.scene, config.sensor)),
         sensor_(prepared_sensor(scene_.sensor(), config.film)),
-        integrator_(config.integrator->prepare(
-            {scene_, *sensor_, config.film.width, config.film.height, config.film.window()})),
+        integrator_(
+            config.integrator->prepare({scene_, *sensor_, config.film.width, config.film.height,
+                                        config.film.window(), config.film.jitter})),
         tiles_(tiles_of(config.film.window(), config.film.tile)) {
     const GuidingSettings* guiding = config.integrator->guiding();
     const bool learns = guiding != nullptr && guiding->learns();

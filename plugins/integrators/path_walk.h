@@ -108,7 +108,7 @@ class PathWalk {
   std::optional<ScatterStep> first_step() {
     const RenderTarget& target = shared_.target;
     const auto pixel = static_cast<int>(stream_.key().index);
-    const Vec2 in_pixel = stream_.get_2d({Purpose::pixel});
+    const Vec2 in_pixel = target.jitter ? stream_.get_2d({Purpose::pixel}) : Vec2{0.5f, 0.5f};
     const Vec2 size{static_cast<float>(target.width), static_cast<float>(target.height)};
     result_.film = {static_cast<float>(pixel % target.width) + in_pixel.x,
                     static_cast<float>(pixel / target.width) + in_pixel.y};

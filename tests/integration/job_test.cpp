@@ -143,6 +143,24 @@ TEST_CASE("what the sampler takes to prepare itself counts within a time budget"
   CHECK(late.samples_per_pixel == 1);
 }
 
+TEST_CASE("without jitter paths see what is in the middles of pixels") {
+  const auto albedo = [](const std::string& film, int seed) {
+    const std::string yaml = fmt::format(
+        "scene: {}/cornell-box/scene.yaml\nfilm: {{ width: 24, height: 20, filter: box{} }}\n"
+        "sampler: independent\nbudget: {{ spp: 3 }}\nseed: {}\n",
+        PHAROS_SCENES, film, seed);
+    const Image image = render(yaml).image;
+    const int red = image.channel_index("albedo.R");
+    std::vector<float> values;
+    for (int y = 0; y < image.height(); ++y) {
+      for (int x = 0; x < image.width(); ++x) values.push_back(image.pixel(x, y)[red]);
+    }
+    return values;
+  };
+  CHECK(albedo(", jitter: false", 1) == albedo(", jitter: false", 2));
+  CHECK(albedo("", 1) != albedo("", 2));
+}
+
 TEST_CASE("the variance layer predicts the spread over seeds") {
   const int runs = 48;
   double predicted = 0, spread = 0;
