@@ -33,7 +33,7 @@ void TrainingSchedule::describe(Schema<TrainingSchedule>& s) {
       .below(1);
   s.field("images", &TrainingSchedule::images,
           "What becomes of the training iterations' images: thrown away, or combined with the "
-          "final one by inverse variance");
+          "final one by their samples");
 }
 
 std::vector<Iteration> TrainingSchedule::divide(const Budget& budget, std::uint32_t granule) const {

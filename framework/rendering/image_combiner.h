@@ -7,11 +7,10 @@
 
 namespace pharos {
 
-/// Combines images of the same scene by inverse variance. Weights come from other pixels than they
-/// weight, else bright outliers would lower their own weight and bias the result: a pixel of one
-/// colour of the checkerboard is weighted by the mean variance of the other colour. (Filters wider
-/// than a pixel make neighbours share samples, which lets a little of that bias back in.) If any
-/// image has too few passes to know its variance, all count by their samples.
+/// Combines images of the same scene, each weighted by its samples. (Weights by inverse variance
+/// are not free of bias where images are made by guides that learn, wherever in the image the
+/// variance is taken from: what one image happens to find makes the variance of the next ones
+/// lower.)
 class ImageCombiner {
  public:
   /// Takes the layers of a film that has samples.
@@ -24,7 +23,6 @@ class ImageCombiner {
   struct Weighted {
     Image layers;
     double samples;  ///< a pixel
-    bool knows_variance;
   };
   std::vector<Weighted> images_;
 };
