@@ -16,7 +16,7 @@ namespace pharos {
 /// What a run had reached at one moment, training included.
 struct Checkpoint {
   double samples_per_pixel = 0;
-  double seconds = 0;  ///< of rendering, training and updates
+  double seconds = 0;  ///< of the sampler's preparation, training, updates and rendering
   ImageErrors errors;
 };
 

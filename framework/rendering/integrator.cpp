@@ -18,8 +18,15 @@ void check_records(const RecordNeeds& offered, const GuidingMethod& method) {
   check(traits.records.light_paths, offered.light_paths, "light paths");
 }
 
-void check_camera(const IntegratorTraits& offered, const Sensor& sensor, const Guider& guider) {
+void check_camera(const IntegratorTraits& offered, const Sensor& sensor, bool jitter,
+                  const Guider& guider) {
   if (!guider.traits().guides_camera) return;
+  if (!jitter) {
+    throw InputError(fmt::format(
+        "the guider '{}' guides the camera: paths cannot all pass through the middles of pixels, "
+        "as 'film.jitter: false' wants",
+        guider.plugin_name()));
+  }
   if (!offered.guided_camera) {
     throw InputError(
         fmt::format("the guider '{}' guides the camera, which the integrator cannot follow",
@@ -32,7 +39,7 @@ void check_camera(const IntegratorTraits& offered, const Sensor& sensor, const G
   }
 }
 
-void check_method(const IntegratorTraits& offered, const Sensor& sensor,
+void check_method(const IntegratorTraits& offered, const Sensor& sensor, bool jitter,
                   const GuidingMethod& method) {
   const LearnerTraits learner = method.learner->traits();
   const GuiderTraits guider = method.guider->traits();
@@ -41,7 +48,7 @@ void check_method(const IntegratorTraits& offered, const Sensor& sensor,
         "the learner '{}' learns a '{}' model, but the guider '{}' samples a '{}' model",
         method.learner->plugin_name(), learner.model, method.guider->plugin_name(), guider.model));
   }
-  check_camera(offered, sensor, *method.guider);
+  check_camera(offered, sensor, jitter, *method.guider);
   if (method.learns()) check_records(offered.records, method);
 }
 
@@ -54,11 +61,11 @@ RenderCounters& RenderCounters::operator+=(const RenderCounters& other) {
   return *this;
 }
 
-void check_compatible(const Integrator& integrator, const Sensor& sensor) {
+void check_compatible(const Integrator& integrator, const Sensor& sensor, bool jitter) {
   if (integrator.guiding() == nullptr) return;
   const IntegratorTraits offered = integrator.traits();
   for (const GuidingMethod& method : integrator.guiding()->resolved_methods()) {
-    check_method(offered, sensor, method);
+    check_method(offered, sensor, jitter, method);
   }
 }
 

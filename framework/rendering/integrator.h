@@ -101,8 +101,8 @@ class Integrator : public Component {
   virtual std::unique_ptr<const PreparedIntegrator> prepare(const RenderTarget& target) const = 0;
 };
 
-/// Throws InputError, naming both sides, when a learner or guider needs what the integrator or the
-/// sensor does not offer.
-void check_compatible(const Integrator& integrator, const Sensor& sensor);
+/// Throws InputError, naming both sides, when a learner or guider needs what the integrator, the
+/// sensor or a film without jitter does not offer.
+void check_compatible(const Integrator& integrator, const Sensor& sensor, bool jitter = true);
 
 }  // namespace pharos

@@ -57,7 +57,8 @@ void check_together(const RenderConfig& config, const ConfigNode& node) {
   }
   try {
     check_compatible(*config.integrator,
-                     config.sensor != nullptr ? *config.sensor : *config.scene.sensor);
+                     config.sensor != nullptr ? *config.sensor : *config.scene.sensor,
+                     config.film.jitter);
   } catch (const InputError& error) {
     nearest_node(node, {"integrator", "guiding"}).fail(error.what());
   }

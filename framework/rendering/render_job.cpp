@@ -298,7 +298,7 @@ class RenderJob::Implementation {
             .iteration_count = static_cast<std::uint32_t>(iterations_.size()),
             .training = iterations_[index].training,
             .fraction = std::min(done / work_up_to(iterations_.size()), 1.0),
-            .seconds = watch_.seconds(),
+            .seconds = sampler_seconds_ + watch_.seconds(),
             .samples_per_pixel = result_.samples_per_pixel + samples,
             .rays = result_.counters.rays};
   }

@@ -20,7 +20,7 @@ struct Progress {
   std::uint32_t iteration = 0, iteration_count = 1;
   bool training = false;
   double fraction = 0;  ///< of the whole budget, in [0, 1]
-  double seconds = 0;   ///< since the start
+  double seconds = 0;   ///< that a time budget counts, so far
   double samples_per_pixel = 0;
   std::uint64_t rays = 0;
 };

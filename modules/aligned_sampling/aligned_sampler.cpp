@@ -14,7 +14,7 @@
 // Sets have 64, 256, 1024 or 4096 points, the most that the samples of a pixel fill; with fewer
 // than 64 samples all numbers are the base's and nothing is looked at. With `directions: 4` two
 // edges are aligned with at once. Sets for that are made when they are first needed, which takes
-// about a second for one of 4096 points, and kept in the user's cache.
+// some seconds for one of 4096 points, and kept in the user's cache.
 //
 //     sampler: { type: aligned }
 //     integrator: { type: path, light_selection: all }

@@ -46,15 +46,15 @@ Direction direction_of(double degrees);
 ///     (v.n)^2 / |v|^4 sinc^2(l t),   t = v x n,
 ///
 /// whose waves across the line of n are smoothed here to 1 / (1 + 2 (pi l t)^2). The mean over the
-/// normals at and about `normal`; those of an axis are all exact, as the edges of the square
-/// itself.
+/// normals at and about `normal`, but for the first factor, which is that of `normal`; those of an
+/// axis are all exact, as the edges of the square itself, and of the same length as others.
 double edge_energy(int x, int y, Direction normal, const SuppressionRule& rule);
 
 /// The frequencies to suppress for `points` points and these directions: within the radius those
 /// where the energies of edges along all directions add up to most, in the half plane y > 0 or
 /// y = 0 < x, as spectra are symmetric. No more than the share, and of equal ones all or none.
-/// Their weights are these energies, with the mean one: so the loss is the variance of integrals of
-/// such edges, but for a factor (eq. 5 of the paper).
+/// Their weights are these energies, with the mean one: so the loss is, but for a factor, what
+/// these frequencies add to the variance of integrals of such edges (eq. 5 of the paper).
 std::vector<TargetPower> suppressed_frequencies(std::uint32_t points,
                                                 std::span<const Direction> directions,
                                                 const SuppressionRule& rule);

@@ -73,8 +73,12 @@ struct Lanes {
   }
 };
 
-/// Eight words of 32 bits. (As an array it would pass through memory on its way.)
+/// Eight words of 32 bits. (An array would pass through memory on its way to a register.)
+#if defined(__AVX__)
 using Words = std::uint32_t __attribute__((vector_size(32)));
+#else
+using Words = std::array<std::uint32_t, 8>;
+#endif
 
 inline Quad larger(const Quad& a, const Quad& b) {
   return Quad::each([&](int k) -> Register {

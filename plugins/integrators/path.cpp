@@ -109,7 +109,10 @@ void PathSettings::describe(Schema<PathSettings>& s) {
           "Sample lights at every vertex");
   s.field("light_selection", &PathSettings::light_selection,
           "Which lights a vertex samples: one in proportion to power, or all");
-  s.field("mis", &PathSettings::mis, "Heuristic of multiple importance sampling");
+  s.field(
+      "mis", &PathSettings::mis,
+      "How light found by sampling lights and by running into them is weighted; light_samples: the "
+      "former alone, wherever lights can be sampled");
   s.field("roulette", &PathSettings::roulette,
           "Russian roulette: off, or with the throughput as survival probability");
   s.field("roulette_depth", &PathSettings::roulette_depth, "Vertex from which roulette is played");

@@ -81,21 +81,24 @@ class StubSensor final : public Sensor {
   bool one_direction_;
 };
 
-TEST_CASE("guides of the camera are refused where the sensor sees a single direction") {
-  const auto message = [](bool guides_camera, bool one_direction) -> std::string {
+TEST_CASE("guides of the camera are refused where paths cannot go where they want") {
+  const auto message = [](bool guides_camera, bool one_direction,
+                          bool jitter = true) -> std::string {
     PathSettings settings;
     settings.guiding.emplace();
     settings.guiding->learner = std::make_shared<const IdleLearner>();
     settings.guiding->guider = std::make_shared<const IdleGuider>(guides_camera);
     try {
-      check_compatible(PathIntegrator(settings), StubSensor(one_direction));
+      check_compatible(PathIntegrator(settings), StubSensor(one_direction), jitter);
     } catch (const InputError& error) {
       return error.what();
     }
     return "fits";
   };
   CHECK(message(true, true).find("sees a single direction") != std::string::npos);
+  CHECK(message(true, false, false).find("middles of pixels") != std::string::npos);
   CHECK(message(true, false) == "fits");
+  CHECK(message(false, false, false) == "fits");
   CHECK(message(false, true) == "fits");
 }
 
