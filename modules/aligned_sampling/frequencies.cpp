@@ -14,7 +14,8 @@ constexpr double kRadians = std::numbers::pi / 180;
 /// The mean of 1 / (1 + (slope sin phi)^2) over the angles phi from `first` to `last`, within a
 /// right angle: as if the sine rose evenly between them.
 double mean_across(double slope, double first, double last) {
-  if (first == last) return 1 / (1 + slope * std::sin(first) * slope * std::sin(first));
+  constexpr double kNarrow = 1e-6;  // quotients of smaller differences are rounding alone
+  if (last - first < kNarrow) return 1 / (1 + slope * std::sin(first) * slope * std::sin(first));
   const double to = slope * std::sin(std::min(last, std::numbers::pi / 2));
   const double from = slope * std::sin(first);
   return (std::atan(to) - std::atan(from)) / (to - from);

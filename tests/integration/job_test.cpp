@@ -136,14 +136,26 @@ class SlowToPrepare final : public Sampler {
 TEST_CASE("what the sampler takes to prepare itself counts within a time budget") {
   LoadedConfig loaded = config_from(cornell("budget: { seconds: 0.1 }\n"));
   loaded.config.sampler = std::make_shared<SlowToPrepare>(loaded.config.sampler);
-  const RenderResult late = RenderJob(loaded.config).run({});
+  double told = 0;
+  const RenderResult late =
+      RenderJob(loaded.config).run({.on_progress = {}, .on_pass = [&](const RenderSnapshot& s) {
+                                      told = s.progress.seconds;
+                                    }});
+  CHECK(told >= 0.2);
   CHECK(late.times.sampler >= 0.2);
   CHECK(late.times.budgeted() >= 0.2);
   // No time is left, and still every pixel gets a sample.
   CHECK(late.samples_per_pixel == 1);
 }
 
-TEST_CASE("without jitter paths see what is in the middles of pixels") {
+TEST_CASE("without jitter paths pass through the middles of pixels") {
+  RenderJob job(config_from(cornell("budget: { spp: 2 }\n")).config);
+  std::string still = cornell("budget: { spp: 2 }\n");
+  still.replace(still.find("filter: box"), 11, "filter: box, jitter: false");
+  RenderJob still_job(config_from(still).config);
+  const std::string middle = "film (31.5000, 22.5000)";
+  CHECK(still_job.replay(31, 22, 1, 0).text.starts_with(middle));
+  CHECK_FALSE(job.replay(31, 22, 1, 0).text.starts_with(middle));
   const auto albedo = [](const std::string& film, int seed) {
     const std::string yaml = fmt::format(
         "scene: {}/cornell-box/scene.yaml\nfilm: {{ width: 24, height: 20, filter: box{} }}\n"
