@@ -6,8 +6,8 @@ namespace pharos::focal {
 
 double FocalDensity::directional_density(Point3 from, Vec3 direction) const {
   const Line line(converging.box(), from, direction);
-  return converging.directional_density(line, Side::ahead) +
-         diverging.directional_density(line, Side::behind);
+  return converging.directional_density<Side::ahead>(line) +
+         diverging.directional_density<Side::behind>(line);
 }
 
 std::optional<Vec3> FocalDensity::sample_direction(Point3 from, float sign, Vec2 u, float v) const {

@@ -29,6 +29,15 @@ struct alignas(32) Quad {
   static Quad all(double value) {
     return each([&](int) { return value - Register{}; });
   }
+  /// The number at an address, from there straight to all places. (Of all() and a product compilers
+  /// make a product and all().)
+  static Quad broadcast(const double* from) {
+#if defined(__AVX__)
+    return {{_mm256_broadcast_sd(from)}};
+#else
+    return all(*from);
+#endif
+  }
   /// From and to an address that is a multiple of 32.
   static Quad load(const double* from) {
     Quad quad;
@@ -39,8 +48,12 @@ struct alignas(32) Quad {
     std::memcpy(__builtin_assume_aligned(to, 32), this, sizeof *this);
   }
 
-  double operator[](unsigned i) const { return registers[i / kRegisterWidth][i % kRegisterWidth]; }
-  double sum() const { return ((*this)[0] + (*this)[1]) + ((*this)[2] + (*this)[3]); }
+  double operator[](unsigned i) const {
+    return registers[i / kRegisterWidth][i % kRegisterWidth];
+  }
+  double sum() const {
+    return ((*this)[0] + (*this)[1]) + ((*this)[2] + (*this)[3]);
+  }
 
   friend Quad operator+(const Quad& a, const Quad& b) {
     return each([&](int k) { return a.registers[k] + b.registers[k]; });
@@ -102,9 +115,21 @@ inline Quad smaller(const Quad& a, const Quad& b) {
   });
 }
 
+/// 2 a + b: in one step, where compilers of a product with two make a sum and then another.
+inline Quad twice_plus(const Quad& a, const Quad& b) {
+  return Quad::each([&](int k) -> Register {
+    const Register &x = a.registers[k], &y = b.registers[k];
+#if defined(__AVX__) && defined(__FMA__)
+    return _mm256_fmadd_pd(x, _mm256_set1_pd(2), y);
+#else
+    return x + x + y;
+#endif
+  });
+}
+
 /// The negative numbers, as bits.
-inline unsigned negative_bits(const Quad& a) {
-  unsigned bits = 0;
+inline std::uint64_t negative_bits(const Quad& a) {
+  std::uint64_t bits = 0;
   for (int k = 0; k < Quad::kRegisters; ++k) {
     const Register& x = a.registers[k];
 #if defined(__AVX__)
@@ -112,12 +137,12 @@ inline unsigned negative_bits(const Quad& a) {
 #else
     const unsigned part = (x[0] < 0 ? 1u : 0u) | (x[1] < 0 ? 2u : 0u);
 #endif
-    bits |= part << (k * kRegisterWidth);
+    bits |= std::uint64_t{part} << (k * kRegisterWidth);
   }
   return bits;
 }
 
-inline unsigned negative_bits(const Lanes& a) {
+inline std::uint64_t negative_bits(const Lanes& a) {
   return negative_bits(a.lower) | negative_bits(a.upper) << 4;
 }
 
@@ -134,7 +159,7 @@ inline Words permuted(const Words& words, const Words& order) {
 }
 
 /// The words whose highest bit is set, as bits.
-inline unsigned high_bits(const Words& words) {
+inline std::uint64_t high_bits(const Words& words) {
 #if defined(__AVX__)
   return static_cast<unsigned>(_mm256_movemask_ps(std::bit_cast<__m256>(words)));
 #else

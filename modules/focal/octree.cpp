@@ -30,24 +30,8 @@ bool Box::contains(Point3 p) const {
   return true;
 }
 
-Line::Line(const Box& box, Point3 from, Vec3 direction) {
-  // Along a zero component the line meets planes at no distance that matters. Where it lies within
-  // a plane between cells, what is ahead of the origin counts to the upper cell and what is behind
-  // to the lower one: never to both.
-  constexpr double kParallel = 1e60;
-  mirror = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double reciprocal = direction[axis] != 0 ? 1.0 / direction[axis] : kParallel;
-    const double size = box.size[axis] * reciprocal;
-    const double low = (box.low[axis] - from[axis]) * reciprocal;
-    entry[axis] = low + std::min(size, 0.0);
-    width[axis] = std::abs(size);
-    mirror |= (size < 0 ? 1u : 0u) << axis;
-  }
-}
-
 Octree::Octree(const Box& box, std::vector<Node> nodes)
-    : box_(box), nodes_(std::move(nodes)), warps_(nodes_.size()) {
+    : box_(box), nodes_(std::move(nodes)), crossed_(nodes_), warps_(nodes_.size()) {
   // Masses of whole nodes relative to the cell of their parent: children stand after parents.
   std::vector<double> masses(nodes_.size());
   for (std::size_t i = nodes_.size(); i-- > 0;) {
@@ -70,6 +54,20 @@ Octree::Octree(const Box& box, std::vector<Node> nodes)
     masses[i] = slice[0] + slice[1];
   }
   mass_ = masses[0] * box_.volume();
+
+  if (box_.volume() > 0) third_per_volume_ = 1 / (3 * box_.volume());
+  std::vector<unsigned> levels(nodes_.size());
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const double share = std::pow(unit(levels[i]), 3);
+    for (unsigned c = 0; c < 8; ++c) {
+      if (nodes_[i].is_leaf(c)) {
+        const double mass = nodes_[i].density(c) * share * box_.volume();
+        crossed_[i].set_density(c, static_cast<float>(mass));
+      } else {
+        levels[nodes_[i].index(c)] = levels[i] + 1;
+      }
+    }
+  }
 }
 
 int Octree::depth() const {
@@ -95,27 +93,6 @@ double Octree::density(Point3 p) const {
     cell = cell.child(c);
     i = nodes_[i].index(c);
   }
-}
-
-double Octree::directional_density(const Line& line, Side side) const {
-  Quad sum{};
-  const auto add = [&](std::uint32_t, const Node& node, const Spans& spans) {
-    const Lanes lengths = spans.lengths(), densities = node.densities();
-    // A third of t1^3 - t0^3 over the length, without its cancellation.
-    const auto squares = [](const Quad& length, const Quad& t0, const Quad& t1) {
-      return t0 * t1 + length * Quad::all(1.0 / 3) * length;
-    };
-    sum = sum + densities.lower * lengths.lower *
-                    squares(lengths.lower, spans.begin.lower, spans.end.lower);
-    sum = sum + densities.upper * lengths.upper *
-                    squares(lengths.upper, spans.begin.upper, spans.end.upper);
-  };
-  if (side == Side::ahead) {
-    traverse<Side::ahead>(line, add);
-  } else {
-    traverse<Side::behind>(line, add);
-  }
-  return sum.sum();
 }
 
 Double3 Octree::sample(const Double3& u) const {

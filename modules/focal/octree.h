@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <utility>
 #include <vector>
 
 #include <pharos/core/bounds.h>
@@ -41,11 +42,27 @@ struct Line {
   unsigned mirror;  ///< bit d is set where it goes down along axis d
 };
 
+inline Line::Line(const Box& box, Point3 from, Vec3 direction) {
+  // Along a zero component the line meets planes at no distance that matters. Where it lies within
+  // a plane between cells, what is ahead of the origin counts to the upper cell and what is behind
+  // to the lower one: never to both.
+  constexpr double kParallel = 1e60;
+  mirror = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double reciprocal = direction[axis] != 0 ? 1.0 / direction[axis] : kParallel;
+    const double size = box.size[axis] * reciprocal;
+    const double low = (box.low[axis] - from[axis]) * reciprocal;
+    entry[axis] = low + std::min(size, 0.0);
+    width[axis] = std::abs(size);
+    mirror |= (size < 0 ? 1u : 0u) << axis;
+  }
+}
+
 /// The two halves of a line at its origin.
 enum class Side { ahead, behind };
 
-/// Stretches of a line within the eight children of a node [scene units]; a child that the line
-/// misses has end < begin.
+/// Stretches of a line within the eight children of a node; a child that the line misses has
+/// end < begin.
 struct Spans {
   Lanes begin, end;
 
@@ -74,7 +91,7 @@ class Octree {
     /// With child order[c] in place of child c.
     Node mirrored(const Words& order) const { return {permuted(children, order)}; }
     /// The inner children as bits.
-    unsigned inner_bits() const { return high_bits(children); }
+    std::uint64_t inner_bits() const { return high_bits(children); }
     /// Densities of leaves; 0 in the lanes of inner children.
     Lanes densities() const { return positive_floats(children); }
     std::uint32_t index(unsigned c) const { return children[c] & ~kInner; }
@@ -85,6 +102,17 @@ class Octree {
     friend bool operator==(const Node& a, const Node& b) {
       return std::memcmp(&a, &b, sizeof a) == 0;
     }
+  };
+
+  /// A node as traverse() shows it: its children as the line meets them, and for leaves their
+  /// masses [1] in place of densities.
+  struct CrossedNode {
+    Node node;
+
+    bool is_leaf(unsigned c) const { return node.is_leaf(c); }
+    float mass(unsigned c) const { return node.density(c); }
+    /// 0 in the lanes of inner children.
+    Lanes masses() const { return node.densities(); }
   };
 
   /// One node without density.
@@ -102,24 +130,30 @@ class Octree {
   friend bool operator==(const Octree& a, const Octree& b) {
     return a.box_ == b.box_ && a.nodes_ == b.nodes_;
   }
-  std::size_t size_bytes() const { return nodes_.size() * (sizeof(Node) + sizeof(Warp)); }
+  std::size_t size_bytes() const { return nodes_.size() * (2 * sizeof(Node) + sizeof(Warp)); }
 
   /// The density at a point [1/scene unit^3], 0 outside.
   double density(Point3 p) const;
   /// The integral of density t^2 dt over a side of `line`, a line through box() [1/sr]: the density
   /// of directions that point to (or, behind, away from) points drawn from the tree (Rath et al.
   /// 2023, eq. 4, 6 and 7).
-  double directional_density(const Line& line, Side side) const;
+  template <Side side>
+  [[gnu::always_inline]] double directional_density(const Line& line) const;
   /// A point drawn with density() / mass() from numbers in [0, 1): hierarchical sample warping
   /// (McCool and Harwood 1997).
   Double3 sample(const Double3& u) const;
 
-  /// Calls `visit(i, node, spans)` for every node i that a side of `line` (of a line through box())
-  /// crosses, with the stretches within its children. Both are mirrored so that the line goes
-  /// upwards along all axes: what is said of c is of child c ^ line.mirror. In no particular but
-  /// always the same order. Inlined, so that sums of visitors stay in registers.
+  /// Calls `visit(i, node, spans, level)` for every node i that a side of `line` (of a line through
+  /// box()) crosses, with the stretches within its children. Lengths are in units of
+  /// unit(level) scene units, so that the steps of the line are the same on all levels. Both are
+  /// mirrored so that the line goes upwards along all axes: what is said of c is of child
+  /// c ^ line.mirror. In no particular but always the same order. Inlined, so that sums of visitors
+  /// stay in registers.
   template <Side side, class Visit>
   [[gnu::always_inline]] void traverse(const Line& line, Visit&& visit) const;
+  /// What traverse() measures lengths in at nodes of a level, the root's being 0 [scene units]: a
+  /// leaf there has volume box().volume() * unit^3.
+  static constexpr double unit(unsigned level) { return 0.5 / static_cast<double>(1u << level); }
 
  private:
   struct Steps;
@@ -132,73 +166,91 @@ class Octree {
     float x = 0.5f, y[2] = {0.5f, 0.5f}, z[4] = {0.5f, 0.5f, 0.5f, 0.5f};
   };
 
-  /// Visits up to eight of the `pending` nodes of `front`, and takes them off. Their children go to
-  /// `next`; returns those of them that are to be visited, as bits.
+  /// Visits the `crossed` nodes of `front`, at most kRound. Their children go to `next`; returns
+  /// those of them that are to be visited, as bits.
   template <Side side, class Visit>
-  [[gnu::always_inline]] std::uint64_t cross(const Front& front, std::uint64_t& pending,
+  [[gnu::always_inline]] std::uint64_t cross(const Front& front, std::uint64_t crossed,
                                              const Steps& steps, Front& next, Visit& visit) const;
 
   Box box_;
   std::vector<Node> nodes_;
+  std::vector<Node> crossed_;  ///< nodes_ with the masses of leaves in place of their densities
   std::vector<Warp> warps_;
   double mass_ = 0;
+  double third_per_volume_ = 0;  ///< of the box; 0 where that is empty [1/scene unit^3]
 };
 
-/// What the crossings of all nodes of one level have in common. The children below one another
-/// along z are computed together: x and y are the same for them.
+/// What the crossings of all nodes have in common. The children below one another along z are
+/// computed together: x and y are the same for them.
 struct Octree::Steps {
   explicit Steps(const Line& line);
 
-  Quad half_x, half_y, half_z;  ///< width of a child along the line [scene units]
-  Quad x, y;    ///< how much later the line enters each child's slabs than its node's
-  Words order;  ///< of the children as the line meets them
+  Quad begin_x, begin_y, middle_z;  ///< how much later than its node the line enters each child
+  Quad end_x, end_y, end_z;         ///< and leaves it, by axis
+  Words order;                      ///< of the children as the line meets them
+};
 
-  void scale(double factor) {
-    for (Quad* quad : {&half_x, &half_y, &half_z, &x, &y}) *quad = *quad * Quad::all(factor);
+/// The children of up to kRound nodes that a line crosses on one level.
+struct alignas(64) Octree::Front {
+  static constexpr int kRound = 8;
+
+  double x[8 * kRound], y[8 * kRound], z[8 * kRound];  ///< where the line enters their slabs
+  std::uint32_t children[8 * kRound];                  ///< as in nodes
+  std::uint64_t pending;                               ///< those that have yet to be visited
+
+  /// Takes the first kRound of the pending ones off.
+  static std::uint64_t take_round(std::uint64_t& pending) {
+    std::uint64_t round = std::exchange(pending, 0);
+    if (std::popcount(round) > kRound) [[unlikely]] {
+      pending = round;
+      for (int k = 0; k < kRound; ++k) pending &= pending - 1;
+      round ^= pending;
+    }
+    return round;
   }
 };
 
-/// The children of up to eight nodes that a line crosses on one level.
-struct alignas(64) Octree::Front {
-  double x[64], y[64], z[64];  ///< where the line enters their slabs
-  std::uint32_t children[64];  ///< as in nodes
-  std::uint64_t pending;       ///< those that have yet to be visited
-};
-
 inline Octree::Steps::Steps(const Line& line)
-    : half_x(Quad::all(0.5 * line.width[0])),
-      half_y(Quad::all(0.5 * line.width[1])),
-      half_z(Quad::all(0.5 * line.width[2])) {
+    : middle_z(Quad::all(line.width[2])), end_z(Quad::all(2 * line.width[2])) {
   alignas(32) static constexpr double kUpperX[4] = {0, 1, 0, 1}, kUpperY[4] = {0, 0, 1, 1};
-  x = half_x * Quad::load(kUpperX);
-  y = half_y * Quad::load(kUpperY);
+  const Quad edge_x = Quad::all(line.width[0]), edge_y = Quad::all(line.width[1]);
+  begin_x = edge_x * Quad::load(kUpperX);
+  begin_y = edge_y * Quad::load(kUpperY);
+  end_x = begin_x + edge_x;
+  end_y = begin_y + edge_y;
   for (std::uint32_t c = 0; c < 8; ++c) order[c] = c ^ line.mirror;
 }
 
 template <Side side, class Visit>
-inline std::uint64_t Octree::cross(const Front& front, std::uint64_t& pending, const Steps& steps,
+inline std::uint64_t Octree::cross(const Front& front, std::uint64_t crossed, const Steps& steps,
                                    Front& next, Visit& visit) const {
   std::uint64_t found = 0;
-  for (unsigned slot = 0; pending != 0 && slot < 64; slot += 8, pending &= pending - 1) {
-    const auto at = static_cast<unsigned>(std::countr_zero(pending));
+#pragma GCC unroll 8
+  for (unsigned slot = 0; slot < 8 * Front::kRound; slot += 8) {
+    const auto at = static_cast<unsigned>(std::countr_zero(crossed));
     const std::uint32_t i = front.children[at] & ~kInner;
-    const Node node = nodes_[i].mirrored(steps.order);
-    const Quad x = Quad::all(front.x[at]) + steps.x, y = Quad::all(front.y[at]) + steps.y;
-    const Quad z = Quad::all(front.z[at]), middle = z + steps.half_z;
-    Quad begin = larger(x, y), end = smaller(x + steps.half_x, y + steps.half_y);
+    const CrossedNode node{crossed_[i].mirrored(steps.order)};
+    const Quad entry_x = Quad::broadcast(&front.x[at]), entry_y = Quad::broadcast(&front.y[at]),
+               entry_z = Quad::broadcast(&front.z[at]);
+    // Units are half as long as the parents'.
+    const Quad x = twice_plus(entry_x, steps.begin_x), y = twice_plus(entry_y, steps.begin_y);
+    const Quad z = entry_z + entry_z, middle = twice_plus(entry_z, steps.middle_z);
+    Quad begin = larger(x, y);
+    Quad end = smaller(twice_plus(entry_x, steps.end_x), twice_plus(entry_y, steps.end_y));
     if constexpr (side == Side::ahead) begin = larger(begin, Quad{});
     if constexpr (side == Side::behind) end = smaller(end, Quad{});
     const Spans spans{{larger(begin, z), larger(begin, middle)},
-                      {smaller(end, middle), smaller(end, middle + steps.half_z)}};
+                      {smaller(end, middle), smaller(end, twice_plus(entry_z, steps.end_z))}};
     // All that a child may need, at its own place: which will be visited is not known yet.
     for (const unsigned half : {0u, 4u})
       x.store(&next.x[slot + half]), y.store(&next.y[slot + half]);
     z.store(&next.z[slot]);
     middle.store(&next.z[slot + 4]);
-    std::memcpy(__builtin_assume_aligned(&next.children[slot], 32), &node.children, 32);
+    std::memcpy(__builtin_assume_aligned(&next.children[slot], 32), &node.node.children, 32);
     visit(i, node, spans);
-    const unsigned crossed = ~negative_bits(spans.end - spans.begin) & node.inner_bits();
-    found |= std::uint64_t{crossed} << slot;
+    found |= (~negative_bits(spans.end - spans.begin) & node.node.inner_bits()) << slot;
+    crossed &= crossed - 1;
+    if (crossed == 0) break;
   }
   return found;
 }
@@ -207,7 +259,7 @@ template <Side side, class Visit>
 inline void Octree::traverse(const Line& line, Visit&& visit) const {
   // Level by level, as nodes of one level can be worked on at once. Where the children of a node
   // are put depends on the number of nodes before it alone, so that the processor need not wait for
-  // what these hold; a mask tells which children are to be visited. More than eight nodes of a
+  // what these hold; a mask tells which children are to be visited. More than kRound nodes of a
   // level are taken in several rounds.
   Front fronts[kMostLevels + 1];
   Front* front = fronts;
@@ -215,27 +267,43 @@ inline void Octree::traverse(const Line& line, Visit&& visit) const {
   front->y[0] = line.entry[1];
   front->z[0] = line.entry[2];
   front->children[0] = 0;
-  Steps steps(line);
+  const Steps steps(line);
   std::uint32_t unfinished = 0;  // levels with nodes left for another round
   for (std::uint64_t pending = 1;;) {
-    const std::uint64_t found = cross<side>(*front, pending, steps, front[1], visit);
+    const std::uint64_t round = Front::take_round(pending);
+    const auto level = static_cast<unsigned>(front - fronts);
+    const auto visit_here = [&](std::uint32_t i, const CrossedNode& node, const Spans& spans) {
+      visit(i, node, spans, level);
+    };
+    const std::uint64_t found = cross<side>(*front, round, steps, front[1], visit_here);
     if (pending != 0) [[unlikely]] {
       front->pending = pending;
-      unfinished |= 1u << (front - fronts);
+      unfinished |= 1u << level;
     }
     if (found != 0) {
       pending = found;
       ++front;
-      steps.scale(0.5);
     } else {
       if (unfinished == 0) return;
-      Front* const back = fronts + (std::bit_width(unfinished) - 1);
-      unfinished ^= 1u << (back - fronts);
-      pending = back->pending;
-      steps.scale(1u << (front - back));
-      front = back;
+      const int back = std::bit_width(unfinished) - 1;
+      unfinished ^= 1u << back;
+      front = fronts + back;
+      pending = front->pending;
     }
   }
+}
+
+template <Side side>
+inline double Octree::directional_density(const Line& line) const {
+  Quad sum{};
+  traverse<side>(line, [&](std::uint32_t, const CrossedNode& node, const Spans& spans, unsigned) {
+    const Lanes lengths = spans.lengths(), masses = node.masses();
+    // t1^3 - t0^3 over the length, without its cancellation.
+    const auto squares = [](const Quad& t0, const Quad& t1) { return t0 * (t0 + t1) + t1 * t1; };
+    sum = sum + masses.lower * lengths.lower * squares(spans.begin.lower, spans.end.lower);
+    sum = sum + masses.upper * lengths.upper * squares(spans.begin.upper, spans.end.upper);
+  });
+  return sum.sum() * third_per_volume_;
 }
 
 }  // namespace pharos::focal

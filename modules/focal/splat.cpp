@@ -19,13 +19,18 @@ template <Side side, class Amount>
 void add_to_leaves(const Octree& octree, const Line& line, double begin, double end,
                    std::vector<double>& sums, Amount&& amount) {
   if (!(begin < end)) return;
-  octree.traverse<side>(line, [&](std::uint32_t i, const Octree::Node& node, const Spans& spans) {
+  const auto visit = [&](std::uint32_t i, const Octree::CrossedNode& node, const Spans& spans,
+                         unsigned level) {
+    const double unit = Octree::unit(level);
+    const double volume = octree.box().volume() * unit * unit * unit;
     for (unsigned c = 0; c < 8; ++c) {
-      const double t0 = std::max(spans.begin[c], begin), t1 = std::min(spans.end[c], end);
+      const double t0 = std::max(unit * spans.begin[c], begin);
+      const double t1 = std::min(unit * spans.end[c], end);
       if (!node.is_leaf(c) || !(t0 < t1)) continue;
-      sums[8 * std::size_t{i} + (c ^ line.mirror)] += amount(node.density(c), t0, t1);
+      sums[8 * std::size_t{i} + (c ^ line.mirror)] += amount(node.mass(c) / volume, t0, t1);
     }
-  });
+  };
+  octree.traverse<side>(line, visit);
 }
 
 /// Length of the line within the box between two distances.
@@ -46,7 +51,7 @@ void splat_length(const Octree& octree, const Line& line, double begin, double e
   if (!(unit > 0)) return;
   const double scale = contribution / unit;
   add_to_leaves<side>(octree, line, begin, end, sums,
-                      [&](float, double t0, double t1) { return scale * (t1 - t0); });
+                      [&](double, double t0, double t1) { return scale * (t1 - t0); });
 }
 
 void splat_length(const Segment& segment, const FocalDensity& density, double unit,
@@ -69,8 +74,8 @@ void splat_narrowed(const Segment& segment, const FocalDensity& density, bool mi
   const double scale = (1 - unguided) * double{segment.contribution} / pdf;
   const Line line(density.converging.box(), segment.origin, segment.direction);
   const Reach reach(segment);
-  const auto amount = [&](float density, double t0, double t1) {
-    return scale * double{density} * (t1 - t0) * (t1 * t1 + t1 * t0 + t0 * t0) / 3;
+  const auto amount = [&](double leaf_density, double t0, double t1) {
+    return scale * leaf_density * (t1 - t0) * (t1 * t1 + t1 * t0 + t0 * t0) / 3;
   };
   add_to_leaves<Side::ahead>(density.converging, line, 0, reach.ahead, sums.converging, amount);
   add_to_leaves<Side::behind>(density.diverging, line, reach.behind, 0, sums.diverging, amount);
