@@ -35,6 +35,11 @@ class StageProbe final : public IntegrandProbe {
       values[i] = Rgb(0.1f + std::exp(-8 * (d.x * d.x + d.y * d.y)));
     }
   }
+  FilmSample whole_path(const ProbeQuery& query, Vec2 point) const override {
+    Rgb value;
+    evaluate(query, std::span(&point, 1), std::span(&value, 1));
+    return {{static_cast<float>(query.x) + 0.5f, static_cast<float>(query.y) + 0.5f}, value};
+  }
   FirstHit first_hit(int x, int y) const override {
     return {1 + 0.01f * static_cast<float>(x + y), {0, 0, 1}, 0};
   }

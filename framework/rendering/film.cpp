@@ -107,10 +107,14 @@ void FilmTile::add_sample(Vec2 film, Rgb radiance, const Features& features) {
   Pixel& own = pixels_[pixel_index(film, bordered_)];
   own.features += features;
   own.samples += 1;
+  add_radiance(film, radiance);
+}
+
+void FilmTile::add_radiance(Vec2 film, Rgb radiance) {
   if (filter_->radius() <= 0.5f) {  // only the sample's own pixel is in reach
     const int x = static_cast<int>(film.x), y = static_cast<int>(film.y);
     const float weight = filter_->evaluate(offset_from_center(film, x, y));
-    own.add(weight, radiance);
+    pixels_[pixel_index(film, bordered_)].add(weight, radiance);
     return;
   }
   const PixelRect reach = footprint(film, filter_->radius(), bordered_);

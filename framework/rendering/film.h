@@ -33,6 +33,8 @@ class FilmTile {
   const PixelRect& pixels() const { return inner_; }
   /// A sample of radiance at a film position [pixels] within the unit's pixels.
   void add_sample(Vec2 film, Rgb radiance, const Features& features);
+  /// The same without a path that could have told features: `samples` do not count it either.
+  void add_radiance(Vec2 film, Rgb radiance);
   /// A contribution f/p in units of (pixel value) x (number of paths started): light tracing and
   /// camera guiding. Positions off the film have no effect.
   void add_splat(Vec2 film, Rgb contribution) { splats_.push_back({film, contribution}); }

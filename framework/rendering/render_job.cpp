@@ -199,6 +199,7 @@ class RenderJob::Implementation {
     const Iteration& iteration = iterations_[index];
     const double start = watch_.seconds();
     Film film = make_film();
+    if (index + 1 == iterations_.size()) add_left_over_samples(film);
     PassSizes sizes(iteration, set_size_);
     std::uint32_t done = 0;
     const double deadline = work_up_to(index + 1) - sampler_seconds_;
@@ -239,6 +240,18 @@ class RenderJob::Implementation {
   Film make_film() const {
     const FilmSettings& film = config_.film;
     return {film.window(), film.filter, film.least_weight};
+  }
+
+  void add_left_over_samples(Film& film) const {
+    const PixelRect window = config_.film.window();
+    FilmTile tile = film.make_tile(window);
+    for (const FilmSample& sample : sampler_->film_samples()) {
+      const bool counts =
+          window.contains(static_cast<int>(sample.film.x), static_cast<int>(sample.film.y)) &&
+          is_finite(sample.radiance);
+      if (counts) tile.add_radiance(sample.film, sample.radiance);
+    }
+    film.merge(tile);
   }
 
   /// Renders `size` samples of every pixel; false when it was cut short.

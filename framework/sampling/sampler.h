@@ -2,9 +2,11 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string_view>
 
 #include <pharos/config/component.h>
+#include <pharos/core/rgb.h>
 #include <pharos/core/vec.h>
 #include <pharos/sampling/dimension.h>
 
@@ -64,6 +66,12 @@ class VertexStream {
   std::uint16_t bounce_;
 };
 
+/// An estimate of the light that a film position gets, of the same mean as paths there.
+struct FilmSample {
+  Vec2 film;  ///< [pixels]
+  Rgb radiance;
+};
+
 /// A sampler made ready for one render: constant, thread-safe, without memory of what was asked.
 class PreparedSampler {
  public:
@@ -75,6 +83,9 @@ class PreparedSampler {
   virtual float value_1d(const SampleStream& stream, Dimension dimension) const = 0;
   /// In [0, 1)^2.
   virtual Vec2 value_2d(const SampleStream& stream, Dimension dimension) const = 0;
+  /// Estimates of the image that preparation has left over. Each counts in the final image as one
+  /// sample more of its pixel.
+  virtual std::span<const FilmSample> film_samples() const { return {}; }
 };
 
 /// The pixels that will be rendered.

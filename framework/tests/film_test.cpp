@@ -47,6 +47,19 @@ void add_pass(Film& film, int n, std::uint64_t seed, Value&& value) {
   film.end_pass(n);
 }
 
+TEST_CASE("radiance without a path counts in the colour alone") {
+  Film film(kSize, kSize, std::make_shared<Box>());
+  FilmTile tile = film.make_tile(kAll);
+  tile.add_radiance({2.5f, 3.5f}, Rgb(9));
+  film.merge(tile);
+  add_pass(film, 3, 1, [](Vec2, RandomStream&) { return Rgb(1); });
+  const Image image = film.layers();
+  CHECK(image.rgb(2, 3).g == doctest::Approx(3));
+  CHECK(image.rgb(3, 3).g == doctest::Approx(1));
+  CHECK(image.pixel(2, 3)[image.channel_index("samples.N")] == 3);
+  CHECK(image.pixel(2, 3)[image.channel_index("depth.Z")] == doctest::Approx(2));
+}
+
 TEST_CASE("a constant stays a constant under any filter, at the edges too") {
   for (const float radius : {0.5f, 1.3f, 2.0f}) {
     Film film(kSize, kSize, std::make_shared<Tent>(radius));

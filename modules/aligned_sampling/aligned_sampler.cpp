@@ -88,7 +88,8 @@ class PreparedAligned final : public PreparedSampler {
         places_(field.dimensions()),
         bits_(std::countr_zero(size)),
         orders_(bits_),
-        pixel_count_(field.regions().pixel_count()) {
+        pixel_count_(field.regions().pixel_count()),
+        film_samples_(field.samples()) {
     SetTable table(library, size);
     for (std::size_t i = 0; i < field.dimensions().size(); ++i) {
       std::vector<std::uint32_t> of_regions;
@@ -113,6 +114,7 @@ class PreparedAligned final : public PreparedSampler {
     if (set == SetTable::kNone) return base_->value_2d(stream, dimension);
     return shifted(points_.data() + set, stream.key(), dimension);
   }
+  std::span<const FilmSample> film_samples() const override { return film_samples_; }
 
  private:
   /// Where in `points_` the set begins. Paths that are of no pixel of the film have that of the
@@ -146,6 +148,7 @@ class PreparedAligned final : public PreparedSampler {
   std::size_t pixel_count_;
   std::vector<std::uint32_t> sets_;  ///< by dimension, then by pixel
   PointSet points_;
+  std::vector<FilmSample> film_samples_;
 };
 
 /// The same directions for all numbers, everywhere.

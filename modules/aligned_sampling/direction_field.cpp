@@ -10,6 +10,12 @@
 namespace pharos::aligned {
 namespace {
 
+/// What was seen of one dimension of one region.
+struct Sight {
+  std::vector<float> values;        ///< at all points of the grid, tile after tile
+  std::vector<FilmSample> samples;  ///< of the image
+};
+
 /// Looks at one dimension of one region.
 class RegionProbe {
  public:
@@ -17,21 +23,39 @@ class RegionProbe {
               std::span<const std::uint32_t> pixels, Dimension dimension, std::uint64_t seed)
       : probe_(probe), grid_(grid), pixels_(pixels), dimension_(dimension), seed_(seed) {}
 
-  /// The values at all points of the grid, tile after tile. What is not finite counts as zero.
-  std::vector<float> values() const {
+  /// What is not finite counts as zero. Samples are left over of lights alone, as paths are looked
+  /// at no further than they depend on the number.
+  Sight look(bool keeps_samples) const {
     const std::vector<std::uint32_t> pixels = tile_pixels();
-    std::vector<float> values;
-    values.reserve(grid_.size());
+    Sight sight;
+    sight.values.reserve(grid_.size());
     std::vector<Rgb> colors(grid_.tile_size());
     for (int tile = 0; tile < grid_.tile_count(); ++tile) {
-      probe_.evaluate(query(pixels[static_cast<std::size_t>(tile)], tile),
-                      grid_.points(tile, seed_), colors);
-      for (const Rgb color : colors) values.push_back(is_finite(color) ? mean(color) : 0);
+      const ProbeQuery tile_query = query(pixels[static_cast<std::size_t>(tile)], tile);
+      const std::vector<Vec2> points = grid_.points(tile, seed_);
+      probe_.evaluate(tile_query, points, colors);
+      for (Rgb& color : colors) {
+        if (!is_finite(color)) color = Rgb();
+        sight.values.push_back(mean(color));
+      }
+      if (keeps_samples && dimension_.purpose() == Purpose::light_position) {
+        sight.samples.push_back(film_sample(tile_query, points.front(), colors));
+      }
     }
-    return values;
+    return sight;
   }
 
  private:
+  /// The mean of a tile's light samples, with all other light of the path that they share. The
+  /// tile is a random one for its pixel, so that this has the pixel's mean.
+  FilmSample film_sample(const ProbeQuery& query, Vec2 first, std::span<const Rgb> colors) const {
+    Rgb sum;
+    for (const Rgb color : colors) sum += color;
+    FilmSample path = probe_.whole_path(query, first);
+    path.radiance += sum / static_cast<float>(colors.size()) - colors.front();
+    return path;
+  }
+
   /// A pixel for each tile: spread evenly over the region, and unrelated to where the tile lies.
   std::vector<std::uint32_t> tile_pixels() const {
     const auto tiles = static_cast<std::size_t>(grid_.tile_count());
@@ -85,17 +109,21 @@ DirectionField estimate_directions(const IntegrandProbe& probe, std::vector<Dime
                              : block_regions(probe.grid(), settings.block);
   const std::vector<bool> is_rendered = rendered_regions(regions, probe);
   std::vector<FreeDirections> directions(dimensions.size() * regions.count());
+  std::vector<std::vector<FilmSample>> samples(directions.size());
   parallel_for(directions.size(), [&](std::size_t i) {
     if (!is_rendered[i % regions.count()]) return;
     const Dimension dimension = dimensions[i / regions.count()];
     const std::size_t region = i % regions.count();
     const std::uint64_t key = hash_combine(hash_combine(mix_bits(seed), dimension.code()), region);
-    const RegionProbe look(probe, settings.grid, regions.pixels(region), dimension, key);
-    directions[i] =
-        principal_directions(direction_histogram(look.values(), settings.grid, settings.edges),
-                             settings.principal, most);
+    const RegionProbe region_probe(probe, settings.grid, regions.pixels(region), dimension, key);
+    Sight sight = region_probe.look(settings.reuse);
+    directions[i] = principal_directions(
+        direction_histogram(sight.values, settings.grid, settings.edges), settings.principal, most);
+    samples[i] = std::move(sight.samples);
   });
-  return {std::move(regions), std::move(dimensions), std::move(directions)};
+  std::vector<FilmSample> all;
+  for (const auto& some : samples) all.insert(all.end(), some.begin(), some.end());
+  return {std::move(regions), std::move(dimensions), std::move(directions), std::move(all)};
 }
 
 }  // namespace pharos::aligned

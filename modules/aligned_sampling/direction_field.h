@@ -20,6 +20,7 @@ struct EstimationSettings {
   ProbeGrid grid;
   EdgeSettings edges;
   PrincipalSettings principal;
+  bool reuse = false;  ///< whether what was looked at counts in the image
 
   static void describe(Schema<EstimationSettings>& schema);
 };
@@ -29,10 +30,11 @@ class DirectionField {
  public:
   /// `directions`: those of the first dimension region by region, then of the next.
   DirectionField(PixelRegions regions, std::vector<Dimension> dimensions,
-                 std::vector<FreeDirections> directions)
+                 std::vector<FreeDirections> directions, std::vector<FilmSample> samples = {})
       : regions_(std::move(regions)),
         dimensions_(std::move(dimensions)),
-        directions_(std::move(directions)) {}
+        directions_(std::move(directions)),
+        samples_(std::move(samples)) {}
 
   const PixelRegions& regions() const { return regions_; }
   const std::vector<Dimension>& dimensions() const { return dimensions_; }
@@ -40,11 +42,14 @@ class DirectionField {
   const FreeDirections& at(std::size_t dimension, std::size_t region) const {
     return directions_[dimension * regions_.count() + region];
   }
+  /// Estimates of the image: one of each tile of light samples, with `reuse`.
+  const std::vector<FilmSample>& samples() const { return samples_; }
 
  private:
   PixelRegions regions_;
   std::vector<Dimension> dimensions_;
   std::vector<FreeDirections> directions_;
+  std::vector<FilmSample> samples_;
 };
 
 /// Looks at the integrands of `dimensions` and finds at most `most` principal directions in each

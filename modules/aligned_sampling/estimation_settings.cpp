@@ -14,6 +14,9 @@ void EstimationSettings::describe(Schema<EstimationSettings>& s) {
   s.field("grid", &S::grid, "Where the integrand of a block is looked at");
   s.field("edges", &S::edges, "What counts as an edge");
   s.field("principal", &S::principal, "Which directions of edges stand out");
+  s.field("reuse", &S::reuse,
+          "Whether the light samples that were looked at count in the image, each tile of them as "
+          "one sample of its pixel; without bias, and rarely worth it");
 }
 
 void ProbeGrid::describe(Schema<ProbeGrid>& s) {

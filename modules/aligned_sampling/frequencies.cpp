@@ -21,6 +21,11 @@ double mean_across(double slope, double first, double last) {
   return (std::atan(to) - std::atan(from)) / (to - from);
 }
 
+/// How fast the energy of an edge falls as the sine of its frequency's angle to the normal grows.
+double slope_of(double squared_length, const SuppressionRule& rule) {
+  return std::numbers::sqrt2 * std::numbers::pi * rule.edge_length * std::sqrt(squared_length);
+}
+
 /// Leaves those of the highest weights, at most `most`, of equal ones all or none.
 void keep_heaviest(std::vector<TargetPower>& frequencies, std::size_t most) {
   if (frequencies.size() <= most) return;
@@ -74,6 +79,10 @@ void SuppressionRule::describe(Schema<SuppressionRule>& s) {
       .unit("edge of the square")
       .above(0)
       .at_most(1.5);
+  s.field("anywhere", &SuppressionRule::anywhere,
+          "How many edges are taken to have a normal anywhere, to each along a direction")
+      .at_least(0)
+      .at_most(16);
   s.field("share", &SuppressionRule::share,
           "How many frequencies are suppressed: those where such edges have most energy")
       .unit("number of points")
@@ -95,11 +104,17 @@ double edge_energy(int x, int y, Direction normal, const SuppressionRule& rule) 
   const bool is_axis = normal.x == 0 || normal.y == 0;
   const double angle = std::atan2(across, along);
   const double spread = rule.half_angle * kRadians, exact = is_axis ? 1 : rule.exact;
-  const double slope =
-      std::numbers::sqrt2 * std::numbers::pi * rule.edge_length * std::sqrt(squared);
+  const double slope = slope_of(squared, rule);
   const double mean = exact * mean_across(slope, angle, angle) +
                       (1 - exact) * mean_across(slope, angle - spread, angle + spread);
   return along * along / (squared * squared) * mean;
+}
+
+double mean_edge_energy(int x, int y, const SuppressionRule& rule) {
+  // Of cos^2 / (1 + (slope sin)^2) / |v|^2 over all angles.
+  const double squared = static_cast<double>(x) * x + static_cast<double>(y) * y;
+  const double slope = slope_of(squared, rule);
+  return (std::sqrt(1 + slope * slope) - 1) / (slope * slope * squared);
 }
 
 std::vector<TargetPower> suppressed_frequencies(std::uint32_t points,
@@ -111,7 +126,7 @@ std::vector<TargetPower> suppressed_frequencies(std::uint32_t points,
   for (int y = 0; y <= edge; ++y) {
     for (int x = y == 0 ? 1 : -edge; x <= edge; ++x) {
       if (std::hypot(x, y) > longest) continue;
-      double energy = 0;
+      double energy = rule.anywhere * mean_edge_energy(x, y, rule);
       for (const Direction& d : directions) energy += edge_energy(x, y, d, rule);
       all.push_back({x, y, 0, energy});
     }

@@ -25,6 +25,7 @@ struct SuppressionRule {
   double exact = 0.3;        ///< share of the edges whose normal is a direction itself
   double half_angle = 5;     ///< the normals of the others lie so far about it, evenly [degrees]
   double edge_length = 0.4;  ///< of the edges, in units of the square's edge
+  double anywhere = 3;       ///< edges with any normal, to each of those along one direction
   double share = 2;          ///< most of them, in units of N
 
   friend bool operator==(const SuppressionRule&, const SuppressionRule&) = default;
@@ -50,11 +51,14 @@ Direction direction_of(double degrees);
 /// axis are all exact, as the edges of the square itself, and of the same length as others.
 double edge_energy(int x, int y, Direction normal, const SuppressionRule& rule);
 
+/// The same of an edge whose normal is anywhere: the mean over all of them.
+double mean_edge_energy(int x, int y, const SuppressionRule& rule);
+
 /// The frequencies to suppress for `points` points and these directions: within the radius those
-/// where the energies of edges along all directions add up to most, in the half plane y > 0 or
-/// y = 0 < x, as spectra are symmetric. No more than the share, and of equal ones all or none.
-/// Their weights are these energies, with the mean one: so the loss is, but for a factor, what
-/// these frequencies add to the variance of integrals of such edges (eq. 5 of the paper).
+/// where the energies of edges along all directions and anywhere add up to most, in the half plane
+/// y > 0 or y = 0 < x, as spectra are symmetric. No more than the share, and of equal ones all or
+/// none. Their weights are these energies, with the mean one: so the loss is, but for a factor,
+/// what these frequencies add to the variance of integrals of such edges (eq. 5 of the paper).
 std::vector<TargetPower> suppressed_frequencies(std::uint32_t points,
                                                 std::span<const Direction> directions,
                                                 const SuppressionRule& rule);

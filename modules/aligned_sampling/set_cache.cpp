@@ -21,15 +21,15 @@ namespace {
 namespace fs = std::filesystem;
 
 /// To be raised whenever synthesize() makes other points of the same settings.
-constexpr int kSynthesisVersion = 2;
+constexpr int kSynthesisVersion = 3;
 
 /// All that determines the points.
 std::string text_of(const SynthesisSettings& s) {
   const SuppressionRule& r = s.rule;
-  std::string text =
-      fmt::format("{} | {} | {} | {} {} | {} {} | {} | {} {} {} {} {}", kSynthesisVersion, s.points,
-                  fmt::join(s.directions, " "), s.steps, s.step, s.spectrum, s.wasserstein, s.seed,
-                  r.radius, r.exact, r.half_angle, r.edge_length, r.share);
+  std::string text = fmt::format("{} | {} | {} | {} {} | {} {} | {} | {} {} {} {} {} {}",
+                                 kSynthesisVersion, s.points, fmt::join(s.directions, " "), s.steps,
+                                 s.step, s.spectrum, s.wasserstein, s.seed, r.radius, r.exact,
+                                 r.half_angle, r.edge_length, r.anywhere, r.share);
   for (const TargetPower& v : s.mask) {
     text += fmt::format(" | {} {} {} {}", v.x, v.y, v.power, v.weight);
   }

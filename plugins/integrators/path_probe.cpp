@@ -37,15 +37,20 @@ class PathProbe final : public IntegrandProbe {
 
   void evaluate(const ProbeQuery& query, std::span<const Vec2> points,
                 std::span<Rgb> values) const override {
-    PathKey key = query.others;
-    key.index = static_cast<std::uint64_t>(query.y) * shared_.target.width + query.x;
+    const PathKey key = key_of(query);
     if (query.dimension.purpose() == Purpose::light_position) {
       evaluate_light(query, key, points, values);
       return;
     }
     for (std::size_t i = 0; i < points.size(); ++i) {
-      values[i] = evaluate_path(query, key, points[i]);
+      values[i] = walk(query, key, points[i], std::min(query.max_depth, shared_.settings.max_depth))
+                      .radiance;
     }
+  }
+
+  FilmSample whole_path(const ProbeQuery& query, Vec2 point) const override {
+    const PathSample path = walk(query, key_of(query), point, shared_.settings.max_depth);
+    return {path.film, path.radiance};
   }
 
   FirstHit first_hit(int x, int y) const override {
@@ -61,6 +66,12 @@ class PathProbe final : public IntegrandProbe {
   }
 
  private:
+  PathKey key_of(const ProbeQuery& query) const {
+    PathKey key = query.others;
+    key.index = static_cast<std::uint64_t>(query.y) * shared_.target.width + query.x;
+    return key;
+  }
+
   /// All points share the path up to the vertex.
   void evaluate_light(const ProbeQuery& query, const PathKey& key, std::span<const Vec2> points,
                       std::span<Rgb> values) const {
@@ -82,15 +93,16 @@ class PathProbe final : public IntegrandProbe {
     }
   }
 
-  Rgb evaluate_path(const ProbeQuery& query, const PathKey& key, Vec2 point) const {
+  PathSample walk(const ProbeQuery& query, const PathKey& key, Vec2 point,
+                  std::uint16_t max_depth) const {
     const PinnedSampler sampler(query.dimension, point);
     const SampleStream stream(sampler, key);
     const IterationContext context{.sampler = sampler, .seed = key.seed};
     Arena arena;
     RenderCounters counters;
     SilentRecorder recorder;
-    PathWalk walk(shared_, context, stream, arena, counters, recorder);
-    return walk.run(std::min(query.max_depth, shared_.settings.max_depth)).radiance;
+    PathWalk path(shared_, context, stream, arena, counters, recorder);
+    return path.run(max_depth);
   }
 
   const PathScene& shared_;

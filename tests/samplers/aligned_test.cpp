@@ -83,6 +83,33 @@ TEST_CASE("aligned: the image of independent numbers, whatever is aligned with")
   check_bias_is_seen(aligned, independent.side(), options);
 }
 
+TEST_CASE("aligned: the same image with the light samples that were looked at") {
+  // Of so few samples and so small blocks that a good part of all is left over from estimation.
+  constexpr int kRenders = 64, kSamples = 4;
+  const std::string sampler =
+      "{{ type: aligned, samples: 64, estimation: {{ block: 4, grid: {{ "
+      "cells: 12 }}, reuse: {} }} }}";
+  const auto with = [&](bool reuse) {
+    return config(kBoard, fmt::format(fmt::runtime(sampler), reuse), kSamples);
+  };
+  const auto independent =
+      render_seeds(config_from(config(kBoard, "independent", 8 * kSamples)), kRenders);
+  const auto reused = render_seeds(config_from(with(true)), kRenders, 1000);
+  const statistics::AgreementOptions options{.effective_contributions = 400};
+  const auto result = statistics::compare_images(reused.side(), independent.side(), options);
+  print_agreement("board, aligned, looks count", reused.samples_per_pixel, result);
+  check_agreement(result);
+  check_bias_is_seen(reused, independent.side(), options);
+  // They do count, in some pixels.
+  const Image plain = render(with(false), 2).image, image = render(with(true), 2).image;
+  int changed = 0;
+  for (int y = 0; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x) changed += plain.rgb(x, y) != image.rgb(x, y);
+  }
+  CHECK(changed > 300);
+  CHECK(changed < 1000);
+}
+
 TEST_CASE("aligned: the same bits for any number of threads, and not those of the base") {
   const auto pixels = [](const std::string& sampler, int threads) {
     return render(config(kBoard, sampler, 64), threads).image.values();

@@ -1,5 +1,6 @@
 #include "../direction_field.h"
 
+#include <cmath>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -84,6 +85,40 @@ TEST_CASE("direction field: nothing is asked of regions that are not rendered") 
   for (std::size_t region = 0; region < 8; ++region) {
     CHECK(field.at(0, region) == (region == 5 ? whole.at(0, region) : FreeDirections{}));
   }
+}
+
+TEST_CASE("direction field: what is left over of lights has the mean of the pixels' paths") {
+  // Brighter from pixel to pixel and towards one corner of the square, so that tiles differ.
+  const test::FunctionProbe probe({8, 8}, [](int x, int, Dimension, Vec2 u) {
+    return (1 + static_cast<float>(x)) * u.x * u.x * (u.y < 0.3f ? 1.0f : 0.0f);
+  });
+  const Dimension lens{Purpose::lens};
+  const auto left_over = [&](Dimension dimension, bool reuse, std::uint64_t seed) {
+    const EstimationSettings settings{
+        .block = 8, .grid = {.cells = 12, .tiles = 3}, .reuse = reuse};
+    return estimate_directions(probe, {dimension}, settings, 1, seed).samples();
+  };
+  CHECK(left_over(kFirst, false, 1).empty());
+  CHECK(left_over(lens, true, 1).empty());
+  double sum = 0, squares = 0;
+  constexpr int kSeeds = 4000;
+  for (int seed = 0; seed < kSeeds; ++seed) {
+    const std::vector<FilmSample> samples =
+        left_over(kFirst, true, static_cast<std::uint64_t>(seed));
+    REQUIRE(samples.size() == 9);
+    double ratio = 0;
+    for (const FilmSample& sample : samples) {
+      const float column = sample.film.x - 0.25f;  // where the probe's paths pass
+      REQUIRE(column == std::floor(column));
+      ratio += (sample.radiance.g - test::FunctionProbe::kRest) / (1 + column) / 9;
+    }
+    sum += ratio;
+    squares += ratio * ratio;
+  }
+  const double mean = sum / kSeeds,
+               deviation = std::sqrt((squares / kSeeds - mean * mean) / kSeeds);
+  CHECK(std::abs(mean - 0.1) < 4 * deviation);  // 1/3 of 0.3
+  CHECK(deviation < 1e-3);
 }
 
 TEST_CASE("direction field: what is not finite has no edge") {

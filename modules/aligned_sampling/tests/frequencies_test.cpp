@@ -89,6 +89,21 @@ TEST_CASE("energy: the mean over the normals within the half angle") {
   CHECK(edge_energy(20, 1, direction_of(0), spread) == edge_energy(20, 1, direction_of(0), sharp));
 }
 
+TEST_CASE("energy: the mean over all normals, the same for all frequencies of a length") {
+  const SuppressionRule sharp{.exact = 1};
+  for (const auto& [x, y] : {std::pair{2, 1}, {17, 10}, {-3, 25}}) {
+    CAPTURE(x);
+    CAPTURE(y);
+    double mean = 0;
+    for (int i = 0; i < 3600; ++i) {
+      // (Not those of the axes, which are exact where others are not.)
+      mean += edge_energy(x, y, direction_of((i + 0.5) / 20), sharp) / 3600;
+    }
+    CHECK(mean_edge_energy(x, y, sharp) == doctest::Approx(mean).epsilon(1e-3).scale(0));
+    CHECK(mean_edge_energy(x, y, sharp) == mean_edge_energy(-y, x, sharp));
+  }
+}
+
 TEST_CASE("frequencies: a half plane, each but once, those of most energy, weighted by it") {
   SuppressionRule rule;
   rule.share = 0.5;
@@ -97,7 +112,7 @@ TEST_CASE("frequencies: a half plane, each but once, those of most energy, weigh
   CHECK(all.size() <= 512);
   CHECK(all.size() > 500);
   const auto energy = [&](int x, int y) {
-    double sum = 0;
+    double sum = rule.anywhere * mean_edge_energy(x, y, rule);
     for (const Direction d : directions) sum += edge_energy(x, y, d, rule);
     return sum;
   };

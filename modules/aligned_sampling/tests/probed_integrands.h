@@ -67,7 +67,14 @@ class FunctionProbe final : public IntegrandProbe {
       values[i] = Rgb(value_at_(query.x, query.y, query.dimension, points[i]));
     }
   }
+  FilmSample whole_path(const ProbeQuery& query, Vec2 point) const override {
+    const float value = value_at_(query.x, query.y, query.dimension, point) + kRest;
+    return {{static_cast<float>(query.x) + 0.25f, static_cast<float>(query.y) + 0.75f}, Rgb(value)};
+  }
   FirstHit first_hit(int x, int y) const override { return hit_at_(x, y); }
+
+  /// What whole paths have beside the part that depends on the number.
+  static constexpr float kRest = 0.5f;
 
  private:
   PixelGrid grid_;
