@@ -33,7 +33,7 @@ class FilmTile {
   const PixelRect& pixels() const { return inner_; }
   /// A sample of radiance at a film position [pixels] within the unit's pixels.
   void add_sample(Vec2 film, Rgb radiance, const Features& features);
-  /// The same without a path that could have told features: `samples` do not count it either.
+  /// The same without features; the layer `samples` does not count it.
   void add_radiance(Vec2 film, Rgb radiance);
   /// A contribution f/p in units of (pixel value) x (number of paths started): light tracing and
   /// camera guiding. Positions off the film have no effect.

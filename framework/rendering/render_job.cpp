@@ -134,6 +134,10 @@ class RenderJob::Implementation {
     const auto probe = config.sampler->needs_probe() ? integrator_->probe() : nullptr;
     sampler_ = config.sampler->prepare({config.film.width, config.film.height},
                                        {config.seed, longest(iterations_)}, probe.get());
+    // Where samples reach over to other pixels, more in one would pull these towards its side.
+    if (!sampler_->film_samples().empty() && config.film.filter->radius() > 0.5f) {
+      throw InputError("samples that the sampler has left over need a film with `filter: box`");
+    }
     sampler_seconds_ = watch_.seconds() - preparation_seconds_;
   }
 
@@ -242,14 +246,19 @@ class RenderJob::Implementation {
     return {film.window(), film.filter, film.least_weight};
   }
 
-  void add_left_over_samples(Film& film) const {
+  /// Not where a guide of the camera makes all paths splats: there is nothing to average with.
+  void add_left_over_samples(Film& film) {
+    const bool has_splats = frame_ != nullptr && frame_->guides_camera();
+    if (sampler_->film_samples().empty() || has_splats) return;
     const PixelRect window = config_.film.window();
     FilmTile tile = film.make_tile(window);
     for (const FilmSample& sample : sampler_->film_samples()) {
-      const bool counts =
-          window.contains(static_cast<int>(sample.film.x), static_cast<int>(sample.film.y)) &&
-          is_finite(sample.radiance);
-      if (counts) tile.add_radiance(sample.film, sample.radiance);
+      if (!window.contains(static_cast<int>(sample.film.x), static_cast<int>(sample.film.y))) {
+        continue;
+      }
+      const bool valid = is_finite(sample.radiance);
+      if (!valid) ++result_.counters.invalid_paths;
+      tile.add_radiance(sample.film, valid ? sample.radiance : Rgb());
     }
     film.merge(tile);
   }

@@ -47,8 +47,8 @@ class IntegrandProbe {
   virtual void evaluate(const ProbeQuery& query, std::span<const Vec2> points,
                         std::span<Rgb> values) const = 0;
 
-  /// The whole path at one point of the dimension: an unguided sample of the image, for which the
-  /// integrator's limit of segments holds alone.
+  /// The whole path at one point of the dimension: an unguided sample of the image.
+  /// `query.max_depth` does not apply, only the integrator's own limit.
   virtual FilmSample whole_path(const ProbeQuery& query, Vec2 point) const = 0;
 
   virtual FirstHit first_hit(int x, int y) const = 0;

@@ -66,7 +66,7 @@ class VertexStream {
   std::uint16_t bounce_;
 };
 
-/// An estimate of the light that a film position gets, of the same mean as paths there.
+/// An estimate of radiance at a film position, with the mean of the paths of its pixel.
 struct FilmSample {
   Vec2 film;  ///< [pixels]
   Rgb radiance;
@@ -83,8 +83,8 @@ class PreparedSampler {
   virtual float value_1d(const SampleStream& stream, Dimension dimension) const = 0;
   /// In [0, 1)^2.
   virtual Vec2 value_2d(const SampleStream& stream, Dimension dimension) const = 0;
-  /// Estimates of the image that preparation has left over. Each counts in the final image as one
-  /// sample more of its pixel.
+  /// Estimates of the image that preparation has left over. Each counts in the colour of the final
+  /// image as one path more of its pixel. How many there are of a pixel must not depend on them.
   virtual std::span<const FilmSample> film_samples() const { return {}; }
 };
 

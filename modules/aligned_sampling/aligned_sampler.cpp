@@ -90,6 +90,8 @@ class PreparedAligned final : public PreparedSampler {
         orders_(bits_),
         pixel_count_(field.regions().pixel_count()),
         film_samples_(field.samples()) {
+    const auto of_base = base_->film_samples();
+    film_samples_.insert(film_samples_.end(), of_base.begin(), of_base.end());
     SetTable table(library, size);
     for (std::size_t i = 0; i < field.dimensions().size(); ++i) {
       std::vector<std::uint32_t> of_regions;

@@ -23,8 +23,8 @@ class RegionProbe {
               std::span<const std::uint32_t> pixels, Dimension dimension, std::uint64_t seed)
       : probe_(probe), grid_(grid), pixels_(pixels), dimension_(dimension), seed_(seed) {}
 
-  /// What is not finite counts as zero. Samples are left over of lights alone, as paths are looked
-  /// at no further than they depend on the number.
+  /// What is not finite counts as zero. Samples are left over of lights alone: for other numbers
+  /// paths are cut after the next vertex, and so are no samples of the image.
   Sight look(bool keeps_samples) const {
     const std::vector<std::uint32_t> pixels = tile_pixels();
     Sight sight;

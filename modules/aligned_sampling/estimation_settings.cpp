@@ -16,7 +16,7 @@ void EstimationSettings::describe(Schema<EstimationSettings>& s) {
   s.field("principal", &S::principal, "Which directions of edges stand out");
   s.field("reuse", &S::reuse,
           "Whether the light samples that were looked at count in the image, each tile of them as "
-          "one sample of its pixel; without bias, and rarely worth it");
+          "one sample of its pixel; needs a film with `filter: box`, and is rarely worth it");
 }
 
 void ProbeGrid::describe(Schema<ProbeGrid>& s) {

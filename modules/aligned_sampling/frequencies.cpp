@@ -80,7 +80,7 @@ void SuppressionRule::describe(Schema<SuppressionRule>& s) {
       .above(0)
       .at_most(1.5);
   s.field("anywhere", &SuppressionRule::anywhere,
-          "How many edges are taken to have a normal anywhere, to each along a direction")
+          "Edges of any normal, for each edge along one direction")
       .at_least(0)
       .at_most(16);
   s.field("share", &SuppressionRule::share,
@@ -114,7 +114,7 @@ double mean_edge_energy(int x, int y, const SuppressionRule& rule) {
   // Of cos^2 / (1 + (slope sin)^2) / |v|^2 over all angles.
   const double squared = static_cast<double>(x) * x + static_cast<double>(y) * y;
   const double slope = slope_of(squared, rule);
-  return (std::sqrt(1 + slope * slope) - 1) / (slope * slope * squared);
+  return 1 / ((1 + std::sqrt(1 + slope * slope)) * squared);
 }
 
 std::vector<TargetPower> suppressed_frequencies(std::uint32_t points,

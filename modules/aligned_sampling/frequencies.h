@@ -25,7 +25,7 @@ struct SuppressionRule {
   double exact = 0.3;        ///< share of the edges whose normal is a direction itself
   double half_angle = 5;     ///< the normals of the others lie so far about it, evenly [degrees]
   double edge_length = 0.4;  ///< of the edges, in units of the square's edge
-  double anywhere = 3;       ///< edges with any normal, to each of those along one direction
+  double anywhere = 3;       ///< edges of any normal, for each edge along one direction
   double share = 2;          ///< most of them, in units of N
 
   friend bool operator==(const SuppressionRule&, const SuppressionRule&) = default;

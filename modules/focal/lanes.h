@@ -29,8 +29,8 @@ struct alignas(32) Quad {
   static Quad all(double value) {
     return each([&](int) { return value - Register{}; });
   }
-  /// The number at an address, from there straight to all places. (Of all() and a product compilers
-  /// make a product and all().)
+  /// The number at an address, from there straight to all places. (With all() compilers multiply
+  /// first and spread the product.)
   static Quad broadcast(const double* from) {
 #if defined(__AVX__)
     return {{_mm256_broadcast_sd(from)}};
@@ -115,7 +115,7 @@ inline Quad smaller(const Quad& a, const Quad& b) {
   });
 }
 
-/// 2 a + b: in one step, where compilers of a product with two make a sum and then another.
+/// 2 a + b as one fused operation: compilers turn 2 a into a + a and add b after that.
 inline Quad twice_plus(const Quad& a, const Quad& b) {
   return Quad::each([&](int k) -> Register {
     const Register &x = a.registers[k], &y = b.registers[k];

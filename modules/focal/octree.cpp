@@ -11,6 +11,17 @@ double ratio(double part, double rest) {
   return part + rest > 0 ? part / (part + rest) : 0.5;
 }
 
+/// The root's is 0.
+std::vector<unsigned> levels_of(const std::vector<Octree::Node>& nodes) {
+  std::vector<unsigned> levels(nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    for (unsigned c = 0; c < 8; ++c) {
+      if (!nodes[i].is_leaf(c)) levels[nodes[i].index(c)] = levels[i] + 1;
+    }
+  }
+  return levels;
+}
+
 }  // namespace
 
 Box Box::child(unsigned c) const {
@@ -31,7 +42,7 @@ bool Box::contains(Point3 p) const {
 }
 
 Octree::Octree(const Box& box, std::vector<Node> nodes)
-    : box_(box), nodes_(std::move(nodes)), crossed_(nodes_), warps_(nodes_.size()) {
+    : box_(box), nodes_(std::move(nodes)), mass_nodes_(nodes_), warps_(nodes_.size()) {
   // Masses of whole nodes relative to the cell of their parent: children stand after parents.
   std::vector<double> masses(nodes_.size());
   for (std::size_t i = nodes_.size(); i-- > 0;) {
@@ -56,28 +67,22 @@ Octree::Octree(const Box& box, std::vector<Node> nodes)
   mass_ = masses[0] * box_.volume();
 
   if (box_.volume() > 0) third_per_volume_ = 1 / (3 * box_.volume());
-  std::vector<unsigned> levels(nodes_.size());
+  find_leaf_masses();
+}
+
+void Octree::find_leaf_masses() {
+  const std::vector<unsigned> levels = levels_of(nodes_);
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    const double share = std::pow(unit(levels[i]), 3);
+    const double volume = leaf_volume(levels[i]);
     for (unsigned c = 0; c < 8; ++c) {
-      if (nodes_[i].is_leaf(c)) {
-        const double mass = nodes_[i].density(c) * share * box_.volume();
-        crossed_[i].set_density(c, static_cast<float>(mass));
-      } else {
-        levels[nodes_[i].index(c)] = levels[i] + 1;
-      }
+      if (!nodes_[i].is_leaf(c)) continue;
+      mass_nodes_[i].set_density(c, static_cast<float>(volume * nodes_[i].density(c)));
     }
   }
 }
 
 int Octree::depth() const {
-  std::vector<int> levels(nodes_.size(), 1);
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    for (unsigned c = 0; c < 8; ++c) {
-      if (!nodes_[i].is_leaf(c)) levels[nodes_[i].index(c)] = levels[i] + 1;
-    }
-  }
-  return levels.back();
+  return static_cast<int>(levels_of(nodes_).back()) + 1;
 }
 
 double Octree::density(Point3 p) const {

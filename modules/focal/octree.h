@@ -61,8 +61,8 @@ inline Line::Line(const Box& box, Point3 from, Vec3 direction) {
 /// The two halves of a line at its origin.
 enum class Side { ahead, behind };
 
-/// Stretches of a line within the eight children of a node; a child that the line misses has
-/// end < begin.
+/// Stretches of a line within the eight children of a node [Octree::unit(level) of that]; a child
+/// that the line misses has end < begin.
 struct Spans {
   Lanes begin, end;
 
@@ -144,16 +144,19 @@ class Octree {
   Double3 sample(const Double3& u) const;
 
   /// Calls `visit(i, node, spans, level)` for every node i that a side of `line` (of a line through
-  /// box()) crosses, with the stretches within its children. Lengths are in units of
-  /// unit(level) scene units, so that the steps of the line are the same on all levels. Both are
+  /// box()) crosses, with the stretches within its children. Lengths are in units of unit(level)
+  /// scene units, so that the steps of the line are the same on all levels. Node and spans are
   /// mirrored so that the line goes upwards along all axes: what is said of c is of child
   /// c ^ line.mirror. In no particular but always the same order. Inlined, so that sums of visitors
   /// stay in registers.
   template <Side side, class Visit>
   [[gnu::always_inline]] void traverse(const Line& line, Visit&& visit) const;
-  /// What traverse() measures lengths in at nodes of a level, the root's being 0 [scene units]: a
-  /// leaf there has volume box().volume() * unit^3.
+  /// What traverse() measures lengths in at nodes of a level, the root's being 0 [scene units].
   static constexpr double unit(unsigned level) { return 0.5 / static_cast<double>(1u << level); }
+  /// Of a leaf that is a child of such a node [scene unit^3].
+  double leaf_volume(unsigned level) const {
+    return box_.volume() * unit(level) * unit(level) * unit(level);
+  }
 
  private:
   struct Steps;
@@ -172,25 +175,27 @@ class Octree {
   [[gnu::always_inline]] std::uint64_t cross(const Front& front, std::uint64_t crossed,
                                              const Steps& steps, Front& next, Visit& visit) const;
 
+  void find_leaf_masses();
+
   Box box_;
   std::vector<Node> nodes_;
-  std::vector<Node> crossed_;  ///< nodes_ with the masses of leaves in place of their densities
+  std::vector<Node> mass_nodes_;  ///< nodes_ with the masses of leaves in place of densities
   std::vector<Warp> warps_;
   double mass_ = 0;
   double third_per_volume_ = 0;  ///< of the box; 0 where that is empty [1/scene unit^3]
 };
 
-/// What the crossings of all nodes have in common. The children below one another along z are
-/// computed together: x and y are the same for them.
+/// What the crossings of all nodes have in common [units of the node's level]. The children below
+/// one another along z are computed together: x and y are the same for them.
 struct Octree::Steps {
   explicit Steps(const Line& line);
 
-  Quad begin_x, begin_y, middle_z;  ///< how much later than its node the line enters each child
-  Quad end_x, end_y, end_z;         ///< and leaves it, by axis
+  Quad begin_x, begin_y, middle_z;  ///< how much later the line enters each child than its node
+  Quad end_x, end_y, end_z;         ///< and leaves each, by axis
   Words order;                      ///< of the children as the line meets them
 };
 
-/// The children of up to kRound nodes that a line crosses on one level.
+/// The children of up to kRound nodes that a line crosses on one level [units of those].
 struct alignas(64) Octree::Front {
   static constexpr int kRound = 8;
 
@@ -229,7 +234,7 @@ inline std::uint64_t Octree::cross(const Front& front, std::uint64_t crossed, co
   for (unsigned slot = 0; slot < 8 * Front::kRound; slot += 8) {
     const auto at = static_cast<unsigned>(std::countr_zero(crossed));
     const std::uint32_t i = front.children[at] & ~kInner;
-    const CrossedNode node{crossed_[i].mirrored(steps.order)};
+    const CrossedNode node{mass_nodes_[i].mirrored(steps.order)};
     const Quad entry_x = Quad::broadcast(&front.x[at]), entry_y = Quad::broadcast(&front.y[at]),
                entry_z = Quad::broadcast(&front.z[at]);
     // Units are half as long as the parents'.

@@ -21,8 +21,7 @@ void add_to_leaves(const Octree& octree, const Line& line, double begin, double 
   if (!(begin < end)) return;
   const auto visit = [&](std::uint32_t i, const Octree::CrossedNode& node, const Spans& spans,
                          unsigned level) {
-    const double unit = Octree::unit(level);
-    const double volume = octree.box().volume() * unit * unit * unit;
+    const double unit = Octree::unit(level), volume = octree.leaf_volume(level);
     for (unsigned c = 0; c < 8; ++c) {
       const double t0 = std::max(unit * spans.begin[c], begin);
       const double t1 = std::min(unit * spans.end[c], end);

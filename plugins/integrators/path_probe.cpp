@@ -85,10 +85,10 @@ class PathProbe final : public IntegrandProbe {
     Arena arena;
     RenderCounters counters;
     LightProbeRecorder recorder;
-    PathWalk walk(shared_, context, stream, arena, counters, recorder);
-    if (!walk.walk_to_lights(bounce)) return;
+    PathWalk path(shared_, context, stream, arena, counters, recorder);
+    if (!path.walk_to_lights(bounce)) return;
     for (std::size_t i = 0; i < points.size(); ++i) {
-      walk.sample_light(branch, points[i]);
+      path.sample_light(branch, points[i]);
       values[i] = recorder.take();
     }
   }

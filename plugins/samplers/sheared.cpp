@@ -41,6 +41,7 @@ class PreparedSheared final : public PreparedSampler {
     if (is_flat_) return {u.x, moved(u.y, u.x)};
     return {moved(u.x, u.y), u.y};
   }
+  std::span<const FilmSample> film_samples() const override { return base_->film_samples(); }
 
  private:
   /// Nothing is rounded but the way.

@@ -29,6 +29,7 @@ class PreparedToroidalShift final : public PreparedSampler {
   Vec2 value_2d(const SampleStream& stream, Dimension dimension) const override {
     return moved(base_->value_2d(base_stream(stream), dimension), offset(stream, dimension));
   }
+  std::span<const FilmSample> film_samples() const override { return base_->film_samples(); }
 
  private:
   /// Of the first pixel. The seed is another one, so that a base that moves points itself does not

@@ -89,6 +89,52 @@ TEST_CASE("numbers of other dimensions are probed by whole paths") {
   }
 }
 
+TEST_CASE("whole paths are the image's, however long") {
+  const Prepared p(path_config(kFloorAndLight, 3, "", 1));
+  const auto probe = p.integrator->probe();
+  const Vec2 u{0.3f, 0.6f};
+  for (const std::uint32_t sample : {0u, 1u, 2u}) {
+    const PathKey key{.seed = 3, .index = 8 * 16 + 2, .sample = sample};
+    for (const Dimension dimension : {kLight, Dimension{Purpose::bsdf_direction, 1}}) {
+      const FilmSample path = probe->whole_path(
+          {.x = 2, .y = 8, .dimension = dimension, .others = key, .max_depth = 1}, u);
+      CHECK(path.radiance == p.integrator->replay(key, {Pinned(dimension, u)}).radiance);
+      CHECK(mean(path.radiance) > 0);
+      const Vec2 in_pixel = path.film - Vec2{2, 8};
+      const Vec2 number = keyed_numbers(hash_key(key), {Purpose::pixel});
+      CHECK(in_pixel.x == doctest::Approx(number.x).epsilon(1e-5));
+      CHECK(in_pixel.y == doctest::Approx(number.y).epsilon(1e-5));
+    }
+  }
+}
+
+/// The radiance of the first pixel, and of the next, of `spp` samples.
+std::pair<float, float> first_pixels(const std::string& guiding, float left_over, int spp) {
+  const std::string sampler = fmt::format("{{ type: stub_probing, left_over: {} }}", left_over);
+  const Image image = render(path_config(kFloorAndLight, 2, guiding, spp, sampler)).image;
+  return {mean(image.rgb(0, 0)), mean(image.rgb(1, 0))};
+}
+
+TEST_CASE("what a sampler has left over counts as one path of its pixel") {
+  // The first pixels see nothing.
+  CHECK(first_pixels("", 0, 4) == std::pair{0.0f, 0.0f});
+  CHECK(first_pixels("", 10, 4) == std::pair{2.0f, 0.0f});
+  const std::string trained =
+      "{ learner: stub_direction, guider: stub_direction, training: { iterations: 2 } }";
+  CHECK(first_pixels(trained, 10, 8) == std::pair{2.0f, 0.0f});
+  // Paths of a guided camera are splats, which have no mean to count in.
+  CHECK(first_pixels("{ learner: stub_camera, guider: stub_camera }", 10, 8).first < 1);
+}
+
+TEST_CASE("what a sampler has left over needs a filter that stays within the pixel") {
+  std::string config =
+      path_config(kFloorAndLight, 2, "", 1, "{ type: stub_probing, left_over: 1 }");
+  const std::string box = "filter: box";
+  config.replace(config.find(box), box.size(), "filter: gaussian");
+  CHECK_THROWS_WITH_AS(render(config), doctest::Contains("need a film with `filter: box`"),
+                       InputError);
+}
+
 TEST_CASE("paths longer than is asked for do not count") {
   const Prepared p(path_config(kFloorAndLight, 3, "", 1));
   const auto probe = p.integrator->probe();

@@ -1,6 +1,7 @@
 // Stub (f): a sampler that looks at the light-position integrand of pixel blocks before rendering
 // and shifts each block's numbers, on the torus, by where the integrand is brightest. Uniform
-// numbers stay uniform under a shift, so nothing may change but noise.
+// numbers stay uniform under a shift, so nothing may change but noise. On request it leaves a
+// sample over, for the middle of the first pixel.
 
 #include <cmath>
 #include <vector>
@@ -21,8 +22,11 @@ constexpr Dimension kProbed{Purpose::light_position, 1, 0};
 
 class ShiftedSampler final : public PreparedSampler {
  public:
-  ShiftedSampler(const PixelGrid& grid, std::vector<Vec2> shifts)
-      : grid_(grid), columns_((grid.width + kBlock - 1) / kBlock), shifts_(std::move(shifts)) {}
+  ShiftedSampler(const PixelGrid& grid, std::vector<Vec2> shifts, std::vector<FilmSample> left_over)
+      : grid_(grid),
+        columns_((grid.width + kBlock - 1) / kBlock),
+        shifts_(std::move(shifts)),
+        left_over_(std::move(left_over)) {}
 
   std::uint64_t begin(const PathKey& key) const override { return hash_key(key); }
   float value_1d(const SampleStream& stream, Dimension dimension) const override {
@@ -36,6 +40,7 @@ class ShiftedSampler final : public PreparedSampler {
     const Vec2 shift = shifts_[static_cast<std::size_t>(block)];
     return {wrap(u.x + shift.x), wrap(u.y + shift.y)};
   }
+  std::span<const FilmSample> film_samples() const override { return left_over_; }
 
  private:
   static float wrap(float v) { return std::min(v - std::floor(v), kOneMinusEpsilon); }
@@ -43,12 +48,21 @@ class ShiftedSampler final : public PreparedSampler {
   PixelGrid grid_;
   int columns_;
   std::vector<Vec2> shifts_;
+  std::vector<FilmSample> left_over_;
+};
+
+struct ProbingSettings {
+  float left_over = 0;
+
+  static void describe(Schema<ProbingSettings>& s) {
+    s.field("left_over", &ProbingSettings::left_over, "Radiance of a sample that is left over");
+  }
 };
 
 class ProbingSampler final : public Sampler {
  public:
-  using Settings = NoSettings;
-  explicit ProbingSampler(Settings) {}
+  using Settings = ProbingSettings;
+  explicit ProbingSampler(const Settings& settings) : settings_(settings) {}
 
   bool needs_probe() const override { return true; }
   std::unique_ptr<const PreparedSampler> prepare(const PixelGrid& grid, const SamplePlan& plan,
@@ -60,7 +74,9 @@ class ProbingSampler final : public Sampler {
         shifts.push_back(brightest(*probe, {.seed = plan.seed}, x, y));
       }
     }
-    return std::make_unique<ShiftedSampler>(grid, std::move(shifts));
+    std::vector<FilmSample> left_over;
+    if (settings_.left_over > 0) left_over.push_back({{0.5f, 0.5f}, Rgb(settings_.left_over)});
+    return std::make_unique<ShiftedSampler>(grid, std::move(shifts), std::move(left_over));
   }
 
  private:
@@ -78,6 +94,8 @@ class ProbingSampler final : public Sampler {
     }
     return points[best];
   }
+
+  Settings settings_;
 };
 
 }  // namespace

@@ -96,7 +96,6 @@ TEST_CASE("energy: the mean over all normals, the same for all frequencies of a 
     CAPTURE(y);
     double mean = 0;
     for (int i = 0; i < 3600; ++i) {
-      // (Not those of the axes, which are exact where others are not.)
       mean += edge_energy(x, y, direction_of((i + 0.5) / 20), sharp) / 3600;
     }
     CHECK(mean_edge_energy(x, y, sharp) == doctest::Approx(mean).epsilon(1e-3).scale(0));

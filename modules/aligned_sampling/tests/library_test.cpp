@@ -119,7 +119,8 @@ TEST_CASE("library: sets are stratified along their angles and the axes, and the
       const PointSet set = library.find(std::vector<double>{static_cast<double>(degrees)}, points);
       REQUIRE(set.size() == points);
       const double own = unevenness(set, degrees);
-      const double most = points == 64 ? 1.1 : 0.8;  // few points have to serve all directions
+      const double most =
+          points == 64 ? 1.1 : 0.8;  // most of their few frequencies are of no direction
       CHECK(unevenness(set, 0) < most);
       CHECK(unevenness(set, 90) < most);
       CHECK(own < 1.7);
