@@ -5,9 +5,9 @@
 namespace pharos {
 namespace {
 
-/// Sizes of the training iterations in granules: as many as asked for, or as the total allows.
-std::vector<std::uint32_t> training_granules(ScheduleKind kind, std::uint32_t iterations,
-                                             std::uint32_t total) {
+/// Samples of the training iterations: as many iterations as asked for, or as the total allows.
+std::vector<std::uint32_t> training_samples(ScheduleKind kind, std::uint32_t iterations,
+                                            std::uint32_t total) {
   if (kind == ScheduleKind::uniform) {
     const std::uint32_t count = std::min(iterations, total);
     return std::vector<std::uint32_t>(count, count > 0 ? total / count : 0);
@@ -53,9 +53,13 @@ std::vector<Iteration> TrainingSchedule::divide(const Budget& budget, std::uint3
   }
   const auto wanted = static_cast<std::uint32_t>(std::floor(*budget.spp * share));
   std::uint32_t left = *budget.spp;
-  for (const std::uint32_t size : training_granules(schedule, iterations, wanted / granule)) {
-    all.push_back({.samples = size * granule, .training = true, .keeps_image = keeps});
-    left -= size * granule;
+  for (const std::uint32_t samples : training_samples(schedule, iterations, wanted)) {
+    all.push_back({.samples = samples, .training = true, .keeps_image = keeps});
+    left -= samples;
+  }
+  if (!all.empty() && left > granule) {
+    all.back().samples += left % granule;
+    left -= left % granule;
   }
   all.push_back({.samples = left});
   return all;

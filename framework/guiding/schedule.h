@@ -44,9 +44,10 @@ struct TrainingSchedule {
 
   /// The iterations of a guided render, the final one last. A sample budget is divided exactly:
   /// `uniform` gives all training iterations the same number of samples and `geometric` doubles
-  /// them; each has at least `granule` samples (a sampler's preferred number) and a multiple of it,
-  /// and fewer iterations are made where the budget does not suffice. What training leaves over
-  /// goes to the final image. Without training the budget is one iteration.
+  /// them; fewer are made where the budget does not suffice. What training leaves over goes to the
+  /// final image, as far as this has whole granules of `granule` samples (a sampler's preferred
+  /// number) then, and the rest of it to the last training iteration. Without training the budget
+  /// is one iteration.
   std::vector<Iteration> divide(const Budget& budget, std::uint32_t granule) const;
 };
 

@@ -204,7 +204,8 @@ class RenderJob::Implementation {
     const double start = watch_.seconds();
     Film film = make_film();
     if (index + 1 == iterations_.size()) add_left_over_samples(film);
-    PassSizes sizes(iteration, set_size_);
+    // Training has no time to wait for whole sets.
+    PassSizes sizes(iteration, iteration.training ? 1 : set_size_);
     std::uint32_t done = 0;
     const double deadline = work_up_to(index + 1) - sampler_seconds_;
     while (true) {
@@ -331,7 +332,7 @@ class RenderJob::Implementation {
   std::unique_ptr<const PreparedSensor> sensor_;
   std::unique_ptr<const PreparedIntegrator> integrator_;
   std::vector<PixelRect> tiles_;
-  std::uint32_t set_size_ = 1;  ///< that passes fill
+  std::uint32_t set_size_ = 1;  ///< that passes of the final image fill
   std::vector<Iteration> iterations_;
   std::unique_ptr<const PreparedSampler> sampler_;
   double preparation_seconds_ = 0, sampler_seconds_ = 0;

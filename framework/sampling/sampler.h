@@ -111,10 +111,10 @@ class Sampler : public Component {
                                                          const SamplePlan& plan,
                                                          const IntegrandProbe* probe) const = 0;
 
-  /// Size of the finite sets that a sampler works with: passes are whole sets, but for the last of
-  /// an iteration whose number of samples is no multiple. 1: any count is as good, or sets are as
-  /// long as an iteration, which any passes fill. `plan` states the samples of all iterations
-  /// together, or 0 for a time budget, as the iterations are yet to be chosen.
+  /// Size of the finite sets that a sampler works with: passes of the final image are whole sets,
+  /// but for the last one where the number of samples is no multiple. 1: any count is as good, or
+  /// sets are as long as an iteration, which any passes fill. `plan` states the samples of all
+  /// iterations together, or 0 for a time budget, as the iterations are yet to be chosen.
   virtual std::uint32_t preferred_samples(const SamplePlan& /*plan*/) const { return 1; }
   /// Whether prepare() needs a probe.
   virtual bool needs_probe() const { return false; }
