@@ -13,6 +13,7 @@
 #include <pharos/core/version.h>
 #include <pharos/experiments/density_cloud.h>
 #include <pharos/experiments/density_slice.h>
+#include <pharos/experiments/ellipsoid_picture.h>
 #include <pharos/experiments/scene_outline.h>
 #include <pharos/guiding/model_file.h>
 #include <pharos/rendering/render_config.h>
@@ -114,6 +115,29 @@ class Inspection {
     return options_.cloud ? cloud() : directions();
   }
 
+  /// The Gaussians around a point, in colours.
+  Image ellipsoids() const {
+    const auto* mixture = dynamic_cast<const SpatialMixture*>(&model_);
+    if (mixture == nullptr) {
+      throw InputError(
+          fmt::format("pharos inspect: error: the model '{}' has no spatial Gaussians: "
+                      "expected --slice, --direction or --cloud",
+                      model_.name()));
+    }
+    const Point3 point = parse_point("--ellipsoids", options_.ellipsoids);
+    Arena arena;
+    const CloudView view = view_of(bounds());
+    const Point3 from = view.ray(0.5f, 0.5f).origin;
+    const auto components = mixture_for_picture(*mixture, point, from, arena).components;
+    if (components.empty()) {
+      throw InputError(fmt::format("--ellipsoids {}: error: the model knows nothing there",
+                                   options_.ellipsoids));
+    }
+    log_info(
+        fmt::format("{} Gaussians that guide paths at {}", components.size(), point_text(point)));
+    return ellipsoid_picture(components, view, backdrop(bounds(), view));
+  }
+
  private:
   /// Where there is something to see.
   Bounds3 bounds() const {
@@ -147,20 +171,27 @@ class Inspection {
   }
 
   Picture directions() const {
-    const Point3 point = parse_point(options_.direction);
+    const Point3 point = parse_point("--direction", options_.direction);
     return {fmt::format("density over directions at {}, y up, +z in the middle", point_text(point)),
             density_directions(model_, point, options_.size / 2)};
   }
 
   Picture cloud() const {
     const Bounds3 box = bounds();
-    const CloudView view = scene_ == nullptr ? oblique_view(box, options_.size)
-                                             : camera_view(scene_->scene, scene_->film_width,
-                                                           scene_->film_height, options_.size);
+    const CloudView view = view_of(box);
     return {"largest density along each line of sight",
             cloud_density(model_, box, view),
             {},
-            scene_ == nullptr ? box_edges(box, options_.size) : shaded_scene(scene_->scene, view)};
+            backdrop(box, view)};
+  }
+
+  /// What the scene's camera sees, or all of the box.
+  CloudView view_of(const Bounds3& box) const {
+    if (scene_ == nullptr) return oblique_view(box, options_.size);
+    return camera_view(scene_->scene, scene_->film_width, scene_->film_height, options_.size);
+  }
+  Image backdrop(const Bounds3& box, const CloudView& view) const {
+    return scene_ == nullptr ? box_edges(box, options_.size) : shaded_scene(scene_->scene, view);
   }
 
   const InspectOptions& options_;
@@ -195,7 +226,11 @@ void inspect(const InspectOptions& options) {
   const InspectedModel inspected = read_model(options.model, registry);
   if (!options.wants_picture()) return print_facts(inspected);
   const auto scene = read_scene(options.scene, registry);
-  write_picture(Inspection(options, *inspected.model, scene.get()).picture(), options);
+  const Inspection inspection(options, *inspected.model, scene.get());
+  if (!options.ellipsoids.empty()) {
+    return write_png(inspection.ellipsoids(), options.output, 0, false);
+  }
+  write_picture(inspection.picture(), options);
 }
 
 }  // namespace

@@ -50,9 +50,22 @@ void refuse_without_picture(const InspectOptions& options) {
                                                 {"--range", !options.range.empty()}};
   for (const auto& [name, is_given] : given) {
     if (!is_given) continue;
-    throw InputError(
-        fmt::format("{}: error: expected one of --slice, --direction and --cloud beside it", name));
+    throw InputError(fmt::format(
+        "{}: error: expected one of --slice, --direction, --cloud and --ellipsoids beside "
+        "it",
+        name));
   }
+}
+
+void check_ellipsoids(const InspectOptions& options) {
+  parse_point("--ellipsoids", options.ellipsoids);
+  if (options.wants_exr()) {
+    throw InputError(
+        fmt::format("{}: error: ellipsoids are a drawing, not numbers: expected a name "
+                    "that ends in .png",
+                    options.output.string()));
+  }
+  if (!options.range.empty()) throw InputError("--range: error: ellipsoids have no densities");
 }
 
 }  // namespace
@@ -68,12 +81,21 @@ void InspectOptions::add_to(CLI::App& command) {
                       "Picture of the density over directions at a point, latitude-longitude")
           ->type_name("X,Y,Z")
           ->excludes(slice_option);
-  command.add_flag("--cloud", cloud, "Picture of the densest places in space")
+  CLI::Option* cloud_option =
+      command.add_flag("--cloud", cloud, "Picture of the densest places in space")
+          ->excludes(slice_option)
+          ->excludes(direction_option);
+  command
+      .add_option("--ellipsoids", ellipsoids,
+                  "Picture of the Gaussians that guide paths at a point, for models that have some")
+      ->type_name("X,Y,Z")
       ->excludes(slice_option)
-      ->excludes(direction_option);
+      ->excludes(direction_option)
+      ->excludes(cloud_option);
   command.add_option("-o,--output", output, "Picture (.png), or its numbers (.exr)");
   command.add_option("--scene", scene,
-                     "Config or scene whose outline a slice shows, and whose view a cloud");
+                     "Config or scene whose outline a slice shows, and whose view a cloud or "
+                     "ellipsoids");
   command.add_option("--size", size, "Longer edge of the picture [pixels]")
       ->check(CLI::Range(16, 8192))
       ->capture_default_str();
@@ -87,7 +109,8 @@ void check_options(const InspectOptions& options) {
   if (!options.wants_picture()) return refuse_without_picture(options);
   check_picture_file(options);
   if (!options.slice.empty()) parse_slice(options.slice);
-  if (!options.direction.empty()) parse_point(options.direction);
+  if (!options.direction.empty()) parse_point("--direction", options.direction);
+  if (!options.ellipsoids.empty()) check_ellipsoids(options);
   parse_range(options.range);
   if (!options.scene.empty() && !options.direction.empty()) {
     throw InputError("--scene: error: a picture over directions shows none");
@@ -109,9 +132,8 @@ SliceOption parse_slice(const std::string& text) {
           static_cast<float>(read_number(value, std::numeric_limits<float>::max()))};
 }
 
-Point3 parse_point(const std::string& text) {
-  const std::vector<float> xyz =
-      numbers("--direction", text, 3, "three numbers X,Y,Z, such as 0,1.5,-2");
+Point3 parse_point(const char* option, const std::string& text) {
+  const std::vector<float> xyz = numbers(option, text, 3, "three numbers X,Y,Z, such as 0,1.5,-2");
   return {xyz[0], xyz[1], xyz[2]};
 }
 

@@ -26,14 +26,16 @@ struct RangeOption {
 /// What is typed after `pharos inspect`.
 struct InspectOptions {
   std::filesystem::path model;
-  std::string slice, direction, range;  ///< as typed; empty: not given
+  std::string slice, direction, ellipsoids, range;  ///< as typed; empty: not given
   bool cloud = false;
   std::filesystem::path output, scene;
   int size = 1024;  ///< longer edge of the picture [pixels]
   int threads = 0;
 
   void add_to(CLI::App& command);
-  bool wants_picture() const { return cloud || !slice.empty() || !direction.empty(); }
+  bool wants_picture() const {
+    return cloud || !slice.empty() || !direction.empty() || !ellipsoids.empty();
+  }
   bool wants_exr() const { return output.extension() == ".exr"; }
 };
 
@@ -43,8 +45,8 @@ void check_options(const InspectOptions& options);
 
 /// AXIS=VALUE. Throws InputError naming the option.
 SliceOption parse_slice(const std::string& text);
-/// X,Y,Z. Throws InputError naming the option.
-Point3 parse_point(const std::string& text);
+/// X,Y,Z as typed after `option`. Throws InputError naming it.
+Point3 parse_point(const char* option, const std::string& text);
 /// LOW,HIGH; empty when it was not given. Throws InputError naming the option unless
 /// 0 < LOW < HIGH.
 std::optional<RangeOption> parse_range(const std::string& text);

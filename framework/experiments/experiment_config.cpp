@@ -44,6 +44,12 @@ void check_together(const ExperimentConfig& config, const ConfigNode& root) {
   for (std::size_t i = 0; i < config.scenes.size(); ++i) {
     const ConfigNode& node = root.find("scenes")->items()[i];
     check_reference(config.scenes[i].reference, node.find("reference"));
+    const Budget& budget = config.budget_of(config.scenes[i]);
+    if (budget.spp.has_value() != config.budget.spp.has_value() ||
+        budget.seconds.has_value() != config.budget.seconds.has_value()) {
+      node.find("budget")->fail(fmt::format("expected '{}' alone, as in the experiment's budget",
+                                            config.budget.spp ? "spp" : "seconds"));
+    }
     if (!config.scenes[i].reference.given() && !config.reference.given()) {
       node.fail(
           "there is no reference: state 'reference' here or for all scenes, with 'image' or "
@@ -73,6 +79,7 @@ void ExperimentScene::describe(Schema<ExperimentScene>& s) {
   s.field("config", &ExperimentScene::config, "Render config").required();
   s.field("settings", &ExperimentScene::settings, "Laid over it");
   s.field("reference", &ExperimentScene::reference, "Instead of the experiment's");
+  s.field("budget", &ExperimentScene::budget, "Instead of the experiment's, of the same kind");
 }
 
 void ExperimentMethod::describe(Schema<ExperimentMethod>& s) {

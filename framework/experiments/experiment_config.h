@@ -12,7 +12,7 @@
 #include <pharos/guiding/budget.h>
 #include <pharos/rendering/render_config.h>
 
-/// What an experiment file says: scenes x methods x seeds at one budget.
+/// What an experiment file says: scenes x methods x seeds at one budget a scene.
 namespace pharos {
 
 /// Where the images come from that errors are measured against: an image file, or a render of
@@ -32,7 +32,8 @@ struct ExperimentScene {
   std::string name;
   std::filesystem::path config;
   ConfigNode settings = ConfigNode::mapping();
-  ReferenceSettings reference;  ///< instead of the experiment's
+  ReferenceSettings reference;   ///< instead of the experiment's
+  std::optional<Budget> budget;  ///< instead of the experiment's, of the same kind
 
   static void describe(Schema<ExperimentScene>& schema);
 };
@@ -69,6 +70,11 @@ struct ExperimentConfig {
   std::filesystem::path cache;  ///< of references; empty: the user's cache folder
 
   std::filesystem::path source;  ///< the file it was read from, absolute
+
+  /// What every run of a scene may cost.
+  const Budget& budget_of(const ExperimentScene& scene) const {
+    return scene.budget ? *scene.budget : budget;
+  }
 
   static void describe(Schema<ExperimentConfig>& schema);
 };

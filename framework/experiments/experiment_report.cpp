@@ -18,9 +18,18 @@ std::string budget_text(const Budget& budget) {
                     : fmt::format("{:g} s", *budget.seconds);
 }
 
+/// The experiment's budget, and those of scenes that have their own.
+std::string budgets_text(const ExperimentConfig& config) {
+  std::string text = budget_text(config.budget);
+  for (const ExperimentScene& scene : config.scenes) {
+    if (scene.budget) text += fmt::format(", {}: {}", scene.name, budget_text(*scene.budget));
+  }
+  return text + ", training included";
+}
+
 std::vector<std::pair<std::string, std::string>> facts_of(const ExperimentResults& results) {
   std::vector<std::pair<std::string, std::string>> facts{
-      {"Budget of a run", budget_text(results.config.budget) + ", training included"},
+      {"Budget of a run", budgets_text(results.config)},
       {"Seeds", std::to_string(results.config.seeds)},
       {"Baseline", results.config.baseline},
       {"Pharos", version()},

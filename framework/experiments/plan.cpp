@@ -45,7 +45,7 @@ PlannedCell plan_cell(const ExperimentConfig& experiment, const ConfigNode& scen
                       std::size_t method_index, const Registry& registry) {
   PlannedCell cell{.scene = scene_index, .method = method_index};
   cell.config = merged(scene, experiment.methods[method_index].settings);
-  cell.config.set("budget", budget_node(experiment.budget));
+  cell.config.set("budget", budget_node(experiment.budget_of(experiment.scenes[scene_index])));
   LoadedConfig loaded = build_run(cell.config, experiment.first_seed, registry);
   check_film(loaded.config.film, reference, cell.config);
   loaded.resolved.take("seed");

@@ -1,0 +1,128 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include <Eigen/Dense>
+
+/// Normal distributions in D dimensions and the moments of points that they are made of. All in
+/// double precision.
+namespace pharos::statistics {
+
+template <int D>
+using Vector = Eigen::Matrix<double, D, 1>;
+template <int D>
+using Matrix = Eigen::Matrix<double, D, D>;
+
+/// A normal distribution; the covariance is symmetric and positive definite.
+template <int D>
+struct Gaussian {
+  Vector<D> mean = Vector<D>::Zero();
+  Matrix<D> covariance = Matrix<D>::Identity();
+};
+
+/// Weighted moments of points about a fixed origin.
+template <int D>
+struct Moments {
+  double weight = 0;                     ///< sum of w
+  Vector<D> first = Vector<D>::Zero();   ///< sum of w x
+  Matrix<D> second = Matrix<D>::Zero();  ///< sum of w x x^T
+
+  Moments& operator+=(const Moments& other) {
+    weight += other.weight;
+    first += other.first;
+    second += other.second;
+    return *this;
+  }
+  Moments& operator*=(double factor) {
+    weight *= factor;
+    first *= factor;
+    second *= factor;
+    return *this;
+  }
+  friend Moments operator+(Moments a, const Moments& b) { return a += b; }
+
+  /// The weighted mean; weight > 0.
+  Vector<D> mean() const { return first / weight; }
+  /// Sum of w (x - center) (x - center)^T.
+  Matrix<D> scatter(const Vector<D>& center) const {
+    const Matrix<D> mixed = first * center.transpose();
+    return second - mixed - mixed.transpose() + weight * center * center.transpose();
+  }
+  /// The weighted covariance about the mean; weight > 0.
+  Matrix<D> covariance() const { return scatter(mean()) / weight; }
+
+  /// Moments of points with this weight, mean and covariance.
+  static Moments of(double weight, const Vector<D>& mean, const Matrix<D>& covariance) {
+    return {weight, weight * mean, weight * (covariance + mean * mean.transpose())};
+  }
+};
+
+/// Two halves of points whose sum has these moments: their means lie `apart` to both sides of the
+/// mean, apart = S e / (2 sqrt(e^T S e)) for the covariance S and a direction e, which leaves each
+/// half the covariance S - apart apart^T (3/4 of the variance along e). weight > 0.
+template <int D>
+std::array<Moments<D>, 2> halves(const Moments<D>& moments, const Vector<D>& direction) {
+  const Matrix<D> covariance = moments.covariance();
+  const double variance = direction.dot(covariance * direction);
+  Vector<D> apart = Vector<D>::Zero();
+  if (variance > 0) apart = covariance * direction / (2 * std::sqrt(variance));
+  const Matrix<D> left = covariance - apart * apart.transpose();
+  const Vector<D> mean = moments.mean();
+  return {Moments<D>::of(moments.weight / 2, mean + apart, left),
+          Moments<D>::of(moments.weight / 2, mean - apart, left)};
+}
+
+/// A symmetric matrix with eigenvalues below `floor` raised to it; the eigenvectors stay.
+template <int D>
+Matrix<D> with_eigenvalues_above(double floor, const Matrix<D>& symmetric) {
+  const Eigen::SelfAdjointEigenSolver<Matrix<D>> eigen(symmetric);
+  if (eigen.eigenvalues()[0] >= floor) return symmetric;
+  const Vector<D> raised = eigen.eigenvalues().cwiseMax(floor);
+  const Matrix<D> result =
+      eigen.eigenvectors() * raised.asDiagonal() * eigen.eigenvectors().transpose();
+  return 0.5 * (result + result.transpose());
+}
+
+/// The unit eigenvector of the largest eigenvalue.
+template <int D>
+Vector<D> principal_axis(const Matrix<D>& symmetric) {
+  return Eigen::SelfAdjointEigenSolver<Matrix<D>>(symmetric).eigenvectors().col(D - 1);
+}
+
+/// The logarithm of a normal density, ready to be evaluated: log N(x) = constant - |W x - center|^2
+/// / 2, W being the inverse of the covariance's lower Cholesky factor.
+template <int D>
+class LogDensity {
+ public:
+  LogDensity() = default;
+  explicit LogDensity(const Gaussian<D>& gaussian) {
+    const Eigen::LLT<Matrix<D>> factor(gaussian.covariance);
+    const Matrix<D> inverse = factor.matrixL().solve(Matrix<D>::Identity());
+    whitening_ = inverse;
+    center_ = inverse * gaussian.mean;
+    constant_ = inverse.diagonal().array().log().sum() - 0.5 * D * std::log(2 * EIGEN_PI);
+  }
+
+  /// At points with these coordinates; T is a number or several side by side [log 1/unit^D].
+  template <class T>
+  T operator()(const std::array<T, D>& x) const {
+    T squared{};
+    for (int row = 0; row < D; ++row) {
+      T white = x[0] * whitening_(row, 0) - center_[row];
+      for (int column = 1; column <= row; ++column) {
+        white = white + x[column] * whitening_(row, column);
+      }
+      squared = squared + white * white;
+    }
+    return constant_ - 0.5 * squared;
+  }
+
+ private:
+  Matrix<D> whitening_;
+  Vector<D> center_;
+  double constant_ = 0;
+};
+
+}  // namespace pharos::statistics

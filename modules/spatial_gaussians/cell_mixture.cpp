@@ -1,0 +1,370 @@
+#include "cell_mixture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <pharos/core/binary_stream.h>
+#include <pharos/core/random.h>
+
+namespace pharos::gaussians {
+
+using statistics::Matrix;
+using statistics::MixtureFit;
+using statistics::Vector;
+using statistics::WeightedPoints;
+
+namespace {
+
+constexpr const char* kHeading = "cell_mixture";
+constexpr std::uint32_t kVersion = 1;
+
+Vector<3> to_vector(Point3 p) {
+  return {p.x, p.y, p.z};
+}
+
+/// The targets of samples that found something, from the pivot. Weights add up to their number.
+WeightedPoints<3> points_of(std::span<const Sample> samples, const Vector<3>& pivot) {
+  double total = 0, count = 0;
+  for (const Sample& s : samples) {
+    total += s.weight;
+    count += s.weight > 0 ? 1 : 0;
+  }
+  WeightedPoints<3> points;
+  for (const Sample& s : samples) {
+    if (s.weight > 0) points.add(to_vector(s.target) - pivot, s.weight * count / total);
+  }
+  return points;
+}
+
+/// Centres among the points, each drawn with a probability in proportion to its weight times its
+/// squared distance from those before it (k-means++, Arthur and Vassilvitskii 2007).
+std::vector<Vector<3>> spread_centers(const WeightedPoints<3>& points, std::size_t count,
+                                      RandomStream& random) {
+  std::vector<double> chances(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) chances[i] = points.weight(i);
+  std::vector<double> squared(points.size(), std::numeric_limits<double>::infinity());
+  std::vector<Vector<3>> centers;
+  while (centers.size() < count) {
+    const double total = std::accumulate(chances.begin(), chances.end(), 0.0);
+    if (!(total > 0)) break;  // fewer different points than centres
+    double u = total * random.next_1d();
+    std::size_t chosen = 0;
+    while (chosen + 1 < points.size() && (u >= chances[chosen] || chances[chosen] == 0)) {
+      u -= chances[chosen++];
+    }
+    centers.push_back(points.point(chosen));
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      squared[i] = std::min(squared[i], (points.point(i) - centers.back()).squaredNorm());
+      chances[i] = points.weight(i) * squared[i];
+    }
+  }
+  return centers;
+}
+
+/// Moments of the points nearest to each centre.
+std::vector<Moments3> moments_about(const std::vector<Vector<3>>& centers,
+                                    const WeightedPoints<3>& points) {
+  std::vector<Moments3> moments(centers.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vector<3> x = points.point(i);
+    std::size_t nearest = 0;
+    for (std::size_t k = 1; k < centers.size(); ++k) {
+      if ((x - centers[k]).squaredNorm() < (x - centers[nearest]).squaredNorm()) nearest = k;
+    }
+    moments[nearest] += Moments3::of(points.weight(i), x, Matrix<3>::Zero());
+  }
+  return moments;
+}
+
+void save_vector(const Vector<3>& v, std::ostream& out) {
+  for (const double x : v) save_number(out, x);
+}
+void save_matrix(const Matrix<3>& m, std::ostream& out) {
+  for (const double x : m.reshaped()) save_number(out, x);
+}
+Vector<3> load_vector(std::istream& in) {
+  Vector<3> v;
+  for (double& x : v) x = load_finite<double>(in);
+  return v;
+}
+Matrix<3> load_matrix(std::istream& in) {
+  Matrix<3> m;
+  for (double& x : m.reshaped()) x = load_finite<double>(in);
+  return m;
+}
+
+}  // namespace
+
+/// One update of a cell, step by step.
+class CellUpdate {
+ public:
+  CellUpdate(CellMixture& cell, std::span<const Sample> samples, const GaussianSettings& settings,
+             double scene_size)
+      : cell_(cell),
+        samples_(samples),
+        settings_(settings),
+        least_size_(settings.least_size * scene_size) {}
+
+  void run(RandomStream& random) {
+    if (cell_.mixture_.size() == 0 && !begin(random)) return;
+    points_ = points_of(samples_, cell_.pivot_);
+    frozen_ = cell_.moments_;
+    fit({});
+    cell_.samples_ += static_cast<double>(points_.size());
+    cell_.since_merge_ += static_cast<double>(samples_.size());
+    if (cell_.since_merge_ >= settings_.merge_samples) merge();
+    split_where_needed();
+    for (std::size_t k = 0; k < frozen_.size(); ++k) cell_.moments_[k] = frozen_[k] + seen_[k];
+  }
+
+ private:
+  MixtureFit<3> rules(std::span<const std::size_t> changing) const {
+    return {.frozen = frozen_,
+            .prior = {settings_.prior_counts, settings_.prior_strength, cell_.prior_variance_},
+            .floors = floors_,
+            .changing = changing,
+            .most_iterations = settings_.em_iterations,
+            .tolerance = settings_.em_tolerance};
+  }
+
+  /// Least eigenvalues, as the components lie now: what they look like from the pivot is no smaller
+  /// than the largest concentration allows.
+  void set_floors() {
+    floors_.clear();
+    for (const Gaussian3& g : cell_.mixture_.components) {
+      floors_.push_back(std::max(g.mean.squaredNorm() / settings_.largest_concentration,
+                                 least_size_ * least_size_));
+    }
+    for (std::size_t k = 0; k < floors_.size(); ++k) {
+      Matrix<3>& covariance = cell_.mixture_.components[k].covariance;
+      covariance = statistics::with_eigenvalues_above<3>(floors_[k], covariance);
+    }
+  }
+
+  /// A first mixture; false when there are too few samples for one.
+  bool begin(RandomStream& random) {
+    Vector<3> origins = Vector<3>::Zero();
+    for (const Sample& s : samples_) origins += to_vector(s.origin);
+    if (!samples_.empty()) cell_.pivot_ = origins / static_cast<double>(samples_.size());
+    const WeightedPoints<3> points = points_of(samples_, cell_.pivot_);
+    if (points.size() < 2 * std::size_t{settings_.components}) return false;
+    const auto centers = spread_centers(points, settings_.components, random);
+    const std::vector<Moments3> moments = moments_about(centers, points);
+    const Moments3 all = std::accumulate(moments.begin(), moments.end(), Moments3{});
+    cell_.prior_variance_ = std::max(all.covariance().trace() / 3, least_size_ * least_size_);
+    const auto count = moments.size();
+    cell_.mixture_.weights.assign(count, 1.0 / static_cast<double>(count));
+    cell_.mixture_.components.resize(count);
+    cell_.moments_.assign(count, {});
+    cell_.tests_.assign(count, {});
+    frozen_.clear();
+    floors_.clear();
+    statistics::maximise<3>(moments, rules({}), cell_.mixture_);
+    return true;
+  }
+
+  void fit(std::span<const std::size_t> changing) {
+    set_floors();
+    seen_ = statistics::fit_mixture(cell_.mixture_, points_, rules(changing)).seen;
+  }
+
+  /// The mixture that follows from the moments, for these components.
+  void maximise(std::span<const std::size_t> changing) {
+    std::vector<Moments3> moments = seen_;
+    for (std::size_t k = 0; k < moments.size(); ++k) moments[k] += frozen_[k];
+    statistics::maximise<3>(moments, rules(changing), cell_.mixture_);
+  }
+
+  /// Merges the cheapest pair as long as one is cheap enough.
+  void merge() {
+    cell_.since_merge_ = 0;
+    const Mixture& m = cell_.mixture_;
+    while (m.size() > 1) {
+      std::size_t best_i = 0, best_j = 0;
+      double least = settings_.merge_threshold;
+      for (std::size_t i = 0; i < m.size(); ++i) {
+        for (std::size_t j = i + 1; j < m.size(); ++j) {
+          const double cost =
+              merge_cost(m.weights[i], m.components[i], m.weights[j], m.components[j]);
+          if (cost < least) std::tie(least, best_i, best_j) = std::tuple(cost, i, j);
+        }
+      }
+      if (best_j == 0) return;
+      join(best_i, best_j);
+    }
+  }
+
+  void join(std::size_t i, std::size_t j) {
+    Mixture& m = cell_.mixture_;
+    const auto erase = [j](auto& list) {
+      list.erase(list.begin() + static_cast<std::ptrdiff_t>(j));
+    };
+    frozen_[i] += frozen_[j];
+    seen_[i] += seen_[j];
+    m.weights[i] += m.weights[j];
+    cell_.tests_[i] = {};
+    erase(frozen_);
+    erase(seen_);
+    erase(m.weights);
+    erase(m.components);
+    erase(cell_.tests_);
+    erase(cell_.moments_);
+    erase(floors_);
+    const std::size_t changed[] = {i};
+    maximise(changed);
+  }
+
+  /// Splits components that the samples' directions contradict, and fits their halves, until none
+  /// is left or there is no room or no data for more.
+  void split_where_needed() {
+    add_tests(test());
+    std::vector<std::size_t> changed = split();
+    while (!changed.empty()) {
+      fit(changed);
+      // What the halves are like these samples tell anew.
+      const std::vector<DirectionTest> again = test();
+      for (const std::size_t k : changed) cell_.tests_[k] = again[k];
+      changed = split();
+    }
+  }
+
+  std::vector<DirectionTest> test() const {
+    // What nobody but the unguided half would miss: a hundredth of a uniform density.
+    constexpr float kLeastDensity = 0.01f / (4 * kPi);
+    return test_directions(cell_.mixture_, cell_.pivot_, samples_, kLeastDensity);
+  }
+  void add_tests(const std::vector<DirectionTest>& tests) {
+    for (std::size_t k = 0; k < tests.size(); ++k) {
+      cell_.tests_[k].sum += tests[k].sum;
+      cell_.tests_[k].samples += tests[k].samples;
+    }
+  }
+
+  /// Halves what needs it, the worst first; returns the numbers of all halves.
+  std::vector<std::size_t> split() {
+    const auto divergence = [&](std::size_t k) {
+      const DirectionTest& t = cell_.tests_[k];
+      return t.samples < settings_.split_samples ? 0 : t.divergence();
+    };
+    std::vector<std::size_t> worst;
+    for (std::size_t k = 0; k < cell_.tests_.size(); ++k) {
+      if (divergence(k) > settings_.split_threshold) worst.push_back(k);
+    }
+    std::stable_sort(worst.begin(), worst.end(),
+                     [&](std::size_t a, std::size_t b) { return divergence(a) > divergence(b); });
+    std::vector<std::size_t> changed;
+    for (const std::size_t k : worst) {
+      if (cell_.mixture_.size() >= settings_.most_components) break;
+      changed.push_back(k);
+      changed.push_back(cell_.mixture_.size());
+      halve(k);
+    }
+    std::sort(changed.begin(), changed.end());
+    return changed;
+  }
+
+  void halve(std::size_t k) {
+    Mixture& m = cell_.mixture_;
+    const Vector<3> axis = statistics::principal_axis<3>(m.components[k].covariance);
+    for (auto* moments : {&frozen_, &seen_}) {
+      if (!((*moments)[k].weight > 0)) {
+        moments->push_back({});
+        continue;
+      }
+      const auto parts = statistics::halves<3>((*moments)[k], axis);
+      (*moments)[k] = parts[0];
+      moments->push_back(parts[1]);
+    }
+    const Moments3 whole =
+        Moments3::of(m.weights[k], m.components[k].mean, m.components[k].covariance);
+    const auto parts = statistics::halves<3>(whole, axis);
+    m.components[k] = {parts[0].mean(), parts[0].covariance()};
+    m.components.push_back({parts[1].mean(), parts[1].covariance()});
+    m.weights[k] /= 2;
+    m.weights.push_back(m.weights[k]);
+    cell_.moments_.push_back({});
+    cell_.tests_[k] = {};
+    cell_.tests_.emplace_back();
+  }
+
+  CellMixture& cell_;
+  std::span<const Sample> samples_;
+  const GaussianSettings& settings_;
+  double least_size_;
+  WeightedPoints<3> points_;
+  std::vector<double> floors_;
+  std::vector<Moments3> frozen_;  ///< of earlier iterations
+  std::vector<Moments3> seen_;    ///< of this one
+};
+
+void CellMixture::update(std::span<const Sample> samples, const GaussianSettings& settings,
+                         double scene_size, RandomStream random) {
+  const bool any =
+      std::any_of(samples.begin(), samples.end(), [](const Sample& s) { return s.weight > 0; });
+  if (any) CellUpdate(*this, samples, settings, scene_size).run(random);
+}
+
+void CellMixture::forget(double factor) {
+  for (Moments3& m : moments_) m *= factor;
+  samples_ *= factor;
+}
+
+std::vector<SpatialGaussian> CellMixture::components() const {
+  std::vector<SpatialGaussian> all;
+  for (std::size_t k = 0; k < mixture_.size(); ++k) {
+    const Gaussian3& g = mixture_.components[k];
+    const Vector<3> mean = g.mean + pivot_;
+    const Matrix<3> l = Eigen::LLT<Matrix<3>>(g.covariance).matrixL();
+    const auto f = [](double v) { return static_cast<float>(v); };
+    all.push_back({f(mixture_.weights[k]),
+                   {f(mean[0]), f(mean[1]), f(mean[2])},
+                   {f(l(0, 0)), f(l(1, 0)), f(l(1, 1)), f(l(2, 0)), f(l(2, 1)), f(l(2, 2))}});
+  }
+  return all;
+}
+
+void CellMixture::save(std::ostream& out) const {
+  save_heading(out, kHeading, kVersion);
+  save_vector(pivot_, out);
+  for (const double v : {prior_variance_, samples_, since_merge_}) save_number(out, v);
+  save_number(out, static_cast<std::uint32_t>(mixture_.size()));
+  for (std::size_t k = 0; k < mixture_.size(); ++k) {
+    save_number(out, mixture_.weights[k]);
+    save_vector(mixture_.components[k].mean, out);
+    save_matrix(mixture_.components[k].covariance, out);
+    save_number(out, moments_[k].weight);
+    save_vector(moments_[k].first, out);
+    save_matrix(moments_[k].second, out);
+    save_number(out, tests_[k].sum);
+    save_number(out, tests_[k].samples);
+  }
+}
+
+CellMixture CellMixture::load(std::istream& in) {
+  expect_heading(in, kHeading, kVersion);
+  CellMixture cell;
+  cell.pivot_ = load_vector(in);
+  for (double* v : {&cell.prior_variance_, &cell.samples_, &cell.since_merge_}) {
+    *v = load_finite<double>(in);
+  }
+  for (auto count = load_number<std::uint32_t>(in); count > 0; --count) {
+    cell.mixture_.weights.push_back(load_finite<double>(in));
+    const Vector<3> mean = load_vector(in);
+    cell.mixture_.components.push_back({mean, load_matrix(in)});
+    const Eigen::LLT<Matrix<3>> factor(cell.mixture_.components.back().covariance);
+    if (!(cell.mixture_.weights.back() > 0) || factor.info() != Eigen::Success) {
+      throw InputError("the learning of the Gaussians is damaged");
+    }
+    Moments3 moments;
+    moments.weight = load_finite<double>(in);
+    moments.first = load_vector(in);
+    moments.second = load_matrix(in);
+    cell.moments_.push_back(moments);
+    const auto sum = load_finite<double>(in);
+    cell.tests_.push_back({sum, load_finite<double>(in)});
+  }
+  return cell;
+}
+
+}  // namespace pharos::gaussians

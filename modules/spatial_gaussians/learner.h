@@ -1,0 +1,64 @@
+#pragma once
+
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include <pharos/config/schema.h>
+#include <pharos/guiding/learner.h>
+
+namespace pharos {
+namespace gaussians {
+
+/// What the mixtures are kept for.
+enum class SpatialCells {
+  kdtree,  ///< one mixture for each cell of a tree that grows
+  single   ///< one mixture for the whole scene
+};
+
+/// Parameters of the method. The paper states none; docs and sources are in the README.
+struct GaussianSettings {
+  SpatialCells spatial = SpatialCells::kdtree;
+  std::uint32_t cell_samples = 32768;
+  int max_depth = 32;
+  std::uint32_t components = 16, most_components = 32;
+  int em_iterations = 100;
+  double em_tolerance = 0.005;
+  double prior_counts = 0.01, prior_strength = 0.2;
+  double largest_concentration = 32768;
+  double least_size = 1e-5;
+  double split_threshold = 0.5;
+  std::uint32_t split_samples = 4096;
+  double merge_threshold = 0.025;
+  std::uint32_t merge_samples = 8192;
+  double decay = 1, division_decay = 0.25;
+  float least_pdf = 0.1f;
+  float environment_distance = 10;
+
+  static void describe(Schema<GaussianSettings>& schema);
+};
+
+/// Learns where the light that reaches a place comes from (Lelyakin et al. 2025).
+class GaussianLearner final : public Learner {
+ public:
+  using Settings = GaussianSettings;
+  /// Throws InputError when there may be fewer components than there are at first.
+  explicit GaussianLearner(const Settings& settings);
+
+  LearnerTraits traits() const override;
+  std::unique_ptr<LearningState> begin(const LearningContext& context) const override;
+  std::shared_ptr<const GuidingModel> load_model(std::istream& in) const override;
+
+ private:
+  Settings settings_;
+};
+
+}  // namespace gaussians
+
+template <>
+struct EnumNames<gaussians::SpatialCells> {
+  static constexpr std::array<std::pair<std::string_view, gaussians::SpatialCells>, 2> names{
+      {{"kdtree", gaussians::SpatialCells::kdtree}, {"single", gaussians::SpatialCells::single}}};
+};
+
+}  // namespace pharos

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <iosfwd>
+#include <vector>
+
+#include <pharos/core/vec.h>
+#include <pharos/guiding/path_record.h>
+
+namespace pharos::gaussians {
+
+/// A step of a path that a guide could have sampled, and what came of it.
+struct Sample {
+  Point3 origin;
+  Point3 target;     ///< the next vertex; for the environment a point far outside the scene
+  float weight = 0;  ///< L / p: radiance that came along the step over its density, mean of the
+                     ///< channels; 0 where nothing came
+  float pdf = 0;     ///< p [1/sr]; 0: not known, as in media
+};
+
+/// What extract_samples() needs to know.
+struct SampleRule {
+  float least_pdf = 0.1f;          ///< in place of smaller densities [1/sr]
+  float environment_distance = 0;  ///< of the stand-ins for the environment [scene units]
+};
+
+/// Appends the steps of a path, those that found nothing included. In media the density is over
+/// distances too: weights there are all that the step brought, scattering included.
+void extract_samples(const PathView& path, const SampleRule& rule, std::vector<Rgb>& incident,
+                     std::vector<Sample>& samples);
+
+void save_sample(const Sample& sample, std::ostream& out);
+/// Throws InputError for what save_sample() does not write.
+Sample load_sample(std::istream& in);
+
+}  // namespace pharos::gaussians

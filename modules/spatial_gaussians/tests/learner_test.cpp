@@ -1,0 +1,307 @@
+#include "../learner.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include <doctest/doctest.h>
+#include <tbb/global_control.h>
+
+#include <pharos/core/error.h>
+#include <pharos/core/warp.h>
+
+#include "../gaussian_model.h"
+#include "../seen_gaussian.h"
+#include "test_gaussians.h"
+
+namespace pharos::gaussians {
+namespace {
+
+using namespace testing;
+
+/// A thin tube of light over a square floor: where its ends are.
+constexpr Point3 kTubeBegin{-1, 1, 0.5f}, kTubeEnd{1, 1.2f, 0.5f};
+
+/// Paths of one guidable step each, from random points of the floor to the tube, or in vain to the
+/// walls; every coordinate times `scale`.
+PathLog tube_paths(int count, std::uint64_t seed, float scale = 1) {
+  PathLog log;
+  RandomStream random(seed);
+  for (int i = 0; i < count; ++i) {
+    const Vec2 u = random.next_2d();
+    const Point3 from{2 * u.x - 1, 0, 2 * u.y - 1};
+    const bool hits = random.next_1d() < 0.3f;
+    const float t = random.next_1d();
+    const Point3 to = hits ? (1 - t) * kTubeBegin + t * kTubeEnd + 0.01f * any_direction(random)
+                           : from + 3.0f * warp::cosine_hemisphere_from_square(random.next_2d());
+    log.begin_path({}, Transport::radiance);
+    log.add(RecordedVertex{.throughput = Rgb(1)});
+    log.add(RecordedVertex{.position = scale * from,
+                           .event = Event::smooth_reflect,
+                           .parent = 0,
+                           .throughput = Rgb(1),
+                           .local_weight = Rgb(1),
+                           .direction = normalize(to - from),
+                           .unguided_pdf = 0.3f,
+                           .guidable = true});
+    log.add(
+        RecordedVertex{.position = scale * to, .parent = 1, .emission = Rgb(hits ? 1.0f : 0.0f)});
+  }
+  return log;
+}
+
+LearningContext context(float scale = 1) {
+  Bounds3 region;
+  region.add(scale * Point3{-1, 0, -1});
+  region.add(scale * Point3{1, 2, 1});
+  return {.region = region, .seed = 7, .iterations = 4};
+}
+
+GaussianSettings small_settings() {
+  return {.cell_samples = 2000,
+          .components = 4,
+          .most_components = 8,
+          .split_samples = 500,
+          .merge_samples = 1000};
+}
+
+std::shared_ptr<const GuidingModel> trained(LearningState& state, int iterations = 4,
+                                            float scale = 1) {
+  std::shared_ptr<const GuidingModel> model;
+  for (int i = 0; i < iterations; ++i) {
+    const auto seed = static_cast<std::uint64_t>(i);
+    state.absorb(tube_paths(3000, 2 * seed, scale));
+    state.absorb(tube_paths(2000, 2 * seed + 1, scale));
+    model = state.update(static_cast<std::uint32_t>(i), i + 1 == iterations);
+  }
+  return model;
+}
+
+std::shared_ptr<const GuidingModel> trained(const GaussianSettings& settings, float scale = 1) {
+  const auto state = GaussianLearner(settings).begin(context(scale));
+  return trained(*state, 4, scale);
+}
+
+const GaussianModel& as_gaussians(const std::shared_ptr<const GuidingModel>& model) {
+  return dynamic_cast<const GaussianModel&>(*model);
+}
+
+std::string saved(const GuidingModel& model) {
+  std::ostringstream out;
+  model.save(out);
+  return out.str();
+}
+
+/// Share of the guide's directions at a point that pass the tube within this distance.
+double share_near_tube(const GaussianModel& model, Point3 at, float distance) {
+  RandomStream random(11);
+  Arena arena;
+  const auto view = model.mixture_at(at);
+  constexpr int kDraws = 2000;
+  int near = 0;
+  for (int i = 0; i < kDraws; ++i) {
+    float choice = random.next_1d();
+    std::size_t k = 0;
+    while (k + 1 < view.components.size() && choice >= view.components[k].weight) {
+      choice -= view.components[k++].weight;
+    }
+    const Vec3 w = normalize(point_of(view.components[k], at, random));
+    // The line's distance from the tube's, where it passes between the tube's ends.
+    const Vec3 tube = normalize(kTubeEnd - kTubeBegin), normal = normalize(cross(w, tube));
+    near += std::abs(dot(kTubeBegin - at, normal)) < distance ? 1 : 0;
+  }
+  return static_cast<double>(near) / kDraws;
+}
+
+TEST_CASE("mixtures learn where the light is, as a tree and as one") {
+  for (const SpatialCells spatial : {SpatialCells::kdtree, SpatialCells::single}) {
+    GaussianSettings settings = small_settings();
+    settings.spatial = spatial;
+    const auto model = trained(settings);
+    const GaussianModel& gaussians = as_gaussians(model);
+    CAPTURE(static_cast<int>(spatial));
+    CHECK((gaussians.region_count() > 1) == (spatial == SpatialCells::kdtree));
+    for (const Point3 at : {Point3{0, 0, 0}, Point3{0.7f, 0, -0.8f}, Point3{-0.5f, 0, 0.5f}}) {
+      CHECK(share_near_tube(gaussians, at, 0.1f) > 0.9);
+      const Vec3 to_tube = normalize(0.5f * (kTubeBegin + kTubeEnd) - at);
+      CHECK(model->density(at, to_tube) > 20 * model->density(at, {0, 0, -1}));
+    }
+    CHECK(model->density(kTubeBegin) > 1e3 * model->density(Point3{0, 0.2f, 0}));
+    float total = 0;
+    for (const SpatialGaussian& g : gaussians.mixture_at(Point3{0, 0, 0}).components) {
+      total += g.weight;
+    }
+    CHECK(total == doctest::Approx(1).epsilon(1e-5));
+  }
+}
+
+TEST_CASE("cells are divided where samples are many, and say where they came from") {
+  const auto state = GaussianLearner(small_settings()).begin(context());
+  std::uint32_t before = 1;
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    state->absorb(tube_paths(5000, i));
+    const auto model = state->update(i, i == 3);
+    const std::vector<std::uint32_t> origins = model->region_origins();
+    REQUIRE(origins.size() == model->region_count());
+    for (std::uint32_t cell = 0; cell < origins.size(); ++cell) {
+      CHECK(origins[cell] < before);
+      if (cell < before) CHECK(origins[cell] == cell);
+    }
+    before = model->region_count();
+  }
+  CHECK(before > 4);
+}
+
+TEST_CASE("components of a mixture are split where directions ask for it, up to the limit") {
+  GaussianSettings settings = small_settings();
+  settings.spatial = SpatialCells::single;
+  settings.components = 1;
+  settings.merge_threshold = 0;
+  // Two lights that one Gaussian cannot tell apart.
+  const auto paths = [](std::uint64_t seed) {
+    RandomStream random(seed);
+    PathLog log;
+    for (int i = 0; i < 5000; ++i) {
+      const Point3 from = 0.1f * any_direction(random);
+      const Point3 to = Point3{i % 2 == 0 ? -1.0f : 1.0f, 1, 0} + 0.05f * any_direction(random);
+      log.begin_path({}, Transport::radiance);
+      log.add(RecordedVertex{.throughput = Rgb(1)});
+      log.add(RecordedVertex{.position = from,
+                             .event = Event::smooth_reflect,
+                             .parent = 0,
+                             .direction = normalize(to - from),
+                             .unguided_pdf = 30,
+                             .guidable = true});
+      log.add(RecordedVertex{.position = to, .parent = 1, .emission = Rgb(1)});
+    }
+    return log;
+  };
+  const auto state = GaussianLearner(settings).begin(context());
+  state->absorb(paths(1));
+  const auto model = state->update(0, true);
+  const auto components = as_gaussians(model).mixture_at(Point3{}).components;
+  CHECK(components.size() >= 2);
+  CHECK(components.size() <= 8);
+  for (const SpatialGaussian& g : components) CHECK(std::abs(std::abs(g.mean.x) - 1) < 0.2f);
+
+  settings.split_threshold = 1e9;
+  const auto whole = GaussianLearner(settings).begin(context());
+  whole->absorb(paths(1));
+  CHECK(as_gaussians(whole->update(0, true)).mixture_at(Point3{}).components.size() == 1);
+}
+
+TEST_CASE("components that do the same are merged") {
+  GaussianSettings settings = small_settings();
+  settings.spatial = SpatialCells::single;
+  const auto count = [&] {
+    return as_gaussians(trained(settings)).mixture_at(Point3{}).components.size();
+  };
+  settings.components = 8;
+  settings.split_threshold = 1e9;
+  settings.merge_threshold = 0;
+  CHECK(count() == 8);
+  settings.merge_threshold = 0.025;
+  CHECK(count() < 8);
+}
+
+TEST_CASE("models have the same bits for any number of threads") {
+  const auto with_threads = [](std::size_t threads, SpatialCells spatial) {
+    tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+    GaussianSettings settings = small_settings();
+    settings.spatial = spatial;
+    return saved(*trained(settings));
+  };
+  for (const SpatialCells spatial : {SpatialCells::kdtree, SpatialCells::single}) {
+    const std::string one = with_threads(1, spatial);
+    for (const std::size_t threads : {2u, 3u, 7u}) CHECK(with_threads(threads, spatial) == one);
+  }
+}
+
+TEST_CASE("a scene of another size learns the same") {
+  const auto small = trained(small_settings(), 1.0f), large = trained(small_settings(), 1024.0f);
+  const auto a = as_gaussians(small).mixture_at(Point3{}).components;
+  const auto b = as_gaussians(large).mixture_at(Point3{}).components;
+  REQUIRE(a.size() == b.size());
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    CHECK(a[k].weight == doctest::Approx(b[k].weight).epsilon(1e-4));
+    CHECK(length(1024.0f * a[k].mean - b[k].mean) < 1e-2f);
+    CHECK(b[k].cholesky[5] / 1024 == doctest::Approx(a[k].cholesky[5]).epsilon(1e-3));
+  }
+}
+
+TEST_CASE("states that are saved and loaded go on as they would have") {
+  const GaussianLearner learner(small_settings());
+  const auto straight = learner.begin(context()), first = learner.begin(context());
+  trained(*straight, 2);
+  trained(*first, 2);
+  straight->absorb(tube_paths(100, 40));
+  first->absorb(tube_paths(100, 40));
+  std::stringstream file;
+  first->save(file);
+  const auto second = learner.begin(context());
+  second->load(file);
+  for (LearningState* state : {straight.get(), second.get()}) state->absorb(tube_paths(5000, 41));
+  CHECK(saved(*second->update(2, true)) == saved(*straight->update(2, true)));
+}
+
+TEST_CASE("states of two halves of the paths are merged to one of all") {
+  const GaussianLearner learner(small_settings());
+  const auto whole = learner.begin(context()), left = learner.begin(context()),
+             right = learner.begin(context());
+  for (LearningState* state : {whole.get(), left.get()}) state->absorb(tube_paths(3000, 1));
+  for (LearningState* state : {whole.get(), right.get()}) state->absorb(tube_paths(3000, 2));
+  left->merge(*right);
+  CHECK(saved(*left->update(0, true)) == saved(*whole->update(0, true)));
+  const auto elsewhere = learner.begin(context());
+  trained(*elsewhere, 1);
+  CHECK_THROWS_AS(left->merge(*elsewhere), InputError);
+}
+
+TEST_CASE("models are saved and loaded, damaged ones are refused") {
+  const auto model = trained(small_settings());
+  const std::string file = saved(*model);
+  const GaussianLearner learner(small_settings());
+  std::istringstream in(file);
+  CHECK(saved(*learner.load_model(in)) == file);
+  for (const std::size_t length : {std::size_t{0}, std::size_t{10}, file.size() / 2}) {
+    std::istringstream cut(file.substr(0, length));
+    CHECK_THROWS_AS(learner.load_model(cut), InputError);
+  }
+  RandomStream random(5);
+  for (int i = 0; i < 200; ++i) {
+    std::string broken = file;
+    const auto at = static_cast<std::size_t>(random.next_1d() * static_cast<float>(file.size()));
+    broken[at] = static_cast<char>(random() & 0xff);
+    std::istringstream damaged(broken);
+    try {
+      const auto loaded = learner.load_model(damaged);
+      CHECK(std::isfinite(loaded->density({0, 0, 0}, {0, 1, 0})));
+    } catch (const InputError&) {
+    }
+  }
+}
+
+TEST_CASE("nothing is known where nothing was found") {
+  const GaussianLearner learner(small_settings());
+  const auto state = learner.begin(context());
+  const auto none = state->update(0, false);
+  CHECK((none == nullptr || as_gaussians(none).mixture_at(Point3{}).components.empty()));
+  PathLog dark;
+  dark.begin_path({}, Transport::radiance);
+  dark.add(RecordedVertex{});
+  dark.add(
+      RecordedVertex{.parent = 0, .direction = {0, 0, 1}, .unguided_pdf = 1, .guidable = true});
+  dark.add(RecordedVertex{.position = {0, 0, 1}, .parent = 1});
+  state->absorb(dark);
+  const auto still = state->update(1, true);
+  CHECK((still == nullptr || as_gaussians(still).mixture_at(Point3{}).components.empty()));
+}
+
+TEST_CASE("settings that contradict each other are refused") {
+  GaussianSettings settings;
+  settings.components = 40;
+  CHECK_THROWS_AS(GaussianLearner{settings}, InputError);
+}
+
+}  // namespace
+}  // namespace pharos::gaussians

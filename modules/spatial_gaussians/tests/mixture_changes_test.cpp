@@ -1,0 +1,138 @@
+#include "../mixture_changes.h"
+
+#include <cmath>
+
+#include <doctest/doctest.h>
+
+#include <pharos/core/warp.h>
+
+#include "../seen_gaussian.h"
+#include "test_gaussians.h"
+
+namespace pharos::gaussians {
+namespace {
+
+using namespace testing;
+using statistics::Matrix;
+using statistics::Vector;
+
+double normal_density(const Gaussian3& g, const Vector<3>& x) {
+  const Vector<3> y = x - g.mean;
+  return std::exp(-0.5 * y.dot(g.covariance.inverse() * y)) /
+         std::sqrt(std::pow(2 * EIGEN_PI, 3) * g.covariance.determinant());
+}
+
+/// The divergence of two weighted Gaussians from one of their joint moments, summed over a grid.
+double cost_by_grid(double wi, const Gaussian3& i, double wj, const Gaussian3& j) {
+  const Moments3 joint =
+      Moments3::of(wi, i.mean, i.covariance) + Moments3::of(wj, j.mean, j.covariance);
+  const Gaussian3 whole{joint.mean(), joint.covariance()};
+  constexpr int kSteps = 90;
+  constexpr double kHalfWidth = 6, kStep = 2 * kHalfWidth / kSteps;
+  const Matrix<3> l = Eigen::LLT<Matrix<3>>(whole.covariance).matrixL();
+  double sum = 0;
+  for (int x = 0; x < kSteps; ++x) {
+    for (int y = 0; y < kSteps; ++y) {
+      for (int z = 0; z < kSteps; ++z) {
+        const Vector<3> u(-kHalfWidth + (x + 0.5) * kStep, -kHalfWidth + (y + 0.5) * kStep,
+                          -kHalfWidth + (z + 0.5) * kStep);
+        const Vector<3> p = whole.mean + l * u;
+        const double two = wi * normal_density(i, p) + wj * normal_density(j, p);
+        const double one = (wi + wj) * normal_density(whole, p);
+        sum += (two - one) * (two - one) / one;
+      }
+    }
+  }
+  return sum * kStep * kStep * kStep * l.determinant();
+}
+
+Gaussian3 gaussian(Vector<3> mean, Vector<3> deviations) {
+  return {mean, deviations.cwiseAbs2().asDiagonal()};
+}
+
+TEST_CASE("the cost of a merge is the divergence over space") {
+  const Gaussian3 a = gaussian({0, 0, 0}, {1, 0.8, 0.9});
+  for (const double apart : {0.0, 0.5, 1.0, 1.5}) {
+    const Gaussian3 b = gaussian({apart, 0.2, 0}, {0.9, 0.9, 1.1});
+    CAPTURE(apart);
+    CHECK(merge_cost(0.2, a, 0.3, b) ==
+          doctest::Approx(cost_by_grid(0.2, a, 0.3, b)).epsilon(1e-3));
+  }
+}
+
+TEST_CASE("merging costs nothing for equal components and all for needles that cross") {
+  const Gaussian3 a = gaussian({1, 2, 3}, {1, 2, 0.5});
+  CHECK(std::abs(merge_cost(0.4, a, 0.1, a)) < 1e-12);
+  const Gaussian3 along_x = gaussian({0, 0, 0}, {1, 0.01, 0.01});
+  const Gaussian3 along_y = gaussian({0, 0, 0}, {0.01, 1, 0.01});
+  CHECK(merge_cost(0.5, along_x, 0.5, along_y) > 1);
+}
+
+/// What unguided sampling of a sphere finds of light that is distributed like directions to the
+/// points of a Gaussian, from places around the pivot.
+std::vector<Sample> uniform_samples(const std::vector<SpatialGaussian>& light, std::size_t count,
+                                    std::uint64_t seed) {
+  RandomStream random(seed);
+  std::vector<Sample> samples;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Point3 origin = 0.1f * any_direction(random);
+    const Vec3 w = any_direction(random);
+    double radiance = 0;
+    for (const SpatialGaussian& g : light) radiance += g.weight * exact_density(g, origin, w);
+    samples.push_back({.origin = origin,
+                       .target = origin + 5.0f * w,
+                       .weight = static_cast<float>(radiance) / warp::sphere_pdf(),
+                       .pdf = warp::sphere_pdf()});
+  }
+  return samples;
+}
+
+Gaussian3 to_gaussian(const SpatialGaussian& g) {
+  Matrix<3> l = Matrix<3>::Zero();
+  l << g.cholesky[0], 0, 0, g.cholesky[1], g.cholesky[2], 0, g.cholesky[3], g.cholesky[4],
+      g.cholesky[5];
+  return {{g.mean.x, g.mean.y, g.mean.z}, l * l.transpose()};
+}
+
+TEST_CASE("the test of directions finds the component that has to stand for two") {
+  RandomStream random(1);
+  SpatialGaussian left = oriented_gaussian({-2, 0, 4}, {0.4f, 0.3f, 0.2f}, random);
+  SpatialGaussian right = oriented_gaussian({2, 0, 4}, {0.3f, 0.2f, 0.4f}, random);
+  SpatialGaussian back = oriented_gaussian({0, 0, -4}, {0.5f, 0.5f, 0.5f}, random);
+  left.weight = right.weight = 0.3f;
+  back.weight = 0.4f;
+  const std::vector<Sample> samples = uniform_samples({left, right, back}, 40'000, 2);
+  const Gaussian3 l = to_gaussian(left), r = to_gaussian(right), b = to_gaussian(back);
+  const Moments3 both =
+      Moments3::of(0.3, l.mean, l.covariance) + Moments3::of(0.3, r.mean, r.covariance);
+  const Vector<3> pivot = Vector<3>::Zero();
+
+  const auto fits = test_directions({{0.3, 0.3, 0.4}, {l, r, b}}, pivot, samples, 0);
+  for (const DirectionTest& t : fits) {
+    CHECK(t.samples == 40'000);
+    CHECK(t.divergence() < 0.02);
+  }
+  const auto misfits =
+      test_directions({{0.6, 0.4}, {{both.mean(), both.covariance()}, b}}, pivot, samples, 0);
+  CHECK(misfits[0].divergence() > 0.5);
+  CHECK(misfits[1].divergence() < 0.02);
+}
+
+TEST_CASE("samples that find nothing count, those without density do not") {
+  RandomStream random(3);
+  const SpatialGaussian g = oriented_gaussian({0, 0, 2}, {1, 1, 1}, random);
+  std::vector<Sample> samples = uniform_samples({g}, 20'001, 4);
+  const Mixture mixture{{1}, {to_gaussian(g)}};
+  const double all = test_directions(mixture, Vector<3>::Zero(), samples, 0)[0].divergence();
+  // Half of the light is gone: what is left is twice as much as it should be, or nothing.
+  for (std::size_t i = 0; i < samples.size(); i += 2) samples[i].weight = 0;
+  const auto half = test_directions(mixture, Vector<3>::Zero(), samples, 0)[0];
+  CHECK(half.samples == 20'001);
+  CHECK(half.divergence() == doctest::Approx(1).epsilon(0.1));
+  CHECK(all < 0.02);
+  for (Sample& s : samples) s.pdf = 0;
+  CHECK(test_directions(mixture, Vector<3>::Zero(), samples, 0)[0].samples == 0);
+}
+
+}  // namespace
+}  // namespace pharos::gaussians
