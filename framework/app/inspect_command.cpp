@@ -133,8 +133,8 @@ class Inspection {
       throw InputError(fmt::format("--ellipsoids {}: error: the model knows nothing there",
                                    options_.ellipsoids));
     }
-    log_info(
-        fmt::format("{} Gaussians that guide paths at {}", components.size(), point_text(point)));
+    log_info(fmt::format("{}: the {} Gaussians that guide paths at {}", options_.output.string(),
+                         components.size(), point_text(point)));
     return ellipsoid_picture(components, view, backdrop(bounds(), view));
   }
 

@@ -20,6 +20,9 @@ using Double4 = double __attribute__((vector_size(32)));
 using Mask8 = std::int32_t __attribute__((vector_size(32)));
 using Mask4 = std::int64_t __attribute__((vector_size(32)));
 
+/// Four singles: a step on the way to and from memory.
+using Float4 = float __attribute__((vector_size(16)));
+
 /// The same number at all places. (A difference, as x + 0 may not be left out.)
 inline Float8 all8(float x) {
   return x - Float8{};
@@ -38,6 +41,26 @@ inline Double4 load4(const double* from) {
   Double4 x;
   std::memcpy(&x, from, sizeof x);
   return x;
+}
+
+/// Element i of each of four vectors, for all i.
+struct Transposed4 {
+  Float4 rows[4];
+};
+inline Transposed4 transposed(const Float4& a, const Float4& b, const Float4& c, const Float4& d) {
+  const Float4 ab_low = __builtin_shufflevector(a, b, 0, 4, 1, 5);
+  const Float4 ab_high = __builtin_shufflevector(a, b, 2, 6, 3, 7);
+  const Float4 cd_low = __builtin_shufflevector(c, d, 0, 4, 1, 5);
+  const Float4 cd_high = __builtin_shufflevector(c, d, 2, 6, 3, 7);
+  return {{__builtin_shufflevector(ab_low, cd_low, 0, 1, 4, 5),
+           __builtin_shufflevector(ab_low, cd_low, 2, 3, 6, 7),
+           __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5),
+           __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7)}};
+}
+
+/// The same numbers in double precision.
+inline Double4 widened(const Float4& x) {
+  return __builtin_convertvector(x, Double4);
 }
 
 /// Numbers of double precision rounded to single.
@@ -73,14 +96,23 @@ inline Double4 sqrt(const Double4& x) {
 #endif
 }
 
-/// The larger and the smaller of two numbers.
-template <class Lanes>
-Lanes larger(const Lanes& a, const Lanes& b) {
+/// The larger of two numbers.
+inline Float8 larger(const Float8& a, const Float8& b) {
+#if defined(__AVX__)
+  return _mm256_max_ps(a, b);
+#else
   return a > b ? a : b;
+#endif
 }
-template <class Lanes>
-Lanes smaller(const Lanes& a, const Lanes& b) {
-  return a < b ? a : b;
+inline Double4 larger(const Double4& a, const Double4& b) {
+#if defined(__AVX__)
+  return _mm256_max_pd(a, b);
+#else
+  return a > b ? a : b;
+#endif
+}
+inline Float8 absolute(const Float8& x) {
+  return larger(x, -x);
 }
 
 /// Whether the mask is set anywhere.
@@ -102,33 +134,36 @@ inline double sum(const Double4& x) {
   return (x[0] + x[2]) + (x[1] + x[3]);
 }
 
-/// e^x for x below 88, relative error below 2e-7; 0 below -87.
-inline Float8 exp(const Float8& x) {
-  constexpr float kLog2E = 1.44269504f;
-  // ln 2 in two parts: multiples of the first are exact.
-  constexpr float kLn2High = 0.693359375f, kLn2Low = -2.12194440e-4f;
+/// 2^x for x below 128, relative error below 3e-7; 0 below -126.
+inline Float8 exp2(const Float8& x) {
   constexpr float kRound = 0x1.8p23f;  // added, it leaves no room for fractions
-  constexpr float kLeast = -87;
+  constexpr float kLeast = -126;
   const Float8 bounded = larger(x, all8(kLeast));
-  const Float8 shifted = bounded * kLog2E + kRound;
-  const Float8 n = shifted - kRound;
-  const Float8 r = (bounded - n * kLn2High) - n * kLn2Low;
-  Float8 p = all8(1.0f / 5040);
-  for (const float c : {1.0f / 720, 1.0f / 120, 1.0f / 24, 1.0f / 6, 0.5f, 1.0f, 1.0f}) {
-    p = p * r + c;
-  }
+  const Float8 shifted = bounded + kRound;
+  const Float8 r = bounded - (shifted - kRound);
+  // Taylor's polynomial of degree 6, in few steps that wait for each other.
+  const Float8 r2 = r * r;
+  const Float8 high = (9.61812911e-3f + r * 1.33335581e-3f) + r2 * 1.54035304e-4f;
+  const Float8 p = (1 + r * 0.693147181f) + r2 * ((0.240226507f + r * 5.55041087e-2f) + r2 * high);
   const Mask8 exponent = (std::bit_cast<Mask8>(shifted) + 127) << 23;
   return x < kLeast ? Float8{} : p * std::bit_cast<Float8>(exponent);
 }
 
+inline constexpr float kLog2E = 1.44269504f;
+
+/// e^x for x below 88; 0 below -87. The relative error is that of 2^x and 1e-7 times |x|.
+inline Float8 exp(const Float8& x) {
+  return exp2(x * kLog2E);
+}
+
 /// e^x for x below 709, relative error below 1e-15; 0 below -708.
 inline Double4 exp(const Double4& x) {
-  constexpr double kLog2E = 1.4426950408889634;
+  constexpr double kOverLn2 = 1.4426950408889634;
   constexpr double kLn2High = 0x1.62e42fefa38p-1, kLn2Low = 0x1.ef35793c7673p-45;
   constexpr double kRound = 0x1.8p52;
   constexpr double kLeast = -708;
   const Double4 bounded = larger(x, all4(kLeast));
-  const Double4 shifted = bounded * kLog2E + kRound;
+  const Double4 shifted = bounded * kOverLn2 + kRound;
   const Double4 n = shifted - kRound;
   const Double4 r = (bounded - n * kLn2High) - n * kLn2Low;
   Double4 p = all4(1.0 / 6227020800);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstring>
 
 #include <pharos/core/warp.h>
 
@@ -24,35 +26,54 @@ Double4 choose(const Mask4& mask, const Double4& a, const Double4& b) {
   return mask ? a : b;
 }
 
-/// Four components, number by number. Where there are no more, a harmless one without weight.
+/// Four components, number by number. Where there are no more, harmless ones without weight.
 struct Components4 {
   Components4(std::span<const SpatialGaussian> components, std::size_t first, Point3 origin) {
-    static constexpr SpatialGaussian kNone{0, {1, 0, 0}, {1, 0, 1, 0, 0, 1}};
-    for (std::size_t i = 0; i < 4; ++i) {
-      const bool exists = first + i < components.size();
-      const SpatialGaussian& g = exists ? components[first + i] : kNone;
-      const Point3 from = exists ? origin : Point3{};
-      weight[i] = g.weight;
-      mu.x[i] = double{g.mean.x} - from.x;
-      mu.y[i] = double{g.mean.y} - from.y;
-      mu.z[i] = double{g.mean.z} - from.z;
-      for (int k = 0; k < 6; ++k) l[k][i] = g.cholesky[k];
+    if (first + 4 <= components.size()) {
+      read(&components[first], origin);
+      return;
     }
+    SpatialGaussian four[4];
+    std::fill_n(four, 4, SpatialGaussian{0, origin + Vec3{1, 0, 0}, {1, 0, 1, 0, 0, 1}});
+    for (std::size_t i = first; i < components.size(); ++i) four[i - first] = components[i];
+    read(four, origin);
   }
   Double4 weight;
   Lanes3 mu;     ///< mean, from the origin
   Double4 l[6];  ///< l00, l10, l11, l20, l21, l22
+
+ private:
+  void read(const SpatialGaussian* four, Point3 origin) {
+    const Transposed4 first = numbers(four, 0), second = numbers(four, 4), last = numbers(four, 6);
+    weight = widened(first.rows[0]);
+    mu.x = widened(first.rows[1]) - double{origin.x};
+    mu.y = widened(first.rows[2]) - double{origin.y};
+    mu.z = widened(first.rows[3]) - double{origin.z};
+    for (int k = 0; k < 4; ++k) l[k] = widened(second.rows[k]);
+    l[4] = widened(last.rows[2]);
+    l[5] = widened(last.rows[3]);
+  }
+  /// Numbers `begin` to `begin` + 3 of each component.
+  static Transposed4 numbers(const SpatialGaussian* four, std::size_t begin) {
+    static_assert(sizeof(SpatialGaussian) == 10 * sizeof(float));
+    Float4 of[4];
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto* bytes = reinterpret_cast<const std::byte*>(four + i);
+      std::memcpy(&of[i], bytes + begin * sizeof(float), sizeof of[i]);
+    }
+    return transposed(of[0], of[1], of[2], of[3]);
+  }
 };
 
 /// l00 L^-1, the lower triangle.
 struct Whitening4 {
-  explicit Whitening4(const Double4 (&l)[6]) {
-    const Double4 over11 = 1 / l[2], over22 = 1 / l[5];
+  explicit Whitening4(const Double4 (&l)[6]) : over_determinant(1 / (l[2] * l[5])) {
+    const Double4 over11 = over_determinant * l[5];
     r10 = -l[1] * over11;
     r11 = l[0] * over11;
-    r20 = (l[1] * l[4] - l[3] * l[2]) * over11 * over22;
-    r21 = -l[4] * r11 * over22;
-    r22 = l[0] * over22;
+    r20 = (l[1] * l[4] - l[3] * l[2]) * over_determinant;
+    r21 = -l[4] * l[0] * over_determinant;
+    r22 = l[0] * over_determinant * l[2];
   }
   Lanes3 operator()(const Lanes3& v) const {
     return {v.x, r10 * v.x + r11 * v.y, r20 * v.x + r21 * v.y + r22 * v.z};
@@ -61,6 +82,7 @@ struct Whitening4 {
   Lanes3 row(const Lanes3& v) const {
     return {v.x + v.y * r10 + v.z * r20, v.y * r11 + v.z * r21, v.z * r22};
   }
+  Double4 over_determinant;  ///< 1 / (l11 l22)
   Double4 r10, r11, r20, r21, r22;
 };
 
@@ -72,12 +94,16 @@ std::array<Lanes3, 2> perpendicular(const Lanes3& n) {
           Lanes3{b, sign + n.y * n.y * a, -n.y}};
 }
 
-/// A vector over its length; the x axis where that is 0.
-Lanes3 direction_of(const Lanes3& v, const Double4& length) {
-  const Mask4 none = length == 0;
-  const Double4 over = 1 / choose(none, all4(1), length);
-  return {choose(none, all4(1), v.x * over), v.y * over, v.z * over};
-}
+/// A vector's length and direction: the x axis where it is 0.
+struct Polar4 {
+  explicit Polar4(const Lanes3& v) : length(sqrt(dot4(v, v))) {
+    const Mask4 none = length == 0;
+    const Double4 over = 1 / choose(none, all4(1), length);
+    direction = {choose(none, all4(1), v.x * over), v.y * over, v.z * over};
+  }
+  Double4 length;
+  Lanes3 direction;
+};
 
 void set_row(SeenGroup& group, int row, int half, const Lanes3& values) {
   group.rows[row][0][half] = values.x;
@@ -101,28 +127,28 @@ struct Seen4 {
 Seen4 see(SeenGroup& group, int half, const Components4& c, const CosineRule& rule,
           Technique technique) {
   const Whitening4 whitening(c.l);
-  const Lanes3 m = whitening(c.mu);  // times l00
-  const Double4 length = sqrt(dot4(m, m)), d = sqrt(dot4(c.mu, c.mu));
-  const Lanes3 axis = direction_of(m, length);
-  const std::array<Lanes3, 2> across = perpendicular(axis);
-  const Mask4 is_inside = d == 0;
+  const Polar4 m(whitening(c.mu)), mu(c.mu);  // the former times l00
+  const std::array<Lanes3, 2> across = perpendicular(m.direction);
+  const Mask4 is_inside = mu.length == 0;
   Seen4 seen;
-  seen.aim = direction_of(c.mu, d);
-  set_row(group, 0, half, technique == Technique::plane ? seen.aim : whitening.row(axis));
+  seen.aim = mu.direction;
+  set_row(group, 0, half, technique == Technique::plane ? seen.aim : whitening.row(m.direction));
   set_row(group, 1, half, whitening.row(across[0]));
   set_row(group, 2, half, whitening.row(across[1]));
   seen.share = c.weight;
   const bool weighs = rule.normal != Vec3{};
   if (weighs) seen.share *= choose(is_inside, all4(rule.least), cosine_factor(rule, seen.aim));
-  const Double4 over_determinant = 1 / (c.l[2] * c.l[5]);  // of L / l00, over l00^2
+  const Double4 over00 = 1 / c.l[0];
   if (technique == Technique::plane) {
     // d^2 / (2 pi sqrt|S|), sqrt|S| = |L| |L^-1 mu| / d.
+    const Double4 d = mu.length;
     seen.share = choose(is_inside, Double4{}, seen.share);
-    seen.reach = d / c.l[0];
-    seen.weight = choose(is_inside, Double4{}, kOverTwoPi * d * d * d * over_determinant / length);
+    seen.reach = d * over00;
+    seen.weight = choose(is_inside, Double4{},
+                         kOverTwoPi * d * d * d * whitening.over_determinant / m.length);
   } else {
-    seen.reach = length / c.l[0];
-    seen.weight = kOverTwoPi * c.l[0] * c.l[0] * over_determinant;
+    seen.reach = m.length * over00;
+    seen.weight = kOverTwoPi * c.l[0] * c.l[0] * whitening.over_determinant;
   }
   // Nothing is turned around in the mean itself: half of each line.
   if (technique == Technique::flipped) {
@@ -133,9 +159,8 @@ Seen4 see(SeenGroup& group, int half, const Components4& c, const CosineRule& ru
   return seen;
 }
 
-SeenGroup see_group(std::span<const SpatialGaussian> components, std::size_t first, Point3 origin,
-                    const CosineRule& rule, Technique technique) {
-  SeenGroup group;
+void see_group(std::span<const SpatialGaussian> components, std::size_t first, Point3 origin,
+               const CosineRule& rule, Technique technique, SeenGroup& group) {
   const Seen4 low = see(group, 0, {components, first, origin}, rule, technique);
   const Seen4 high = see(group, 1, {components, first + 4, origin}, rule, technique);
   group.share = rounded(low.share, high.share);
@@ -145,7 +170,6 @@ SeenGroup see_group(std::span<const SpatialGaussian> components, std::size_t fir
   group.aim[0] = rounded(low.aim.x, high.aim.x);
   group.aim[1] = rounded(low.aim.y, high.aim.y);
   group.aim[2] = rounded(low.aim.z, high.aim.z);
-  return group;
 }
 
 Float8 row_times(const SeenGroup& group, int row, const Double4 (&direction)[3]) {
@@ -164,24 +188,25 @@ Float8 densities(const SeenGroup& group, Vec3 direction, const Double4 (&wide)[3
   const Float8 x = row_times(group, 0, wide);
   const Float8 y = row_times(group, 1, wide), z = row_times(group, 2, wide);
   const Float8 across = y * y + z * z;
+  // -log2(e) / 2 times the squared distance: what the exponent has.
+  const Float8 miss = group.reach * group.reach * (-0.5f * kLog2E) * across;
   if constexpr (technique == Technique::plane) {
     constexpr float kLeast = 1e-10f;  // so that its cube is a float
-    const Float8 over = 1 / larger(x, all8(kLeast)), scaled = group.reach * over;
-    const Float8 value = exp(-0.5f * scaled * scaled * across) * over * over * over;
-    return x > kLeast ? group.weight * value : Float8{};
+    const Float8 over = 1 / larger(x, all8(kLeast));
+    const Float8 scale = group.weight * (over * over * over);
+    return x > kLeast ? scale * exp2(miss * (over * over)) : Float8{};
   } else {
-    const Float8 over = 1 / sqrt(x * x + across);
-    const Float8 u = group.reach * x * over, miss = group.reach * over;
-    const Float8 e = -0.5f * miss * miss * across;
-    const Float8 scale = group.weight * over * over * over;
+    const Float8 a = x * x + across, over = 1 / a, root = sqrt(a), along = group.reach * x;
+    const Rays8 rays{along, root, along * along * over, miss * over};
+    const Float8 scale = group.weight * (over * over * root);  // a^(-3/2)
     if constexpr (technique == Technique::flipped) {
       const Float8 side =
           group.aim[0] * direction.x + group.aim[1] * direction.y + group.aim[2] * direction.z;
-      return side < 0 ? Float8{} : scale * line_integral(u, e);
+      return side < 0 ? Float8{} : scale * rays.line_integral();
     } else {
       // So far away that no ray that looks away meets anything.
-      if (!any(group.far > 0)) return u < 0 ? Float8{} : scale * line_integral(u, e);
-      return scale * ray_integral(u, e, group.far);
+      if (!any(group.far > 0)) return x < 0 ? Float8{} : scale * rays.line_integral();
+      return scale * rays.ray_integral(group.far);
     }
   }
 }
@@ -212,7 +237,7 @@ const SeenMixture* SeenMixture::make(std::span<const SpatialGaussian> components
   SeenGroup* groups = arena.make_array<SeenGroup>(count);
   float total = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    groups[i] = see_group(components, i * kGroup, origin, rule, technique);
+    see_group(components, i * kGroup, origin, rule, technique, groups[i]);
     total += sum(groups[i].share);
   }
   if (!(total > 0)) return nullptr;

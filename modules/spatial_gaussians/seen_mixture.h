@@ -29,6 +29,8 @@ struct CosineRule {
 /// whitened direction in a frame whose first axis points at the whitened mean, times l00 (a factor
 /// that keeps floats in range). For `plane` the first row is the unit direction to the mean.
 struct SeenGroup {
+  SeenGroup() {}  // leaves everything as it is: an array of groups need not be cleared
+
   Double4 rows[3][3][2];
   Float8 share;   ///< probability of choosing the component
   Float8 weight;  ///< the density's factor that does not hang on the direction

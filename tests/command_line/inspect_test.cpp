@@ -145,6 +145,44 @@ TEST_CASE("inspect --cloud: a view of its own, or the camera's") {
   CHECK(square.height() == 48);
 }
 
+/// Puts box.yaml, train.yaml and a box.model of spatial Gaussians into `folder`.
+void write_gaussians(const ScratchFolder& folder) {
+  folder.write("box.yaml", box_scene());
+  std::string config = training_config("spatial_gaussians");
+  const std::string guider = "guider: spatial_gaussians";
+  config.replace(config.find(guider), guider.size(), "guider: p0");
+  folder.write("train.yaml", config);
+  REQUIRE(run_pharos("render train.yaml -q", folder.path(), "").exit_code == 0);
+}
+
+TEST_CASE("inspect --ellipsoids: the Gaussians around a point, in the camera's view") {
+  const ScratchFolder folder;
+  write_gaussians(folder);
+  const std::string at = "--ellipsoids 1,0.9,0.5 --size 48 --scene ";
+  const Image drawn = picture(folder, at + "train.yaml", "drawn.png");
+  CHECK(drawn.width() == 48);
+  CHECK(drawn.height() == 32);
+  CHECK(picture(folder, at + "box.yaml", "square.png").height() == 48);
+  const Image one = picture(folder, at + "train.yaml --threads 1", "one.png");
+  CHECK(one.values() == drawn.values());
+  const Outcome outcome = inspect(folder, "box.model");
+  CHECK(contains(outcome.out, "components"));
+}
+
+TEST_CASE("inspect --ellipsoids: what cannot be drawn") {
+  check_refused(mistake("box.model --ellipsoids 0,0,0 -o x.png"),
+                {"'stub_segments' has no spatial Gaussians", "--slice"});
+  check_refused(mistake("box.model --ellipsoids 0,0 -o x.png"),
+                {"--ellipsoids 0,0: error: ", "three numbers"});
+  check_refused(mistake("box.model --ellipsoids 0,0,0 -o x.exr"), {"x.exr: error: ", ".png"});
+  check_refused(mistake("box.model --ellipsoids 0,0,0 --range 1,2 -o x.png"), {"--range: error: "});
+  check_refused(mistake("box.model --ellipsoids 0,0,0 --cloud -o x.png"),
+                {"--ellipsoids", "--cloud"});
+  check_refused(
+      {.arguments = "inspect box.model --ellipsoids 0,0,0 -o x.png", .prepare = write_gaussians},
+      {"'spatial_gaussians' does not say where it is", "--scene"});
+}
+
 TEST_CASE("inspect: the same picture for any number of threads") {
   const ScratchFolder folder;
   write_learned_model(folder);

@@ -3,7 +3,6 @@
 // for unguided renders to converge. Prints one line a comparison.
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <span>
 
@@ -36,7 +35,7 @@ Method focal(float unguided_fraction, const char* extent, const char* images) {
 
 /// A pairwise covering array of unguided fractions, extents of splats and uses of training images,
 /// and fractions that are learned.
-std::vector<Method> methods() {
+std::vector<Method> focal_methods() {
   return {focal(0.1f, "line", "discard"),
           focal(0.5f, "roughness_gated", "discard"),
           focal(0.9f, "line", "combine"),
@@ -44,6 +43,35 @@ std::vector<Method> methods() {
           focal(0.5f, "line", "combine"),
           focal(0.9f, "roughness_gated", "discard"),
           focal_learned()};
+}
+
+Method gaussians(const char* guider, float unguided_fraction, const char* spatial,
+                 const char* images) {
+  return {fmt::format("{} {} {} {}", guider, unguided_fraction, spatial, images),
+          {fmt::format("learner={{ type: spatial_gaussians, spatial: {} }}", spatial),
+           fmt::format("guider={}", guider),
+           fmt::format("mixing={{ type: fixed, unguided_fraction: {} }}", unguided_fraction),
+           fmt::format("training={{ schedule: geometric, images: {} }}", images)}};
+}
+
+Method gaussians_learned() {
+  return {"p0 learned",
+          {"learner=spatial_gaussians", "guider=p0", "mixing=learned",
+           "training={ schedule: geometric }"}};
+}
+
+/// The same of guiders, unguided fractions, trees or single mixtures, and uses of training images.
+std::vector<Method> gaussian_methods() {
+  return {gaussians("p0", 0.1f, "kdtree", "discard"),
+          gaussians("p0", 0.5f, "single", "combine"),
+          gaussians("p0", 0.9f, "kdtree", "combine"),
+          gaussians("p1", 0.1f, "single", "combine"),
+          gaussians("p1", 0.5f, "kdtree", "discard"),
+          gaussians("p1", 0.9f, "single", "discard"),
+          gaussians("projected", 0.1f, "kdtree", "combine"),
+          gaussians("projected", 0.5f, "single", "discard"),
+          gaussians("projected", 0.9f, "kdtree", "discard"),
+          gaussians_learned()};
 }
 
 LoadedConfig load(const std::filesystem::path& config, const std::vector<std::string>& guiding,
@@ -75,9 +103,9 @@ void compare(const std::filesystem::path& config, std::span<const Method> method
   }
 }
 
-/// Compares all methods on a proof variant.
-void compare_proof(const std::string& scene) {
-  compare(std::filesystem::path(PHAROS_PROOF_CONFIGS) / (scene + ".yaml"), methods());
+/// Compares methods on a proof variant.
+void compare_proof(const std::string& scene, const std::vector<Method>& methods) {
+  compare(std::filesystem::path(PHAROS_PROOF_CONFIGS) / (scene + ".yaml"), methods);
 }
 
 /// Compares two shares of unguided samples where unguided renders alone would never converge.
@@ -101,8 +129,10 @@ void compare_shares(const std::string& scene, int samples) {
 }  // namespace
 
 TEST_CASE("unbiased: focal guiding in a camera obscura") {
-  compare(std::filesystem::path(PHAROS_PROOF_CONFIGS) / "camera-obscura.yaml",
-          std::array{methods().front()});
+  compare_proof("camera-obscura", {focal_methods().front()});
+}
+TEST_CASE("unbiased: spatial Gaussians under strips of light") {
+  compare_proof("strip-lights", {gaussian_methods().front()});
 }
 
 TEST_CASE("unbiased: every proof variant has a case below") {
@@ -112,23 +142,33 @@ TEST_CASE("unbiased: every proof variant has a case below") {
   }
   std::sort(found.begin(), found.end());
   CHECK(found == std::vector<std::string>{"camera-obscura", "dining-room", "disco-ball", "hall",
-                                          "living-room"});
+                                          "living-room", "standing-light", "strip-lights"});
 }
 
 TEST_CASE("long: unbiased in the proof variant camera-obscura") {
-  compare_proof("camera-obscura");
+  compare_proof("camera-obscura", focal_methods());
 }
 TEST_CASE("long: unbiased in the proof variant dining-room") {
-  compare_proof("dining-room");
+  compare_proof("dining-room", focal_methods());
 }
 TEST_CASE("long: unbiased in the proof variant disco-ball") {
-  compare_proof("disco-ball");
+  compare_proof("disco-ball", focal_methods());
 }
 TEST_CASE("long: unbiased in the proof variant hall") {
-  compare_proof("hall");
+  compare_proof("hall", focal_methods());
 }
 TEST_CASE("long: unbiased in the proof variant living-room") {
-  compare_proof("living-room");
+  compare_proof("living-room", focal_methods());
+}
+
+TEST_CASE("long: spatial Gaussians are unbiased in the proof variant living-room") {
+  compare_proof("living-room", gaussian_methods());
+}
+TEST_CASE("long: spatial Gaussians are unbiased in the proof variant standing-light") {
+  compare_proof("standing-light", gaussian_methods());
+}
+TEST_CASE("long: spatial Gaussians are unbiased in the proof variant strip-lights") {
+  compare_proof("strip-lights", gaussian_methods());
 }
 
 // (Not the smallest pinhole: with so few samples most renders have yet to find it.)

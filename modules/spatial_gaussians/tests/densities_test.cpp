@@ -92,7 +92,7 @@ TEST_CASE("the moment of a ray is its integral and meets its series") {
     const double expected = boost::math::quadrature::gauss<double, 60>::integrate(f, 0.0, end / 2) +
                             boost::math::quadrature::gauss<double, 60>::integrate(f, end / 2, end);
     CHECK(ray_moment(x) == doctest::Approx(expected).epsilon(1e-8).scale(0));
-    const Float8 single = ray_moment(all8(static_cast<float>(x)));
+    const Float8 single = ray_moment(all8(static_cast<float>(3 * x)), all8(3.0f));
     CHECK(single[3] == doctest::Approx(expected).epsilon(5e-6).scale(0));
   }
 }
