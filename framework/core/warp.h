@@ -94,4 +94,9 @@ Vec2 triangle_from_square(Vec2 u);
 /// 0 and 1 are taken as the nearest doubles inside, so that the result is always finite.
 double normal_from_unit(double u);
 
+/// The same of a primary number u in [0,1), which stands for the middle of its 24-bit cell, in
+/// single precision: within 5.5 of zero, error below 3e-6 times the larger of one and the result.
+/// Two polynomials (Giles 2011, "Approximating the erfinv function").
+float fast_normal_from_unit(float u);
+
 }  // namespace pharos::warp

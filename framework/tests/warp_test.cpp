@@ -195,6 +195,17 @@ TEST_CASE("triangle: density over the square that holds it") {
   CHECK(fit.chi_square.p_value > kSignificance);
 }
 
+TEST_CASE("normal quantile in single precision: that of the middle of each cell") {
+  double worst = 0;
+  for (std::uint32_t i = 0; i < 1u << 24; i += i < 4096 || i > (1u << 24) - 4096 ? 1 : 997) {
+    const double expected = normal_from_unit((i + 0.5) * 0x1p-24);
+    const double error = fast_normal_from_unit(static_cast<float>(i) * 0x1p-24f) - expected;
+    worst = std::max(worst, std::abs(error) / std::max(std::abs(expected), 1.0));
+  }
+  CHECK(worst < 3e-6);
+  CHECK(std::abs(fast_normal_from_unit(0)) < 5.5);
+}
+
 TEST_CASE("normal quantile: tabulated values, tails, inverse of the distribution function") {
   CHECK(normal_from_unit(0.5) == 0);
   CHECK(normal_from_unit(0.975) == doctest::Approx(1.959963984540054).epsilon(1e-14));

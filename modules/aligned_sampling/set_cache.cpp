@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// To be raised whenever synthesize() makes other points of the same settings.
-constexpr int kSynthesisVersion = 3;
+constexpr int kSynthesisVersion = 4;
 
 /// All that determines the points.
 std::string text_of(const SynthesisSettings& s) {

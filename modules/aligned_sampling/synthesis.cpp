@@ -1,5 +1,6 @@
 #include "synthesis.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <numbers>
@@ -50,6 +51,11 @@ std::vector<Direction> all_directions(const SynthesisSettings& settings) {
   return all;
 }
 
+double wasserstein_weight(const SynthesisSettings& settings) {
+  constexpr double kPoints = 4096;
+  return settings.wasserstein * std::min(1.0, kPoints / settings.points);
+}
+
 /// Eq. 10: the losses whose weights are not zero.
 class TotalLoss {
  public:
@@ -67,7 +73,7 @@ class TotalLoss {
     LossRecord losses;
     if (spectrum_) losses.spectrum = spectrum_->evaluate(points, settings_.spectrum, gradient);
     if (wasserstein_) {
-      losses.wasserstein = wasserstein_->evaluate(points, settings_.wasserstein, gradient);
+      losses.wasserstein = wasserstein_->evaluate(points, wasserstein_weight(settings_), gradient);
     }
     return losses;
   }

@@ -28,8 +28,10 @@ struct SynthesisSettings {
   /// Length of the first steps, in units of 1 / sqrt(N), the points' spacing; it falls to zero as
   /// half a period of a cosine does.
   double step = 0.1;
-  double spectrum = 1;         ///< weight of the power spectrum loss, >= 0 (eq. 10)
-  double wasserstein = 0.001;  ///< c, weight of the sliced Wasserstein loss, >= 0 (eq. 10)
+  double spectrum = 1;  ///< weight of the power spectrum loss, >= 0 (eq. 10)
+  /// c, weight of the sliced Wasserstein loss, >= 0 (eq. 10). Of more than 4096 points it counts
+  /// 4096 / N times: their spectrum could not fall further beside it.
+  double wasserstein = 0.001;
   SuppressionRule rule;
   /// Where not empty: the frequencies of the power spectrum loss instead of those of the rule.
   std::vector<TargetPower> mask;

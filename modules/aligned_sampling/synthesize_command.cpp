@@ -97,7 +97,7 @@ void Settings::describe(Schema<Settings>& s) {
           "Weight of the power spectrum loss; 0 leaves it out")
       .at_least(0);
   s.field("wasserstein", own(&SynthesisSettings::wasserstein),
-          "Weight of the sliced Wasserstein loss; 0 leaves it out")
+          "Weight of the sliced Wasserstein loss, 4096/N times for N above 4096; 0 leaves it out")
       .at_least(0);
   s.field("rule", own(&SynthesisSettings::rule), "Which frequencies are suppressed");
   s.field("mask", own(&SynthesisSettings::mask),

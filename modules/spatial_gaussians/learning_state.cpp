@@ -105,6 +105,7 @@ void GaussianState::divide(Place place, std::span<Sample> samples,
   const auto plane = static_cast<float>(positions.sums[axis] / positions.count);
   const auto middle = std::stable_partition(
       samples.begin(), samples.end(), [&](const Sample& s) { return s.origin[axis] < plane; });
+  if (middle == samples.begin() || middle == samples.end()) return;  // all in one place
   const KdTree::Halves halves = tree_.divide(place.leaf, axis, plane);
   cells_[place.cell].mixture.forget(settings_.division_decay);
   cells_[place.cell].positions = {};

@@ -225,8 +225,7 @@ Vec3 normal_numbers(Vec2 u, float v) {
   // The disk's r^2 is uniform; 1 - r^2 by its factors keeps the digits of large numbers.
   const float left = std::max((1 - p.radius) * (1 + p.radius), 0x1p-25f);
   const float radius = std::copysign(std::sqrt(-2 * std::log(left)), p.radius);
-  return {radius * p.direction.x, radius * p.direction.y,
-          static_cast<float>(warp::normal_from_unit(v + 0x1p-25f))};
+  return {radius * p.direction.x, radius * p.direction.y, warp::fast_normal_from_unit(v)};
 }
 
 }  // namespace

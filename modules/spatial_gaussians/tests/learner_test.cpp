@@ -297,6 +297,27 @@ TEST_CASE("nothing is known where nothing was found") {
   CHECK((still == nullptr || as_gaussians(still).mixture_at(Point3{}).components.empty()));
 }
 
+TEST_CASE("samples that all begin at one point do not divide cells for ever") {
+  const auto state = GaussianLearner(small_settings()).begin(context());
+  RandomStream random(9);
+  PathLog log;
+  for (int i = 0; i < 10'000; ++i) {
+    const Vec3 w = any_direction(random);
+    log.begin_path({}, Transport::radiance);
+    log.add(RecordedVertex{});
+    log.add(RecordedVertex{.position = {0.5f, 0.5f, 0.5f},
+                           .event = Event::smooth_reflect,
+                           .parent = 0,
+                           .direction = w,
+                           .unguided_pdf = warp::sphere_pdf(),
+                           .guidable = true});
+    log.add(
+        RecordedVertex{.position = Point3{0.5f, 0.5f, 0.5f} + w, .parent = 1, .emission = Rgb(1)});
+  }
+  state->absorb(log);
+  CHECK(state->update(0, true)->region_count() == 1);
+}
+
 TEST_CASE("settings that contradict each other are refused") {
   GaussianSettings settings;
   settings.components = 40;
