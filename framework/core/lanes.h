@@ -63,20 +63,6 @@ inline Double4 widened(const Float4& x) {
   return __builtin_convertvector(x, Double4);
 }
 
-/// Numbers of double precision rounded to single.
-inline Float8 rounded(const Double4& low, const Double4& high) {
-#if defined(__AVX__)
-  return _mm256_set_m128(_mm256_cvtpd_ps(high), _mm256_cvtpd_ps(low));
-#else
-  Float8 x;
-  for (int i = 0; i < 4; ++i) {
-    x[i] = static_cast<float>(low[i]);
-    x[i + 4] = static_cast<float>(high[i]);
-  }
-  return x;
-#endif
-}
-
 inline Float8 sqrt(const Float8& x) {
 #if defined(__AVX__)
   return _mm256_sqrt_ps(x);
@@ -92,6 +78,45 @@ inline Double4 sqrt(const Double4& x) {
 #else
   Double4 r;
   for (int i = 0; i < 4; ++i) r[i] = std::sqrt(x[i]);
+  return r;
+#endif
+}
+
+/// Eight doubles, in two registers whose operations can run at the same time.
+struct Double8 {
+  Double4 low, high;
+
+  friend Double8 operator+(const Double8& a, const Double8& b) {
+    return {a.low + b.low, a.high + b.high};
+  }
+  friend Double8 operator-(const Double8& a, const Double8& b) {
+    return {a.low - b.low, a.high - b.high};
+  }
+  friend Double8 operator*(const Double8& a, const Double8& b) {
+    return {a.low * b.low, a.high * b.high};
+  }
+  friend Double8 operator/(const Double8& a, const Double8& b) {
+    return {a.low / b.low, a.high / b.high};
+  }
+  friend Double8 operator-(const Double8& a) { return {-a.low, -a.high}; }
+};
+inline Double8 all_doubles8(double x) {
+  return {all4(x), all4(x)};
+}
+inline Double8 sqrt(const Double8& x) {
+  return {sqrt(x.low), sqrt(x.high)};
+}
+
+/// Numbers of double precision rounded to single.
+inline Float8 rounded(const Double8& x) {
+#if defined(__AVX__)
+  return _mm256_set_m128(_mm256_cvtpd_ps(x.high), _mm256_cvtpd_ps(x.low));
+#else
+  Float8 r;
+  for (int i = 0; i < 4; ++i) {
+    r[i] = static_cast<float>(x.low[i]);
+    r[i + 4] = static_cast<float>(x.high[i]);
+  }
   return r;
 #endif
 }

@@ -34,8 +34,11 @@ TEST_CASE("lanes are loaded, rounded, compared and summed element by element") {
   const Double4 d = load4(doubles);
   CHECK(sum(f) == -4);
   CHECK(sum(d) == doctest::Approx(-0.2).epsilon(1e-15));
-  CHECK(rounded(d, d + 1)[2] == 0.3f);
-  CHECK(rounded(d, d + 1)[5] == 0.8f);
+  const Double8 both{d, d + 1};
+  CHECK(rounded(both)[2] == 0.3f);
+  CHECK(rounded(both)[5] == 0.8f);
+  CHECK(rounded((both + both) * both / both - both)[7] == 0.6f);
+  CHECK(rounded(sqrt(-all_doubles8(-4)))[1] == 2);
   CHECK(larger(f, Float8{})[1] == 0);
   CHECK(absolute(f)[1] == 2);
   CHECK(sqrt(f * f)[3] == 4);

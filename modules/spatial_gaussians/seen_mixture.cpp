@@ -16,44 +16,38 @@ constexpr std::size_t kGroup = 8;
 constexpr double kOverTwoPi = 0.15915494309189535;
 
 struct Lanes3 {
-  Double4 x, y, z;
+  Double8 x, y, z;
 };
 
-Double4 dot4(const Lanes3& a, const Lanes3& b) {
+Double8 dot8(const Lanes3& a, const Lanes3& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
-Double4 choose(const Mask4& mask, const Double4& a, const Double4& b) {
-  return mask ? a : b;
+Double8 scaled(double factor, const Double8& x) {
+  return all_doubles8(factor) * x;
 }
 
-/// Four components, number by number. Where there are no more, harmless ones without weight.
+/// Where numbers are zero or negative.
+struct Masks8 {
+  Mask4 low, high;
+};
+Masks8 is_zero(const Double8& x) {
+  return {x.low == 0, x.high == 0};
+}
+Masks8 is_negative(const Double8& x) {
+  return {x.low < 0, x.high < 0};
+}
+Double8 choose(const Masks8& mask, const Double8& a, const Double8& b) {
+  return {mask.low ? a.low : b.low, mask.high ? a.high : b.high};
+}
+
+/// Four components, number by number.
 struct Components4 {
-  Components4(std::span<const SpatialGaussian> components, std::size_t first, Point3 origin) {
-    if (first + 4 <= components.size()) {
-      read(&components[first], origin);
-      return;
-    }
-    SpatialGaussian four[4];
-    std::fill_n(four, 4, SpatialGaussian{0, origin + Vec3{1, 0, 0}, {1, 0, 1, 0, 0, 1}});
-    for (std::size_t i = first; i < components.size(); ++i) four[i - first] = components[i];
-    read(four, origin);
-  }
-  Double4 weight;
-  Lanes3 mu;     ///< mean, from the origin
-  Double4 l[6];  ///< l00, l10, l11, l20, l21, l22
+  Transposed4 first, second, last;  ///< numbers 0 to 3, 4 to 7 and 6 to 9
+
+  explicit Components4(const SpatialGaussian* four)
+      : first(numbers(four, 0)), second(numbers(four, 4)), last(numbers(four, 6)) {}
 
  private:
-  void read(const SpatialGaussian* four, Point3 origin) {
-    const Transposed4 first = numbers(four, 0), second = numbers(four, 4), last = numbers(four, 6);
-    weight = widened(first.rows[0]);
-    mu.x = widened(first.rows[1]) - double{origin.x};
-    mu.y = widened(first.rows[2]) - double{origin.y};
-    mu.z = widened(first.rows[3]) - double{origin.z};
-    for (int k = 0; k < 4; ++k) l[k] = widened(second.rows[k]);
-    l[4] = widened(last.rows[2]);
-    l[5] = widened(last.rows[3]);
-  }
-  /// Numbers `begin` to `begin` + 3 of each component.
   static Transposed4 numbers(const SpatialGaussian* four, std::size_t begin) {
     static_assert(sizeof(SpatialGaussian) == 10 * sizeof(float));
     Float4 of[4];
@@ -65,16 +59,51 @@ struct Components4 {
   }
 };
 
-/// l00 L^-1, the lower triangle.
-struct Whitening4 {
-  explicit Whitening4(const Double4 (&l)[6]) : over_determinant(1 / (l[2] * l[5])) {
-    const Double4 over11 = over_determinant * l[5];
-    r10 = -l[1] * over11;
-    r11 = l[0] * over11;
-    r20 = (l[1] * l[4] - l[3] * l[2]) * over_determinant;
-    r21 = -l[4] * l[0] * over_determinant;
-    r22 = l[0] * over_determinant * l[2];
+/// Eight components, number by number. Where there are no more, harmless ones without weight.
+struct Components8 {
+  Components8(std::span<const SpatialGaussian> components, Point3 origin) {
+    if (components.size() >= kGroup) {
+      read(components.data(), origin);
+      return;
+    }
+    SpatialGaussian eight[kGroup];
+    std::fill_n(eight, kGroup, SpatialGaussian{0, origin + Vec3{1, 0, 0}, {1, 0, 1, 0, 0, 1}});
+    std::copy(components.begin(), components.end(), eight);
+    read(eight, origin);
   }
+  Double8 weight;
+  Lanes3 mu;  ///< mean, from the origin
+  Double8 l00, l10, l11, l20, l21, l22;
+
+ private:
+  void read(const SpatialGaussian* eight, Point3 origin) {
+    const Components4 a(eight), b(eight + 4);
+    const auto both = [](const Float4& low, const Float4& high) {
+      return Double8{widened(low), widened(high)};
+    };
+    weight = both(a.first.rows[0], b.first.rows[0]);
+    mu.x = both(a.first.rows[1], b.first.rows[1]) - all_doubles8(origin.x);
+    mu.y = both(a.first.rows[2], b.first.rows[2]) - all_doubles8(origin.y);
+    mu.z = both(a.first.rows[3], b.first.rows[3]) - all_doubles8(origin.z);
+    l00 = both(a.second.rows[0], b.second.rows[0]);
+    l10 = both(a.second.rows[1], b.second.rows[1]);
+    l11 = both(a.second.rows[2], b.second.rows[2]);
+    l20 = both(a.second.rows[3], b.second.rows[3]);
+    l21 = both(a.last.rows[2], b.last.rows[2]);
+    l22 = both(a.last.rows[3], b.last.rows[3]);
+  }
+};
+
+/// l00 L^-1, the lower triangle.
+struct Whitening8 {
+  explicit Whitening8(const Components8& c)
+      : over_determinant(all_doubles8(1) / (c.l11 * c.l22)),
+        r10(-c.l10 * (over_determinant * c.l22)),
+        r11(c.l00 * (over_determinant * c.l22)),
+        r20((c.l10 * c.l21 - c.l20 * c.l11) * over_determinant),
+        r21(-c.l21 * c.l00 * over_determinant),
+        r22(c.l00 * over_determinant * c.l11) {}
+
   Lanes3 operator()(const Lanes3& v) const {
     return {v.x, r10 * v.x + r11 * v.y, r20 * v.x + r21 * v.y + r22 * v.z};
   }
@@ -82,111 +111,87 @@ struct Whitening4 {
   Lanes3 row(const Lanes3& v) const {
     return {v.x + v.y * r10 + v.z * r20, v.y * r11 + v.z * r21, v.z * r22};
   }
-  Double4 over_determinant;  ///< 1 / (l11 l22)
-  Double4 r10, r11, r20, r21, r22;
+  Double8 over_determinant;  ///< 1 / (l11 l22)
+  Double8 r10, r11, r20, r21, r22;
 };
 
 /// Two unit vectors that are perpendicular to a third and to each other (Duff et al. 2017).
 std::array<Lanes3, 2> perpendicular(const Lanes3& n) {
-  const Double4 sign = choose(n.z < 0, all4(-1), all4(1));
-  const Double4 a = -1 / (sign + n.z), b = n.x * n.y * a;
-  return {Lanes3{1 + sign * n.x * n.x * a, sign * b, -sign * n.x},
+  const Double8 one = all_doubles8(1), sign = choose(is_negative(n.z), -one, one);
+  const Double8 a = -one / (sign + n.z), b = n.x * n.y * a;
+  return {Lanes3{one + sign * n.x * n.x * a, sign * b, -sign * n.x},
           Lanes3{b, sign + n.y * n.y * a, -n.y}};
 }
 
 /// A vector's length and direction: the x axis where it is 0.
-struct Polar4 {
-  explicit Polar4(const Lanes3& v) : length(sqrt(dot4(v, v))) {
-    const Mask4 none = length == 0;
-    const Double4 over = 1 / choose(none, all4(1), length);
-    direction = {choose(none, all4(1), v.x * over), v.y * over, v.z * over};
+struct Polar8 {
+  explicit Polar8(const Lanes3& v) : length(sqrt(dot8(v, v))) {
+    const Masks8 none = is_zero(length);
+    const Double8 one = all_doubles8(1), over = one / choose(none, one, length);
+    direction = {choose(none, one, v.x * over), v.y * over, v.z * over};
   }
-  Double4 length;
+  Double8 length;
   Lanes3 direction;
 };
 
-void set_row(SeenGroup& group, int row, int half, const Lanes3& values) {
-  group.rows[row][0][half] = values.x;
-  group.rows[row][1][half] = values.y;
-  group.rows[row][2][half] = values.z;
+void set_row(SeenGroup& group, int row, const Lanes3& values) {
+  group.rows[row][0] = values.x;
+  group.rows[row][1] = values.y;
+  group.rows[row][2] = values.z;
 }
 
-Double4 cosine_factor(const CosineRule& rule, const Lanes3& aim) {
-  const Double4 cosine =
-      aim.x * double{rule.normal.x} + aim.y * double{rule.normal.y} + aim.z * double{rule.normal.z};
-  const Double4 counted = rule.both_sides ? larger(cosine, -cosine) : cosine;
-  return larger(counted, all4(rule.least));
+Float8 cosine_factor(const CosineRule& rule, const SeenGroup& group) {
+  const Float8 cosine =
+      group.aim[0] * rule.normal.x + group.aim[1] * rule.normal.y + group.aim[2] * rule.normal.z;
+  return larger(rule.both_sides ? absolute(cosine) : cosine, all8(rule.least));
 }
 
-/// What becomes of four components; the numbers that are single in the group come as double here.
-struct Seen4 {
-  Lanes3 aim;
-  Double4 share, weight, reach;
-};
-
-Seen4 see(SeenGroup& group, int half, const Components4& c, const CosineRule& rule,
-          Technique technique) {
-  const Whitening4 whitening(c.l);
-  const Polar4 m(whitening(c.mu)), mu(c.mu);  // the former times l00
+/// What becomes of up to eight components.
+void see_group(std::span<const SpatialGaussian> components, Point3 origin, const CosineRule& rule,
+               Technique technique, SeenGroup& group) {
+  const Components8 c(components, origin);
+  const Whitening8 whitening(c);
+  const Polar8 m(whitening(c.mu)), mu(c.mu);  // the former times l00
   const std::array<Lanes3, 2> across = perpendicular(m.direction);
-  const Mask4 is_inside = mu.length == 0;
-  Seen4 seen;
-  seen.aim = mu.direction;
-  set_row(group, 0, half, technique == Technique::plane ? seen.aim : whitening.row(m.direction));
-  set_row(group, 1, half, whitening.row(across[0]));
-  set_row(group, 2, half, whitening.row(across[1]));
-  seen.share = c.weight;
-  const bool weighs = rule.normal != Vec3{};
-  if (weighs) seen.share *= choose(is_inside, all4(rule.least), cosine_factor(rule, seen.aim));
-  const Double4 over00 = 1 / c.l[0];
-  if (technique == Technique::plane) {
-    // d^2 / (2 pi sqrt|S|), sqrt|S| = |L| |L^-1 mu| / d.
-    const Double4 d = mu.length;
-    seen.share = choose(is_inside, Double4{}, seen.share);
-    seen.reach = d * over00;
-    seen.weight = choose(is_inside, Double4{},
-                         kOverTwoPi * d * d * d * whitening.over_determinant / m.length);
+  const bool is_plane = technique == Technique::plane;
+  set_row(group, 0, is_plane ? mu.direction : whitening.row(m.direction));
+  set_row(group, 1, whitening.row(across[0]));
+  set_row(group, 2, whitening.row(across[1]));
+
+  const Double8 over00 = all_doubles8(1) / c.l00, none{};
+  const Float8 length = rounded(mu.length);  // 0 in the mean itself
+  group.aim[0] = length == 0 ? Float8{} : rounded(mu.direction.x);
+  group.aim[1] = rounded(mu.direction.y);
+  group.aim[2] = rounded(mu.direction.z);
+  group.share = rounded(c.weight);
+  if (rule.normal != Vec3{}) group.share *= cosine_factor(rule, group);
+  if (is_plane) {
+    // d^2 / (2 pi sqrt|S|), sqrt|S| = |L| |L^-1 mu| / d. There is no plane in the mean itself.
+    const Masks8 inside = is_zero(m.length);
+    const Double8 d = mu.length, cubed = d * d * d * whitening.over_determinant;
+    group.reach = rounded(d * over00);
+    group.weight = rounded(choose(inside, none, scaled(kOverTwoPi, cubed) / m.length));
+    group.share = length == 0 ? Float8{} : group.share;
   } else {
-    seen.reach = m.length * over00;
-    seen.weight = kOverTwoPi * c.l[0] * c.l[0] * whitening.over_determinant;
+    group.reach = rounded(m.length * over00);
+    group.weight = rounded(scaled(kOverTwoPi, c.l00 * c.l00 * whitening.over_determinant));
   }
   // Nothing is turned around in the mean itself: half of each line.
   if (technique == Technique::flipped) {
-    seen.weight = choose(is_inside, 0.5 * seen.weight, seen.weight);
-    for (Double4* v : {&seen.aim.x, &seen.aim.y, &seen.aim.z})
-      *v = choose(is_inside, Double4{}, *v);
+    group.weight = length == 0 ? 0.5f * group.weight : group.weight;
   }
-  return seen;
-}
-
-void see_group(std::span<const SpatialGaussian> components, std::size_t first, Point3 origin,
-               const CosineRule& rule, Technique technique, SeenGroup& group) {
-  const Seen4 low = see(group, 0, {components, first, origin}, rule, technique);
-  const Seen4 high = see(group, 1, {components, first + 4, origin}, rule, technique);
-  group.share = rounded(low.share, high.share);
-  group.weight = rounded(low.weight, high.weight);
-  group.reach = rounded(low.reach, high.reach);
   group.far = exp(-0.5f * group.reach * group.reach);
-  group.aim[0] = rounded(low.aim.x, high.aim.x);
-  group.aim[1] = rounded(low.aim.y, high.aim.y);
-  group.aim[2] = rounded(low.aim.z, high.aim.z);
 }
 
-Float8 row_times(const SeenGroup& group, int row, const Double4 (&direction)[3]) {
-  const auto& r = group.rows[row];
-  Double4 halves[2];
-  for (int half = 0; half < 2; ++half) {
-    halves[half] =
-        r[0][half] * direction[0] + r[1][half] * direction[1] + r[2][half] * direction[2];
-  }
-  return rounded(halves[0], halves[1]);
+Float8 row_times(const Double8 (&row)[3], const Double8 (&direction)[3]) {
+  return rounded(row[0] * direction[0] + row[1] * direction[1] + row[2] * direction[2]);
 }
 
 /// The densities of eight components, times their shares.
 template <Technique technique>
-Float8 densities(const SeenGroup& group, Vec3 direction, const Double4 (&wide)[3]) {
-  const Float8 x = row_times(group, 0, wide);
-  const Float8 y = row_times(group, 1, wide), z = row_times(group, 2, wide);
+Float8 densities(const SeenGroup& group, Vec3 direction, const Double8 (&wide)[3]) {
+  const Float8 x = row_times(group.rows[0], wide);
+  const Float8 y = row_times(group.rows[1], wide), z = row_times(group.rows[2], wide);
   const Float8 across = y * y + z * z;
   // -log2(e) / 2 times the squared distance: what the exponent has.
   const Float8 miss = group.reach * group.reach * (-0.5f * kLog2E) * across;
@@ -213,7 +218,8 @@ Float8 densities(const SeenGroup& group, Vec3 direction, const Double4 (&wide)[3
 
 template <Technique technique>
 float density_of(std::span<const SeenGroup> groups, Vec3 direction) {
-  const Double4 wide[3] = {all4(direction.x), all4(direction.y), all4(direction.z)};
+  const Double8 wide[3] = {all_doubles8(direction.x), all_doubles8(direction.y),
+                           all_doubles8(direction.z)};
   Float8 total{};
   for (const SeenGroup& group : groups) total += densities<technique>(group, direction, wide);
   return sum(total);
@@ -236,7 +242,8 @@ const SeenMixture* SeenMixture::make(std::span<const SpatialGaussian> components
   SeenGroup* groups = arena.make_array<SeenGroup>(count);
   float total = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    see_group(components, i * kGroup, origin, rule, technique, groups[i]);
+    see_group(components.subspan(i * kGroup, std::min(kGroup, components.size() - i * kGroup)),
+              origin, rule, technique, groups[i]);
     total += sum(groups[i].share);
   }
   if (!(total > 0)) return nullptr;

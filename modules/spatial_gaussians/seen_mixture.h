@@ -31,7 +31,7 @@ struct CosineRule {
 struct SeenGroup {
   SeenGroup() {}  // leaves everything as it is: an array of groups need not be cleared
 
-  Double4 rows[3][3][2];
+  Double8 rows[3][3];
   Float8 share;   ///< probability of choosing the component
   Float8 weight;  ///< the density's factor that does not hang on the direction
   Float8 reach;   ///< |L^-1 mu|; for `plane` |mu| / l00
