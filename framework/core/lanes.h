@@ -60,7 +60,11 @@ inline Transposed4 transposed(const Float4& a, const Float4& b, const Float4& c,
 
 /// The same numbers in double precision.
 inline Double4 widened(const Float4& x) {
+#if defined(__AVX__)
+  return _mm256_cvtps_pd(x);
+#else
   return __builtin_convertvector(x, Double4);
+#endif
 }
 
 inline Float8 sqrt(const Float8& x) {

@@ -146,39 +146,53 @@ Float8 cosine_factor(const CosineRule& rule, const SeenGroup& group) {
   return larger(rule.both_sides ? absolute(cosine) : cosine, all8(rule.least));
 }
 
+/// Distance and direction of the means in single precision, where nothing is left to cancel.
+Float8 aim_at(const Lanes3& mu, SeenGroup& group) {
+  const Float8 x = rounded(mu.x), y = rounded(mu.y), z = rounded(mu.z);
+  const Float8 distance = sqrt(x * x + y * y + z * z);
+  const Float8 over = distance > 0 ? 1 / distance : Float8{};
+  group.aim[0] = x * over;
+  group.aim[1] = y * over;
+  group.aim[2] = z * over;
+  return distance;
+}
+
+/// What `plane` has of its own: the direction to the mean in place of the first axis, and its
+/// density's factors. There is no plane in the mean itself.
+void see_plane(const Components8& c, const Whitening8& whitening, const Double8& reach,
+               SeenGroup& group) {
+  const Polar8 mu(c.mu);
+  set_row(group, 0, mu.direction);
+  // d^2 / (2 pi sqrt|S|), sqrt|S| = |L| |L^-1 mu| / d.
+  const Double8 d = mu.length, cubed = d * d * d * whitening.over_determinant;
+  const Masks8 inside = is_zero(reach);
+  group.weight = rounded(choose(inside, Double8{}, scaled(kOverTwoPi, cubed) / reach));
+  group.reach = rounded(d / c.l00);
+}
+
 /// What becomes of up to eight components.
 void see_group(std::span<const SpatialGaussian> components, Point3 origin, const CosineRule& rule,
                Technique technique, SeenGroup& group) {
   const Components8 c(components, origin);
   const Whitening8 whitening(c);
-  const Polar8 m(whitening(c.mu)), mu(c.mu);  // the former times l00
+  const Polar8 m(whitening(c.mu));  // times l00
   const std::array<Lanes3, 2> across = perpendicular(m.direction);
-  const bool is_plane = technique == Technique::plane;
-  set_row(group, 0, is_plane ? mu.direction : whitening.row(m.direction));
   set_row(group, 1, whitening.row(across[0]));
   set_row(group, 2, whitening.row(across[1]));
-
-  const Double8 over00 = all_doubles8(1) / c.l00, none{};
-  const Float8 length = rounded(mu.length);  // 0 in the mean itself
-  group.aim[0] = length == 0 ? Float8{} : rounded(mu.direction.x);
-  group.aim[1] = rounded(mu.direction.y);
-  group.aim[2] = rounded(mu.direction.z);
+  const Float8 distance = aim_at(c.mu, group);
   group.share = rounded(c.weight);
   if (rule.normal != Vec3{}) group.share *= cosine_factor(rule, group);
-  if (is_plane) {
-    // d^2 / (2 pi sqrt|S|), sqrt|S| = |L| |L^-1 mu| / d. There is no plane in the mean itself.
-    const Masks8 inside = is_zero(m.length);
-    const Double8 d = mu.length, cubed = d * d * d * whitening.over_determinant;
-    group.reach = rounded(d * over00);
-    group.weight = rounded(choose(inside, none, scaled(kOverTwoPi, cubed) / m.length));
-    group.share = length == 0 ? Float8{} : group.share;
+  if (technique == Technique::plane) {
+    see_plane(c, whitening, m.length, group);
+    group.share = distance > 0 ? group.share : Float8{};
   } else {
-    group.reach = rounded(m.length * over00);
+    set_row(group, 0, whitening.row(m.direction));
+    group.reach = rounded(m.length) / rounded(c.l00);
     group.weight = rounded(scaled(kOverTwoPi, c.l00 * c.l00 * whitening.over_determinant));
   }
   // Nothing is turned around in the mean itself: half of each line.
   if (technique == Technique::flipped) {
-    group.weight = length == 0 ? 0.5f * group.weight : group.weight;
+    group.weight = distance > 0 ? group.weight : 0.5f * group.weight;
   }
   group.far = exp(-0.5f * group.reach * group.reach);
 }
