@@ -6,6 +6,7 @@
 
 #include <pharos/core/binary_stream.h>
 #include <pharos/core/random.h>
+#include <pharos/core/warp.h>
 
 namespace pharos::gaussians {
 
@@ -230,9 +231,8 @@ class CellUpdate {
   }
 
   std::vector<DirectionTest> test() const {
-    // What nobody but the unguided half would miss: a hundredth of a uniform density.
-    constexpr float kLeastDensity = 0.01f / (4 * kPi);
-    return test_directions(cell_.mixture_, cell_.pivot_, samples_, kLeastDensity);
+    return test_directions(cell_.mixture_, cell_.pivot_, samples_,
+                           settings_.least_density * warp::sphere_pdf());
   }
   void add_tests(const std::vector<DirectionTest>& tests) {
     for (std::size_t k = 0; k < tests.size(); ++k) {

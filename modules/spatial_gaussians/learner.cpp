@@ -46,6 +46,11 @@ void GaussianSettings::describe(Schema<GaussianSettings>& s) {
   s.field("split_threshold", &S::split_threshold,
           "Directional chi-square divergence above which a component is split")
       .above(0);
+  s.field("least_density", &S::least_density,
+          "Stands below the mixture in that divergence, in units of a uniform density: what the mixture "
+          "leaves out matters only as far as unguided samples do not find it")
+      .at_least(0)
+      .at_most(1);
   s.field("split_samples", &S::split_samples, "Samples from one split to the next").at_least(1);
   s.field("merge_threshold", &S::merge_threshold,
           "Chi-square cost below which two components are merged")

@@ -28,6 +28,7 @@ struct GaussianSettings {
   double largest_concentration = 32768;
   double least_size = 1e-5;
   double split_threshold = 0.5;
+  float least_density = 0.01f;
   std::uint32_t split_samples = 4096;
   double merge_threshold = 0.025;
   std::uint32_t merge_samples = 8192;

@@ -55,6 +55,16 @@ TEST_CASE("same bits: guided, with the learned model and either learned mixing")
   }
 }
 
+TEST_CASE("same bits: spatial Gaussians in a tree or as one mixture, with the learned model") {
+  for (const char* spatial : {"kdtree, cell_samples: 4096", "single"}) {
+    check_same_bits(cornell(fmt::format(
+        "sampler: sobol\nintegrator: {{ type: path, guiding: {{ learner: {{ type: "
+        "spatial_gaussians, spatial: {} }}, guider: p0, mixing: learned, training: {{ schedule: "
+        "geometric }} }} }}\n",
+        spatial)));
+  }
+}
+
 TEST_CASE("same bits: focal guiding, with the learned model") {
   check_same_bits(
       cornell("sampler: sobol\nintegrator: { type: path, guiding: { learner: focal, guider: focal, "

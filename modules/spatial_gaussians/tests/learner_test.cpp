@@ -190,6 +190,25 @@ TEST_CASE("components of a mixture are split where directions ask for it, up to 
   CHECK(as_gaussians(whole->update(0, true)).mixture_at(Point3{}).components.size() == 1);
 }
 
+TEST_CASE("splits and merges keep the weight of all") {
+  GaussianSettings settings = small_settings();
+  settings.merge_threshold = 0.2;
+  settings.split_threshold = 0.05;
+  const auto state = GaussianLearner(settings).begin(context());
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    state->absorb(tube_paths(5000, i));
+    const auto model = state->update(i, i == 3);
+    for (const float x : {-0.9f, -0.3f, 0.2f, 0.8f}) {
+      float total = 0;
+      for (const SpatialGaussian& g : as_gaussians(model).mixture_at(Point3{x, 0, x}).components) {
+        CHECK(g.weight > 0);
+        total += g.weight;
+      }
+      CHECK(total == doctest::Approx(1).epsilon(1e-5));
+    }
+  }
+}
+
 TEST_CASE("components that do the same are merged") {
   GaussianSettings settings = small_settings();
   settings.spatial = SpatialCells::single;
