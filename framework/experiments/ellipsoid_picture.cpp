@@ -10,28 +10,33 @@
 namespace pharos {
 namespace {
 
-/// How much of what is behind an ellipsoid it hides.
-constexpr float kOpacity = 0.6f;
+/// How much of what is behind it the ellipsoid of most weight hides; the others' opacities are in
+/// proportion to the roots of their weights, so that wide faint ones do not hide the rest.
+constexpr float kOpacity = 0.7f;
 /// The map's darker part is for what has no weight: an ellipsoid never is as dark as the backdrop.
 constexpr double kDarkest = 0.3;
 
 /// An ellipsoid as the unit ball that L^-1 / reach makes of it.
 class Ellipsoid {
  public:
-  Ellipsoid(const SpatialGaussian& g, double position) : g_(g), color_(magma(position)) {}
+  /// `share` is its weight over the largest one.
+  Ellipsoid(const SpatialGaussian& g, float share)
+      : g_(g),
+        color_(magma(kDarkest + (1 - kDarkest) * share)),
+        opacity_(kOpacity * std::sqrt(share)) {}
 
   /// Where a ray enters it and how much its surface faces the viewer there; negative distances for
   /// none.
   struct Hit {
-    float distance, cosine;
+    float distance, cosine, opacity;
     Rgb color;
   };
   Hit hit(const Ray& ray) const {
     const Vec3 v = whitened(ray.direction), m = whitened(g_.mean - ray.origin);
     const float a = dot(v, v), b = dot(v, m);
     const float miss = length_squared(cross(v, m)) / a;  // squared distance from the centre
-    if (miss >= 1) return {-1, 0, {}};
-    return {(b - std::sqrt(a * (1 - miss))) / a, std::sqrt(1 - miss), color_};
+    if (miss >= 1) return {-1, 0, 0, {}};
+    return {(b - std::sqrt(a * (1 - miss))) / a, std::sqrt(1 - miss), opacity_, color_};
   }
 
  private:
@@ -43,6 +48,7 @@ class Ellipsoid {
 
   SpatialGaussian g_;
   Rgb color_;
+  float opacity_;
 };
 
 /// Scatters evenly in all directions.
@@ -61,7 +67,7 @@ Image ellipsoid_picture(std::span<const SpatialGaussian> components, const Cloud
   for (const SpatialGaussian& g : components) largest = std::max(largest, g.weight);
   std::vector<Ellipsoid> ellipsoids;
   for (const SpatialGaussian& g : components) {
-    ellipsoids.emplace_back(g, kDarkest + (1 - kDarkest) * g.weight / largest);
+    ellipsoids.emplace_back(g, g.weight / largest);
   }
   Image picture(view.width, view.height, {"R", "G", "B"});
   parallel_for(static_cast<std::size_t>(view.height), [&](std::size_t row) {
@@ -79,7 +85,7 @@ Image ellipsoid_picture(std::span<const SpatialGaussian> components, const Cloud
       Rgb color = backdrop.rgb(x, y);
       for (const auto& hit : hits) {
         const Rgb shade = (0.25f + 0.75f * hit.cosine) * hit.color;
-        color = kOpacity * shade + (1 - kOpacity) * color;
+        color = hit.opacity * shade + (1 - hit.opacity) * color;
       }
       picture.set_rgb(x, y, color);
     }

@@ -47,7 +47,8 @@ void GaussianSettings::describe(Schema<GaussianSettings>& s) {
           "Directional chi-square divergence above which a component is split")
       .above(0);
   s.field("least_density", &S::least_density,
-          "Stands below the mixture in that divergence, in units of a uniform density: what the mixture "
+          "Stands below the mixture in that divergence, in units of a uniform density: what the "
+          "mixture "
           "leaves out matters only as far as unguided samples do not find it")
       .at_least(0)
       .at_most(1);

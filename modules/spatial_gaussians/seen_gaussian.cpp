@@ -1,5 +1,6 @@
 #include "seen_gaussian.h"
 
+#include <array>
 #include <cmath>
 
 #include <Eigen/Core>
@@ -8,6 +9,9 @@
 
 namespace pharos::gaussians {
 namespace {
+
+/// A direction or a mean, in world space or whitened: L^-1 x for the covariance L L^T.
+using Double3 = std::array<double, 3>;
 
 double dot3(const Double3& a, const Double3& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];

@@ -1,17 +1,11 @@
 #pragma once
 
-#include <array>
-
-#include <pharos/core/lanes.h>
 #include <pharos/core/vec.h>
 #include <pharos/guiding/spatial_mixture.h>
 
 /// One Gaussian as it is seen from a point, in double precision: the readable form of the
 /// densities, which pictures and tests use. Guiders ask eight components at once (seen_mixture.h).
 namespace pharos::gaussians {
-
-/// A direction or a mean in whitened space, L^-1 x for the covariance L L^T.
-using Double3 = std::array<double, 3>;
 
 /// The density p0 of the directions from `origin` to points of a Gaussian [1/sr]; integrates to one
 /// over the sphere (Lelyakin et al. 2025, eq. 2).
