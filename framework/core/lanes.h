@@ -31,12 +31,7 @@ inline Double4 all4(double x) {
   return x - Double4{};
 }
 
-/// Neighbours in memory; addresses need no alignment.
-inline Float8 load8(const float* from) {
-  Float8 x;
-  std::memcpy(&x, from, sizeof x);
-  return x;
-}
+/// Four neighbours in memory; the address needs no alignment.
 inline Double4 load4(const double* from) {
   Double4 x;
   std::memcpy(&x, from, sizeof x);
@@ -104,6 +99,19 @@ struct Double8 {
   }
   friend Double8 operator-(const Double8& a) { return {-a.low, -a.high}; }
 };
+/// Where such numbers are something.
+struct DoubleMask8 {
+  Mask4 low, high;
+};
+inline DoubleMask8 is_zero(const Double8& x) {
+  return {x.low == 0, x.high == 0};
+}
+inline DoubleMask8 is_negative(const Double8& x) {
+  return {x.low < 0, x.high < 0};
+}
+inline Double8 choose(const DoubleMask8& mask, const Double8& a, const Double8& b) {
+  return {mask.low ? a.low : b.low, mask.high ? a.high : b.high};
+}
 inline Double8 all_doubles8(double x) {
   return {all4(x), all4(x)};
 }
@@ -163,7 +171,8 @@ inline double sum(const Double4& x) {
   return (x[0] + x[2]) + (x[1] + x[3]);
 }
 
-/// 2^x for x below 128, relative error below 3e-7; 0 below -126.
+/// 2^x for x below 128, relative error below 3e-7; 0 below -126. (And
+/// 2^-126 for what is not a number.)
 inline Float8 exp2(const Float8& x) {
   constexpr float kRound = 0x1.8p23f;  // added, it leaves no room for fractions
   constexpr float kLeast = -126;

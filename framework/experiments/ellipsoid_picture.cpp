@@ -32,7 +32,7 @@ class Ellipsoid {
     Rgb color;
   };
   Hit hit(const Ray& ray) const {
-    const Vec3 v = whitened(ray.direction), m = whitened(g_.mean - ray.origin);
+    const Vec3 v = within(ray.direction), m = within(g_.mean - ray.origin);
     const float a = dot(v, v), b = dot(v, m);
     const float miss = length_squared(cross(v, m)) / a;  // squared distance from the centre
     if (miss >= 1) return {-1, 0, 0, {}};
@@ -40,10 +40,11 @@ class Ellipsoid {
   }
 
  private:
-  Vec3 whitened(Vec3 x) const {
-    const float* l = g_.cholesky;
-    const float a = x.x / l[0], b = (x.y - l[1] * a) / l[2];
-    return Vec3{a, b, (x.z - l[3] * a - l[4] * b) / l[5]} / kEllipsoidReach;
+  /// L^-1 x / reach.
+  Vec3 within(Vec3 x) const {
+    const std::array<double, 3> z = whitened(g_, {x.x, x.y, x.z});
+    return Vec3{static_cast<float>(z[0]), static_cast<float>(z[1]), static_cast<float>(z[2])} /
+           kEllipsoidReach;
   }
 
   SpatialGaussian g_;

@@ -28,9 +28,8 @@ TEST_CASE("exponentials side by side are those of the standard library") {
 }
 
 TEST_CASE("lanes are loaded, rounded, compared and summed element by element") {
-  const float floats[8] = {1, -2, 3, -4, 5, -6, 7, -8};
   const double doubles[4] = {0.1, -0.2, 0.3, -0.4};
-  const Float8 f = load8(floats);
+  const Float8 f{1, -2, 3, -4, 5, -6, 7, -8};
   const Double4 d = load4(doubles);
   CHECK(sum(f) == -4);
   CHECK(sum(d) == doctest::Approx(-0.2).epsilon(1e-15));
@@ -39,6 +38,8 @@ TEST_CASE("lanes are loaded, rounded, compared and summed element by element") {
   CHECK(rounded(both)[5] == 0.8f);
   CHECK(rounded((both + both) * both / both - both)[7] == 0.6f);
   CHECK(rounded(sqrt(-all_doubles8(-4)))[1] == 2);
+  CHECK(rounded(choose(is_negative(both), -both, both))[1] == 0.2f);
+  CHECK(rounded(choose(is_zero(both - both), both, -both))[0] == 0.1f);
   CHECK(larger(f, Float8{})[1] == 0);
   CHECK(absolute(f)[1] == 2);
   CHECK(sqrt(f * f)[3] == 4);

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
+#include <utility>
 
 #include <pharos/core/binary_stream.h>
 #include <pharos/core/random.h>
@@ -19,6 +21,10 @@ namespace {
 
 constexpr const char* kHeading = "cell_mixture";
 constexpr std::uint32_t kVersion = 1;
+
+void expect(bool holds) {
+  if (!holds) throw InputError("the learning of the Gaussians is damaged");
+}
 
 Vector<3> to_vector(Point3 p) {
   return {p.x, p.y, p.z};
@@ -108,7 +114,8 @@ class CellUpdate {
         least_size_(settings.least_size * scene_size) {}
 
   void run(RandomStream& random) {
-    if (cell_.mixture_.size() == 0 && !begin(random)) return;
+    if (!cell_.knows_something()) begin(random);
+    middle_ = mean_origin() - cell_.pivot_;
     points_ = points_of(samples_, cell_.pivot_);
     frozen_ = cell_.moments_;
     fit({});
@@ -129,12 +136,12 @@ class CellUpdate {
             .tolerance = settings_.em_tolerance};
   }
 
-  /// Least eigenvalues, as the components lie now: what they look like from the pivot is no smaller
-  /// than the largest concentration allows.
+  /// Least eigenvalues, as the components lie now: what they look like from the middle of the samples'
+  /// origins is no smaller than the largest concentration allows.
   void set_floors() {
     floors_.clear();
     for (const Gaussian3& g : cell_.mixture_.components) {
-      floors_.push_back(std::max(g.mean.squaredNorm() / settings_.largest_concentration,
+      floors_.push_back(std::max((g.mean - middle_).squaredNorm() / settings_.largest_concentration,
                                  least_size_ * least_size_));
     }
     for (std::size_t k = 0; k < floors_.size(); ++k) {
@@ -143,26 +150,30 @@ class CellUpdate {
     }
   }
 
-  /// A first mixture; false when there are too few samples for one.
-  bool begin(RandomStream& random) {
-    Vector<3> origins = Vector<3>::Zero();
-    for (const Sample& s : samples_) origins += to_vector(s.origin);
-    if (!samples_.empty()) cell_.pivot_ = origins / static_cast<double>(samples_.size());
+  /// The mean of the samples' origins.
+  Vector<3> mean_origin() const {
+    Vector<3> sum = Vector<3>::Zero();
+    for (const Sample& s : samples_) sum += to_vector(s.origin);
+    return sum / static_cast<double>(samples_.size());
+  }
+
+  /// A first mixture.
+  void begin(RandomStream& random) {
+    cell_.pivot_ = mean_origin();
     const WeightedPoints<3> points = points_of(samples_, cell_.pivot_);
-    if (points.size() < 2 * std::size_t{settings_.components}) return false;
     const auto centers = spread_centers(points, settings_.components, random);
     const std::vector<Moments3> moments = moments_about(centers, points);
     const Moments3 all = std::accumulate(moments.begin(), moments.end(), Moments3{});
     cell_.prior_variance_ = std::max(all.covariance().trace() / 3, least_size_ * least_size_);
     const auto count = moments.size();
     cell_.mixture_.weights.assign(count, 1.0 / static_cast<double>(count));
-    cell_.mixture_.components.resize(count);
+    const Gaussian3 ball{all.mean(), cell_.prior_variance_ * Matrix<3>::Identity()};
+    cell_.mixture_.components.assign(count, ball);
     cell_.moments_.assign(count, {});
     cell_.tests_.assign(count, {});
     frozen_.clear();
     floors_.clear();
     statistics::maximise<3>(moments, rules({}), cell_.mixture_);
-    return true;
   }
 
   void fit(std::span<const std::size_t> changing) {
@@ -292,6 +303,7 @@ class CellUpdate {
   std::span<const Sample> samples_;
   const GaussianSettings& settings_;
   double least_size_;
+  Vector<3> middle_ = Vector<3>::Zero();  ///< of the samples' origins, from the pivot
   WeightedPoints<3> points_;
   std::vector<double> floors_;
   std::vector<Moments3> frozen_;  ///< of earlier iterations
@@ -300,13 +312,26 @@ class CellUpdate {
 
 void CellMixture::update(std::span<const Sample> samples, const GaussianSettings& settings,
                          double scene_size, RandomStream random) {
-  const bool any =
-      std::any_of(samples.begin(), samples.end(), [](const Sample& s) { return s.weight > 0; });
-  if (any) CellUpdate(*this, samples, settings, scene_size).run(random);
+  const auto finds = [](const Sample& s) { return s.weight > 0; };
+  const auto found = static_cast<std::size_t>(std::count_if(samples.begin(), samples.end(), finds));
+  if (found == 0) return;
+  if (knows_something()) {
+    CellUpdate(*this, samples, settings, scene_size).run(random);
+  } else if (first_.size() + found < settings.first_samples) {
+    std::copy_if(samples.begin(), samples.end(), std::back_inserter(first_), finds);
+  } else {
+    std::vector<Sample> all = std::exchange(first_, {});
+    all.insert(all.end(), samples.begin(), samples.end());
+    CellUpdate(*this, all, settings, scene_size).run(random);
+  }
 }
 
 void CellMixture::forget(double factor) {
   for (Moments3& m : moments_) m *= factor;
+  for (DirectionTest& t : tests_) {
+    t.sum *= factor;
+    t.samples *= factor;
+  }
   samples_ *= factor;
 }
 
@@ -339,6 +364,8 @@ void CellMixture::save(std::ostream& out) const {
     save_number(out, tests_[k].sum);
     save_number(out, tests_[k].samples);
   }
+  save_number(out, static_cast<std::uint32_t>(first_.size()));
+  for (const Sample& sample : first_) save_sample(sample, out);
 }
 
 CellMixture CellMixture::load(std::istream& in) {
@@ -347,15 +374,14 @@ CellMixture CellMixture::load(std::istream& in) {
   cell.pivot_ = load_vector(in);
   for (double* v : {&cell.prior_variance_, &cell.samples_, &cell.since_merge_}) {
     *v = load_finite<double>(in);
+    expect(*v >= 0);
   }
   for (auto count = load_number<std::uint32_t>(in); count > 0; --count) {
     cell.mixture_.weights.push_back(load_finite<double>(in));
     const Vector<3> mean = load_vector(in);
     cell.mixture_.components.push_back({mean, load_matrix(in)});
     const Eigen::LLT<Matrix<3>> factor(cell.mixture_.components.back().covariance);
-    if (!(cell.mixture_.weights.back() > 0) || factor.info() != Eigen::Success) {
-      throw InputError("the learning of the Gaussians is damaged");
-    }
+    expect(cell.mixture_.weights.back() > 0 && factor.info() == Eigen::Success);
     Moments3 moments;
     moments.weight = load_finite<double>(in);
     moments.first = load_vector(in);
@@ -363,6 +389,10 @@ CellMixture CellMixture::load(std::istream& in) {
     cell.moments_.push_back(moments);
     const auto sum = load_finite<double>(in);
     cell.tests_.push_back({sum, load_finite<double>(in)});
+    expect(moments.weight >= 0);
+  }
+  for (auto count = load_number<std::uint32_t>(in); count > 0; --count) {
+    cell.first_.push_back(load_sample(in));
   }
   return cell;
 }

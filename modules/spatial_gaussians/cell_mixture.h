@@ -13,15 +13,15 @@
 
 namespace pharos::gaussians {
 
-/// What one cell learns: a mixture of Gaussians of the targets of its samples. All of it hangs on
-/// the moments of each component, which add up over iterations; the mixture is what they and the
-/// prior make most probable.
+/// What one cell learns: a mixture of Gaussians of the targets of its samples. What it remembers of
+/// them are the moments of each component, which add up over iterations.
 class CellMixture {
  public:
   /// Learns from the samples of one iteration, in their order. `scene_size` [scene units] is the
   /// same for the whole render.
   void update(std::span<const Sample> samples, const GaussianSettings& settings, double scene_size,
               RandomStream random);
+  bool knows_something() const { return mixture_.size() > 0; }
   /// What was learned so far counts `factor` times as much as it did.
   void forget(double factor);
 
@@ -43,6 +43,7 @@ class CellMixture {
   double since_merge_ = 0;  ///< samples
   Mixture mixture_;
   std::vector<Moments3> moments_;
+  std::vector<Sample> first_;         ///< that found something, kept until there are enough
   std::vector<DirectionTest> tests_;  ///< of each component since it was made
 };
 

@@ -31,22 +31,24 @@ SpatialGaussian load_component(std::istream& in) {
   g.weight = load_finite<float>(in);
   for (int axis = 0; axis < 3; ++axis) g.mean[axis] = load_finite<float>(in);
   for (float& l : g.cholesky) l = load_finite<float>(in);
-  expect(g.weight >= 0 && g.cholesky[0] > 0 && g.cholesky[2] > 0 && g.cholesky[5] > 0);
+  // Beyond, factors of densities are no floats.
+  constexpr float kMost = 1e12f, kFlattest = 1e-9f;
+  const float* l = g.cholesky;
+  const float least = std::min({l[0], l[2], l[5]});
+  float largest = std::max({l[0], l[2], l[5], length(g.mean)});
+  for (const int off : {1, 3, 4}) largest = std::max(largest, std::abs(l[off]));
+  expect(g.weight >= 0 && least > 0 && least >= kFlattest * largest && largest <= kMost);
   return g;
 }
 
 /// N(point) [1/scene unit^3].
 double density_at(const SpatialGaussian& g, Point3 point) {
   const Vec3 offset = point - g.mean;
-  const float* l = g.cholesky;
-  const double x = double{offset.x} / l[0];
-  const double y = (offset.y - l[1] * x) / l[2];
-  const double z = (offset.z - l[3] * x - l[4] * y) / l[5];
-  const double squared = x * x + y * y + z * z;
+  const std::array<double, 3> z = whitened(g, {offset.x, offset.y, offset.z});
+  const double squared = z[0] * z[0] + z[1] * z[1] + z[2] * z[2];
   constexpr double kFar = 100;  // e^-50 is nothing
   if (squared > kFar) return 0;
-  const double determinant = double{l[0]} * l[2] * l[5];
-  return std::exp(-0.5 * squared) / (std::pow(2 * EIGEN_PI, 1.5) * determinant);
+  return std::exp(-0.5 * squared) / (std::pow(2 * EIGEN_PI, 1.5) * root_determinant(g));
 }
 
 }  // namespace

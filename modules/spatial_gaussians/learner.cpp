@@ -19,6 +19,13 @@ void GaussianSettings::describe(Schema<GaussianSettings>& s) {
   s.field("max_depth", &S::max_depth, "Planes above the deepest cell at most")
       .at_least(0)
       .at_most(KdTree::kMostLevels);
+  s.field("batch_samples", &S::batch_samples,
+          "Samples that wait at most (32 bytes each): when there are more, they are learned from "
+          "before the iteration ends")
+      .at_least(1024);
+  s.field("first_samples", &S::first_samples,
+          "Samples that found something, before a cell's first mixture is fitted")
+      .at_least(2);
   s.field("components", &S::components, "Gaussians of a mixture at first")
       .at_least(1)
       .at_most(1024);
@@ -50,9 +57,9 @@ void GaussianSettings::describe(Schema<GaussianSettings>& s) {
           "Stands below the mixture in that divergence, in units of a uniform density: what the "
           "mixture "
           "leaves out matters only as far as unguided samples do not find it")
-      .at_least(0)
+      .at_least(1e-6)
       .at_most(1);
-  s.field("split_samples", &S::split_samples, "Samples from one split to the next").at_least(1);
+  s.field("split_samples", &S::split_samples, "Samples that a component is judged by before it is split").at_least(1);
   s.field("merge_threshold", &S::merge_threshold,
           "Chi-square cost below which two components are merged")
       .at_least(0);

@@ -21,7 +21,9 @@ struct GaussianSettings {
   SpatialCells spatial = SpatialCells::kdtree;
   std::uint32_t cell_samples = 32768;
   int max_depth = 32;
+  std::uint32_t batch_samples = 1u << 22;
   std::uint32_t components = 16, most_components = 32;
+  std::uint32_t first_samples = 32;
   int em_iterations = 100;
   double em_tolerance = 0.005;
   double prior_counts = 0.01, prior_strength = 0.2;

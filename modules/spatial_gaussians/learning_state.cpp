@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <pharos/core/binary_stream.h>
 #include <pharos/core/parallel.h>
@@ -30,20 +31,39 @@ void GaussianState::absorb(const PathLog& log) {
   for (std::size_t i = 0; i < log.size(); ++i) {
     extract_samples(log[i], rule_, incident_, samples_);
   }
+  if (samples_.size() >= settings_.batch_samples) learn();
 }
 
-std::shared_ptr<const GuidingModel> GaussianState::update(std::uint32_t iteration, bool) {
-  const std::vector<std::uint32_t> origins = divide_cells();
+std::shared_ptr<const GuidingModel> GaussianState::update(std::uint32_t, bool) {
+  learn();
+  const bool knows_something = std::any_of(
+      cells_.begin(), cells_.end(), [](const Cell& cell) { return cell.mixture.knows_something(); });
+  if (!knows_something) return nullptr;
+  auto learned = model();
+  std::iota(origins_.begin(), origins_.end(), 0u);
+  for (Cell& cell : cells_) cell.mixture.forget(settings_.decay);
+  return learned;
+}
+
+void GaussianState::learn() {
+  update_cells(true);
+  divide_cells();
+  update_cells(false);
+  for (Cell& cell : cells_) cell.is_done = false;
+  samples_.clear();
+  ++lessons_;
+}
+
+void GaussianState::update_cells(bool unknowing) {
   const std::vector<std::size_t> first = sort_by_cell();
   parallel_for(cells_.size(), [&](std::size_t cell) {
     CellMixture& mixture = cells_[cell].mixture;
-    mixture.forget(settings_.decay);
+    if (cells_[cell].is_done || (unknowing && mixture.knows_something())) return;
     const std::span<const Sample> samples(samples_.data() + first[cell],
                                           first[cell + 1] - first[cell]);
-    mixture.update(samples, settings_, scene_size_, RandomStream(seed_, iteration, cell));
+    mixture.update(samples, settings_, scene_size_, RandomStream(seed_, lessons_, cell));
+    cells_[cell].is_done = true;
   });
-  samples_.clear();
-  return model(origins);
 }
 
 std::vector<std::size_t> GaussianState::sort_by_cell() {
@@ -80,26 +100,23 @@ int GaussianState::Positions::widest_axis() const {
   return widest;
 }
 
-std::vector<std::uint32_t> GaussianState::divide_cells() {
-  std::vector<std::uint32_t> origins(cells_.size());
-  for (std::uint32_t cell = 0; cell < cells_.size(); ++cell) origins[cell] = cell;
+void GaussianState::divide_cells() {
   const std::vector<std::size_t> first = sort_by_cell();
   const std::vector<std::uint32_t> leaves = tree_.leaves();
   const std::vector<int> levels = tree_.levels();
   for (std::uint32_t cell = 0; cell + 1 < first.size(); ++cell) {
     const std::span<Sample> samples(samples_.data() + first[cell], first[cell + 1] - first[cell]);
     for (const Sample& s : samples) cells_[cell].positions.add(s.origin);
-    divide({leaves[cell], cell, levels[leaves[cell]]}, samples, origins);
+    divide({leaves[cell], cell, levels[leaves[cell]]}, samples);
   }
-  return origins;
 }
 
-void GaussianState::divide(Place place, std::span<Sample> samples,
-                           std::vector<std::uint32_t>& origins) {
+void GaussianState::divide(Place place, std::span<Sample> samples) {
   const Positions& positions = cells_[place.cell].positions;
   const bool divides = settings_.spatial == SpatialCells::kdtree &&
                        positions.count > settings_.cell_samples &&
-                       place.level < settings_.max_depth;
+                       place.level < settings_.max_depth &&
+                       cells_[place.cell].mixture.knows_something();
   if (!divides) return;
   const int axis = positions.widest_axis();
   const auto plane = static_cast<float>(positions.sums[axis] / positions.count);
@@ -109,28 +126,32 @@ void GaussianState::divide(Place place, std::span<Sample> samples,
   const KdTree::Halves halves = tree_.divide(place.leaf, axis, plane);
   cells_[place.cell].mixture.forget(settings_.division_decay);
   cells_[place.cell].positions = {};
+  cells_[place.cell].is_done = false;
   const auto added = static_cast<std::uint32_t>(cells_.size());
   cells_.push_back(cells_[place.cell]);
-  origins.push_back(origins[place.cell]);
+  origins_.push_back(origins_[place.cell]);
   const std::span<Sample> low(samples.begin(), middle), high(middle, samples.end());
   for (const Sample& s : low) cells_[place.cell].positions.add(s.origin);
   for (const Sample& s : high) cells_[added].positions.add(s.origin);
-  divide({halves.low, place.cell, place.level + 1}, low, origins);
-  divide({halves.high, added, place.level + 1}, high, origins);
+  divide({halves.low, place.cell, place.level + 1}, low);
+  divide({halves.high, added, place.level + 1}, high);
 }
 
-std::shared_ptr<const GuidingModel> GaussianState::model(std::vector<std::uint32_t> origins) const {
+std::shared_ptr<const GuidingModel> GaussianState::model() const {
   std::vector<GaussianModel::Cell> cells;
   for (const Cell& cell : cells_) {
     cells.push_back({cell.mixture.components(), static_cast<float>(cell.mixture.samples())});
   }
-  return std::make_shared<GaussianModel>(tree_, cells, std::move(origins));
+  return std::make_shared<GaussianModel>(tree_, cells, origins_);
 }
 
 void GaussianState::save(std::ostream& out) const {
   save_heading(out, kHeading, kVersion);
   tree_.save(out);
-  for (const Cell& cell : cells_) {
+  save_number(out, lessons_);
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    const Cell& cell = cells_[i];
+    save_number(out, origins_[i]);
     cell.mixture.save(out);
     save_number(out, cell.positions.count);
     for (int axis = 0; axis < 3; ++axis) {
@@ -151,9 +172,15 @@ void GaussianState::load(std::istream& in) {
 void GaussianState::read(std::istream& in) {
   expect_heading(in, kHeading, kVersion);
   tree_ = KdTree::load(in);
+  lessons_ = load_number<std::uint64_t>(in);
   cells_.clear();
+  origins_.clear();
   while (cells_.size() < tree_.cell_count()) {
     Cell& cell = cells_.emplace_back();
+    origins_.push_back(load_number<std::uint32_t>(in));
+    if (origins_.back() >= cells_.size()) {
+      throw InputError("the learning of the Gaussians is damaged");
+    }
     cell.mixture = CellMixture::load(in);
     cell.positions.count = load_finite<double>(in);
     for (int axis = 0; axis < 3; ++axis) {
@@ -169,8 +196,10 @@ void GaussianState::read(std::istream& in) {
 
 void GaussianState::merge(const LearningState& other) {
   const auto& theirs = dynamic_cast<const GaussianState&>(other);
-  if (theirs.tree_ != tree_) {
-    throw InputError("learning of Gaussians in another iteration or scene cannot be merged");
+  if (theirs.tree_ != tree_ || theirs.lessons_ != lessons_) {
+    throw InputError(
+        "learning of Gaussians in another iteration or scene, or after more than `batch_samples`, "
+        "cannot be merged");
   }
   samples_.insert(samples_.end(), theirs.samples_.begin(), theirs.samples_.end());
 }

@@ -32,7 +32,8 @@ class GaussianState final : public LearningState {
   };
   struct Cell {
     CellMixture mixture;
-    Positions positions;  ///< since the cell was last divided
+    Positions positions;   ///< since the cell was last divided
+    bool is_done = false;  ///< with the samples that wait
   };
   /// A cell that may have to be divided.
   struct Place {
@@ -40,12 +41,18 @@ class GaussianState final : public LearningState {
     int level;
   };
 
-  /// Puts the new samples into the order of their cells; returns where each cell's begin.
+  /// Learns from the samples that wait: at the end of an iteration, or when they are many.
+  void learn();
+  /// Puts the samples that wait into the order of their cells; returns where each cell's begin.
   std::vector<std::size_t> sort_by_cell();
-  /// Divides cells with too many samples; returns the old cell of each.
-  std::vector<std::uint32_t> divide_cells();
-  void divide(Place place, std::span<Sample> samples, std::vector<std::uint32_t>& origins);
-  std::shared_ptr<const GuidingModel> model(std::vector<std::uint32_t> origins) const;
+  /// Lets cells learn from their samples that are not done; only those that know nothing, if
+  /// `unknowing`.
+  void update_cells(bool unknowing);
+  /// Divides cells with too many samples, but for those that know nothing: their halves would know
+  /// even less.
+  void divide_cells();
+  void divide(Place place, std::span<Sample> samples);
+  std::shared_ptr<const GuidingModel> model() const;
   void read(std::istream& in);
 
   GaussianSettings settings_;
@@ -54,7 +61,9 @@ class GaussianState final : public LearningState {
   std::uint64_t seed_;
   KdTree tree_;
   std::vector<Cell> cells_{1};
-  std::vector<Sample> samples_;  ///< of this iteration
+  std::vector<std::uint32_t> origins_{0};  ///< of each cell, among those of the last model
+  std::uint64_t lessons_ = 0;              ///< calls of learn()
+  std::vector<Sample> samples_;            ///< that wait
   std::vector<Rgb> incident_;    ///< scratch
 };
 

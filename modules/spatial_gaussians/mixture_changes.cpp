@@ -1,7 +1,10 @@
 #include "mixture_changes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include <pharos/core/parallel.h>
 
 #include "ray_integrals.h"
 
@@ -38,8 +41,8 @@ struct Samples8 {
         origin[axis][i] = static_cast<float>(s.origin[axis] - pivot[axis]);
         omega[axis][i] = direction[axis];
       }
-      counts[i] = first + i < samples.size() && s.pdf > 0 ? 1.0f : 0.0f;
-      pdf[i] = s.pdf > 0 ? s.pdf : 1;
+      counts[i] = first + i < samples.size() ? 1.0f : 0.0f;
+      pdf[i] = s.pdf;
       weight[i] = s.weight;
     }
   }
@@ -86,6 +89,34 @@ struct Component {
   }
 };
 
+/// What all samples of a test have in common.
+struct TestScale {
+  float over_light;     ///< 1 / Phi
+  float least_density;  ///< [1/sr]
+};
+
+/// The sums of p_k N_k (f / q - 1)^2 / p over some samples.
+std::vector<double> sums_of_part(const std::vector<Component>& components, const Vector<3>& pivot,
+                                 std::span<const Sample> samples, const TestScale& scale) {
+  std::vector<double> sums(components.size());
+  std::vector<Float8> densities(components.size());
+  for (std::size_t first = 0; first < samples.size(); first += 8) {
+    const Samples8 eight(samples, first, pivot);
+    Float8 q = all8(scale.least_density);
+    for (std::size_t k = 0; k < components.size(); ++k) {
+      densities[k] = components[k].density(eight);
+      q += densities[k];
+    }
+    const Float8 difference = eight.weight * eight.pdf * scale.over_light / q - 1;
+    const Float8 factor = eight.counts * difference * difference / eight.pdf;
+    for (std::size_t k = 0; k < components.size(); ++k) {
+      const float sum_of_eight = sum(densities[k] * factor);
+      if (std::isfinite(sum_of_eight)) sums[k] += sum_of_eight;  // else too bright for floats
+    }
+  }
+  return sums;
+}
+
 }  // namespace
 
 double merge_cost(double weight_i, const Gaussian3& i, double weight_j, const Gaussian3& j) {
@@ -101,32 +132,25 @@ double merge_cost(double weight_i, const Gaussian3& i, double weight_j, const Ga
 
 std::vector<DirectionTest> test_directions(const Mixture& mixture, const Vector<3>& pivot,
                                            std::span<const Sample> samples, float least_density) {
-  double count = 0, light = 0;
-  for (const Sample& s : samples) {
-    if (!(s.pdf > 0)) continue;
-    count += 1;
-    light += s.weight;
-  }
-  if (!(light > 0)) return std::vector<DirectionTest>(mixture.size());
+  double light = 0;
+  for (const Sample& s : samples) light += s.weight;
+  const auto count = static_cast<double>(samples.size());
   std::vector<DirectionTest> tests(mixture.size(), {0, count});
+  if (!(light > 0)) return tests;
   const auto over_light = static_cast<float>(count / light);
   std::vector<Component> components;
   for (std::size_t k = 0; k < mixture.size(); ++k) {
     components.emplace_back(mixture.weights[k], mixture.components[k]);
   }
-  std::vector<Float8> densities(mixture.size());
-  for (std::size_t first = 0; first < samples.size(); first += 8) {
-    const Samples8 eight(samples, first, pivot);
-    Float8 q = all8(least_density);
-    for (std::size_t k = 0; k < components.size(); ++k) {
-      densities[k] = components[k].density(eight);
-      q += densities[k];
-    }
-    const Float8 difference = eight.weight * eight.pdf * over_light / q - 1;
-    const Float8 factor = eight.counts * difference * difference / eight.pdf;
-    for (std::size_t k = 0; k < components.size(); ++k) {
-      tests[k].sum += sum(densities[k] * factor);
-    }
+  // Parts run concurrently and are added in order: the same for any number of threads.
+  constexpr std::size_t kPart = 4096;
+  std::vector<std::vector<double>> sums((samples.size() + kPart - 1) / kPart);
+  parallel_for(sums.size(), [&](std::size_t i) {
+    const auto part = samples.subspan(i * kPart, std::min(kPart, samples.size() - i * kPart));
+    sums[i] = sums_of_part(components, pivot, part, {over_light, least_density});
+  });
+  for (const std::vector<double>& part : sums) {
+    for (std::size_t k = 0; k < tests.size(); ++k) tests[k].sum += part[k];
   }
   return tests;
 }

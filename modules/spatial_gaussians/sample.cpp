@@ -9,24 +9,25 @@ namespace pharos::gaussians {
 
 void extract_samples(const PathView& path, const SampleRule& rule, std::vector<Rgb>& incident,
                      std::vector<Sample>& samples) {
+  if (path.transport != Transport::radiance) return;
   estimate_incident_radiance(path, incident);
   for (std::size_t i = 1; i < path.vertices.size(); ++i) {
     const RecordedVertex& end = path.vertices[i];
     if (end.parent == kNoVertex || end.parent == 0) continue;
     const RecordedVertex& vertex = path.vertices[end.parent];
     if (!vertex.guidable || is_discrete(vertex.event)) continue;
-    const bool directional = vertex.measure == Measure::solid_angle;
-    const float pdf = directional ? std::max(vertex.pdf(), rule.least_pdf) : 0.0f;
-    const Rgb& light = incident[end.parent];
-    const float weight = directional ? mean(light) / pdf : mean(vertex.local_weight * light);
-    if (!(weight >= 0) || !std::isfinite(weight)) continue;
+    // Of the density the direction's part; the medium's is as it is.
+    const float medium = vertex.medium_density;
+    const float pdf = std::max(vertex.pdf() / medium, rule.least_pdf);
+    const float weight = mean(vertex.transmittance * incident[end.parent]) / (pdf * medium);
+    if (!(weight >= 0) || !std::isfinite(weight) || !std::isfinite(pdf)) continue;
     const bool escapes = end.kind == VertexKind::environment;
+    const Point3 target =
+        escapes ? vertex.position + rule.environment_distance * vertex.direction : end.position;
+    // So close that rounding leaves no direction.
+    if (!(length_squared(target - vertex.position) > 0)) continue;
     samples.push_back(
-        {.origin = vertex.position,
-         .target = escapes ? vertex.position + rule.environment_distance * vertex.direction
-                           : end.position,
-         .weight = weight,
-         .pdf = pdf});
+        {.origin = vertex.position, .target = target, .weight = weight, .pdf = pdf});
   }
 }
 
@@ -45,7 +46,9 @@ Sample load_sample(std::istream& in) {
   }
   sample.weight = load_finite<float>(in);
   sample.pdf = load_finite<float>(in);
-  if (sample.weight < 0 || sample.pdf < 0) throw InputError("a sample of the Gaussians is damaged");
+  const bool is_sound = sample.weight >= 0 && sample.pdf > 0 &&
+                        length_squared(sample.target - sample.origin) > 0;
+  if (!is_sound) throw InputError("a sample of the Gaussians is damaged");
   return sample;
 }
 

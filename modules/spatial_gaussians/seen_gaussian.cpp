@@ -26,14 +26,6 @@ Double3 to_double(Vec3 v) {
   return {v.x, v.y, v.z};
 }
 
-/// L^-1 x by forward substitution.
-Double3 whitened(const SpatialGaussian& g, const Double3& x) {
-  const float* l = g.cholesky;
-  const double a = x[0] / l[0];
-  const double b = (x[1] - l[1] * a) / l[2];
-  return {a, b, (x[2] - l[3] * a - l[4] * b) / l[5]};
-}
-
 /// The direction and the mean in whitened space, and what the densities have of them.
 struct WhitenedRay {
   WhitenedRay(const SpatialGaussian& g, Point3 origin, Vec3 direction) {
@@ -44,8 +36,7 @@ struct WhitenedRay {
     u = dot3(v, m) / std::sqrt(a);
     e = -dot3(moment, moment) / (2 * a);  // eq. 5
     far = std::exp(-0.5 * dot3(m, m));
-    const double determinant = double{g.cholesky[0]} * g.cholesky[2] * g.cholesky[5];
-    scale = 1 / (2 * EIGEN_PI * determinant * a * std::sqrt(a));
+    scale = 1 / (2 * EIGEN_PI * root_determinant(g) * a * std::sqrt(a));
   }
   double u, e, far, scale;
 };
@@ -79,8 +70,7 @@ double projected_density(const SpatialGaussian& gaussian, Point3 origin, Vec3 di
   const Double3 moment = cross3(white, line);
   const double squared = dot3(moment, moment) / dot3(line, line);
   // |S| = |Sigma| n^T Sigma^-1 n, with n = aim / d.
-  const double determinant = double{gaussian.cholesky[0]} * gaussian.cholesky[2] *
-                             gaussian.cholesky[5] * std::sqrt(dot3(line, line)) / d;
+  const double determinant = root_determinant(gaussian) * std::sqrt(dot3(line, line)) / d;
   return std::exp(-0.5 * squared) * d * d / (2 * EIGEN_PI * determinant * cosine * cosine * cosine);
 }
 

@@ -26,20 +26,6 @@ Double8 scaled(double factor, const Double8& x) {
   return all_doubles8(factor) * x;
 }
 
-/// Where numbers are zero or negative.
-struct Masks8 {
-  Mask4 low, high;
-};
-Masks8 is_zero(const Double8& x) {
-  return {x.low == 0, x.high == 0};
-}
-Masks8 is_negative(const Double8& x) {
-  return {x.low < 0, x.high < 0};
-}
-Double8 choose(const Masks8& mask, const Double8& a, const Double8& b) {
-  return {mask.low ? a.low : b.low, mask.high ? a.high : b.high};
-}
-
 /// Four components, number by number.
 struct Components4 {
   Transposed4 first, second, last;  ///< numbers 0 to 3, 4 to 7 and 6 to 9
@@ -126,7 +112,7 @@ std::array<Lanes3, 2> perpendicular(const Lanes3& n) {
 /// A vector's length and direction: the x axis where it is 0.
 struct Polar8 {
   explicit Polar8(const Lanes3& v) : length(sqrt(dot8(v, v))) {
-    const Masks8 none = is_zero(length);
+    const DoubleMask8 none = is_zero(length);
     const Double8 one = all_doubles8(1), over = one / choose(none, one, length);
     direction = {choose(none, one, v.x * over), v.y * over, v.z * over};
   }
@@ -165,7 +151,7 @@ void see_plane(const Components8& c, const Whitening8& whitening, const Double8&
   set_row(group, 0, mu.direction);
   // d^2 / (2 pi sqrt|S|), sqrt|S| = |L| |L^-1 mu| / d.
   const Double8 d = mu.length, cubed = d * d * d * whitening.over_determinant;
-  const Masks8 inside = is_zero(reach);
+  const DoubleMask8 inside = is_zero(reach);
   group.weight = rounded(choose(inside, Double8{}, scaled(kOverTwoPi, cubed) / reach));
   group.reach = rounded(d / c.l00);
 }
@@ -212,8 +198,9 @@ Float8 densities(const SeenGroup& group, Vec3 direction, const Double8 (&wide)[3
   if constexpr (technique == Technique::plane) {
     constexpr float kLeast = 1e-10f;  // so that its cube is a float
     const Float8 over = 1 / larger(x, all8(kLeast));
-    const Float8 scale = group.weight * (over * over * over);
-    return x > kLeast ? scale * exp2(miss * (over * over)) : Float8{};
+    // (In this order, as the factors alone may be too large for floats.)
+    const Float8 value = group.weight * exp2(miss * (over * over));
+    return x > kLeast ? value * over * over * over : Float8{};
   } else {
     const Float8 a = x * x + across, over = 1 / a, root = sqrt(a), along = group.reach * x;
     const Rays8 rays{along, root, along * along * over, miss * over};
@@ -290,9 +277,8 @@ std::optional<Vec3> SeenMixture::sample(float choice, Vec2 u, float v) const {
     choice -= share;
   }
   const SpatialGaussian& g = components_[chosen];
-  const Vec3 z = normal_numbers(u, v), aim = g.mean - origin_;
-  const float* l = g.cholesky;
-  Vec3 point{l[0] * z.x, l[1] * z.x + l[2] * z.y, l[3] * z.x + l[4] * z.y + l[5] * z.z};
+  const Vec3 aim = g.mean - origin_;
+  Vec3 point = spread(g, normal_numbers(u, v));
   if (technique_ == Technique::plane) {
     const Vec3 n = normalize(aim);
     point = point - dot(n, point) * n;

@@ -21,7 +21,8 @@ struct SilentRecorder {
   void emission(Rgb, float) {}
   void light(const LightSample&, Event, const StepDensity&, float, Rgb, Rgb) {}
   void scattering(const LocalScattering&, float, const Guidance&) {}
-  void step(const ScatterStep&, const StepDensity&, const Guidance&, Rgb, VertexKind) {}
+  void step(const ScatterStep&, const StepDensity&, const Guidance&, Rgb, const ResolvedVertex&,
+            Rgb) {}
 };
 
 /// Writes a PathLog.
@@ -88,9 +89,9 @@ class LogRecorder {
     here.unguided_fraction = guidance.unguided_fraction;
   }
 
-  /// The step from the vertex, once its `target` is known.
+  /// The step from the vertex, once its `target` is known, through this transmittance.
   void step(const ScatterStep& step, const StepDensity& density, const Guidance& guidance,
-            Rgb weight, VertexKind target) {
+            Rgb weight, const ResolvedVertex& target, Rgb transmittance) {
     RecordedVertex& here = current();
     here.event = step.event;
     here.direction = step.direction;
@@ -100,7 +101,9 @@ class LogRecorder {
     here.unguided_fraction = guidance.unguided_fraction;
     here.region = guidance.region;
     here.guidable |= guidance.distribution != nullptr;
-    here.measure = measure_of(step.event, target);
+    here.measure = measure_of(step.event, target.kind);
+    here.medium_density = target.medium_density;
+    here.transmittance = transmittance;
   }
 
  private:

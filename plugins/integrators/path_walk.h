@@ -238,7 +238,7 @@ class PathWalk {
                                             : Rgb();
     arrived_discretely_ = bounce_ == 0 || is_discrete(step.event);
     throughput_ *= weight;
-    recorder_.step(step, density_, guidance_, weight, arrivals_[1 - current_].kind);
+    recorder_.step(step, density_, guidance_, weight, resolved, transmittance);
   }
 
   void note_arrival(const Ray& ray) {

@@ -18,9 +18,6 @@ double normal_pdf(double x) {
   return std::exp(-0.5 * x * x) / std::sqrt(2 * double{kPi});
 }
 
-Vec3 lower_times(const float* l, Vec3 z) {
-  return {l[0] * z.x, l[1] * z.x + l[2] * z.y, l[3] * z.x + l[4] * z.y + l[5] * z.z};
-}
 Vec3 lower_solve(const float* l, Vec3 v) {
   const float x = v.x / l[0];
   const float y = (v.y - l[1] * x) / l[2];
@@ -41,7 +38,7 @@ Vec3 normal_3d(const VertexStream& stream) {
 struct Exact {
   static std::optional<Vec3> sample(const SpatialGaussian& g, Vec3 mean,
                                     const VertexStream& stream) {
-    const Vec3 point = mean + lower_times(g.cholesky, normal_3d(stream));
+    const Vec3 point = mean + spread(g, normal_3d(stream));
     if (length_squared(point) == 0) return std::nullopt;
     return normalize(point);
   }

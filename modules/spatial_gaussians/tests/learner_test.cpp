@@ -11,7 +11,7 @@
 #include <pharos/core/warp.h>
 
 #include "../gaussian_model.h"
-#include "../seen_gaussian.h"
+#include "../seen_mixture.h"
 #include "test_gaussians.h"
 
 namespace pharos::gaussians {
@@ -228,7 +228,9 @@ TEST_CASE("models have the same bits for any number of threads") {
     tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
     GaussianSettings settings = small_settings();
     settings.spatial = spatial;
-    return saved(*trained(settings));
+    const auto state = GaussianLearner(settings).begin(context());
+    state->absorb(tube_paths(40'000, 77));  // several parts of every sum
+    return saved(*trained(*state, 2));
   };
   for (const SpatialCells spatial : {SpatialCells::kdtree, SpatialCells::single}) {
     const std::string one = with_threads(1, spatial);
@@ -295,6 +297,11 @@ TEST_CASE("models are saved and loaded, damaged ones are refused") {
     try {
       const auto loaded = learner.load_model(damaged);
       CHECK(std::isfinite(loaded->density({0, 0, 0}, {0, 1, 0})));
+      Arena arena;
+      const auto view = as_gaussians(loaded).mixture_at(Point3{0, 0, 0});
+      const SeenMixture* seen =
+          SeenMixture::make(view.components, {}, {}, Technique::exact, arena);
+      if (seen != nullptr) CHECK(!std::isnan(seen->density({0, 1, 0})));
     } catch (const InputError&) {
     }
   }
@@ -303,8 +310,7 @@ TEST_CASE("models are saved and loaded, damaged ones are refused") {
 TEST_CASE("nothing is known where nothing was found") {
   const GaussianLearner learner(small_settings());
   const auto state = learner.begin(context());
-  const auto none = state->update(0, false);
-  CHECK((none == nullptr || as_gaussians(none).mixture_at(Point3{}).components.empty()));
+  CHECK(state->update(0, false) == nullptr);
   PathLog dark;
   dark.begin_path({}, Transport::radiance);
   dark.add(RecordedVertex{});
@@ -312,8 +318,36 @@ TEST_CASE("nothing is known where nothing was found") {
       RecordedVertex{.parent = 0, .direction = {0, 0, 1}, .unguided_pdf = 1, .guidable = true});
   dark.add(RecordedVertex{.position = {0, 0, 1}, .parent = 1});
   state->absorb(dark);
-  const auto still = state->update(1, true);
-  CHECK((still == nullptr || as_gaussians(still).mixture_at(Point3{}).components.empty()));
+  CHECK(state->update(1, true) == nullptr);
+}
+
+TEST_CASE("rare finds add up to a first mixture, and cells wait for it before they are divided") {
+  GaussianSettings settings = small_settings();
+  settings.cell_samples = 64;
+  const auto state = GaussianLearner(settings).begin(context());
+  std::shared_ptr<const GuidingModel> model;
+  int updates = 0;
+  while (model == nullptr && updates < 20) {
+    // About five finds each.
+    state->absorb(tube_paths(17, static_cast<std::uint64_t>(updates)));
+    model = state->update(static_cast<std::uint32_t>(updates++), false);
+  }
+  REQUIRE(model != nullptr);
+  CHECK(updates > 3);
+  CHECK(!as_gaussians(model).mixture_at(Point3{}).components.empty());
+}
+
+TEST_CASE("samples that are too many to wait are learned from before the iteration ends") {
+  GaussianSettings settings = small_settings();
+  settings.batch_samples = 4000;
+  const auto state = GaussianLearner(settings).begin(context());
+  for (std::uint64_t i = 0; i < 5; ++i) state->absorb(tube_paths(3000, i));
+  std::ostringstream file;
+  state->save(file);
+  CHECK(file.str().size() < 32 * 4000 + 40'000);
+  const auto model = state->update(0, true);
+  CHECK(share_near_tube(as_gaussians(model), Point3{0, 0, 0}, 0.1f) > 0.9);
+  for (const std::uint32_t origin : model->region_origins()) CHECK(origin == 0);
 }
 
 TEST_CASE("samples that all begin at one point do not divide cells for ever") {

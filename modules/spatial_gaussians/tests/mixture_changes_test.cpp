@@ -87,6 +87,8 @@ std::vector<Sample> uniform_samples(const std::vector<SpatialGaussian>& light, s
   return samples;
 }
 
+constexpr float kLeast = 1e-4f;
+
 Gaussian3 to_gaussian(const SpatialGaussian& g) {
   Matrix<3> l = Matrix<3>::Zero();
   l << g.cholesky[0], 0, 0, g.cholesky[1], g.cholesky[2], 0, g.cholesky[3], g.cholesky[4],
@@ -107,31 +109,46 @@ TEST_CASE("the test of directions finds the component that has to stand for two"
       Moments3::of(0.3, l.mean, l.covariance) + Moments3::of(0.3, r.mean, r.covariance);
   const Vector<3> pivot = Vector<3>::Zero();
 
-  const auto fits = test_directions({{0.3, 0.3, 0.4}, {l, r, b}}, pivot, samples, 0);
+  const auto fits = test_directions({{0.3, 0.3, 0.4}, {l, r, b}}, pivot, samples, kLeast);
   for (const DirectionTest& t : fits) {
     CHECK(t.samples == 40'000);
     CHECK(t.divergence() < 0.02);
   }
   const auto misfits =
-      test_directions({{0.6, 0.4}, {{both.mean(), both.covariance()}, b}}, pivot, samples, 0);
+      test_directions({{0.6, 0.4}, {{both.mean(), both.covariance()}, b}}, pivot, samples, kLeast);
   CHECK(misfits[0].divergence() > 0.5);
   CHECK(misfits[1].divergence() < 0.02);
 }
 
-TEST_CASE("samples that find nothing count, those without density do not") {
+TEST_CASE("samples that find nothing count") {
   RandomStream random(3);
   const SpatialGaussian g = oriented_gaussian({0, 0, 2}, {1, 1, 1}, random);
   std::vector<Sample> samples = uniform_samples({g}, 20'001, 4);
   const Mixture mixture{{1}, {to_gaussian(g)}};
-  const double all = test_directions(mixture, Vector<3>::Zero(), samples, 0)[0].divergence();
+  const double all = test_directions(mixture, Vector<3>::Zero(), samples, kLeast)[0].divergence();
   // Half of the light is gone: what is left is twice as much as it should be, or nothing.
   for (std::size_t i = 0; i < samples.size(); i += 2) samples[i].weight = 0;
-  const auto half = test_directions(mixture, Vector<3>::Zero(), samples, 0)[0];
+  const auto half = test_directions(mixture, Vector<3>::Zero(), samples, kLeast)[0];
   CHECK(half.samples == 20'001);
   CHECK(half.divergence() == doctest::Approx(1).epsilon(0.1));
   CHECK(all < 0.02);
-  for (Sample& s : samples) s.pdf = 0;
-  CHECK(test_directions(mixture, Vector<3>::Zero(), samples, 0)[0].samples == 0);
+}
+
+TEST_CASE("mixtures are tested where they are: from any pivot, in any part, however compact") {
+  RandomStream random(5);
+  const SpatialGaussian g = oriented_gaussian({0, 0, 2}, {1, 0.6f, 0.8f}, random);
+  const std::vector<Sample> samples = uniform_samples({g}, 9'001, 6);
+  const Gaussian3 here = to_gaussian(g);
+  const Vector<3> pivot(1, -2, 3);
+  const Gaussian3 moved{here.mean - pivot, here.covariance};
+  const double a = test_directions({{1}, {here}}, Vector<3>::Zero(), samples, kLeast)[0].sum;
+  const double b = test_directions({{1}, {moved}}, pivot, samples, kLeast)[0].sum;
+  CHECK(b == doctest::Approx(a).epsilon(1e-3));
+  // Almost all directions are out of reach of so small a component.
+  const Gaussian3 dot{here.mean, 1e-8 * Matrix<3>::Identity()};
+  const auto compact = test_directions({{1}, {dot}}, Vector<3>::Zero(), samples, kLeast)[0];
+  CHECK(std::isfinite(compact.sum));
+  CHECK(compact.samples == 9'001);
 }
 
 }  // namespace

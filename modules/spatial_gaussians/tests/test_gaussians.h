@@ -41,10 +41,8 @@ inline double log_uniform(double low, double high, RandomStream& random) {
 /// A point of the Gaussian, relative to `origin`.
 inline Vec3 point_of(const SpatialGaussian& g, Point3 origin, RandomStream& random) {
   const Eigen::Vector3d z = normal_vector(random);
-  const float* l = g.cholesky;
-  const Vec3 p{static_cast<float>(l[0] * z[0]), static_cast<float>(l[1] * z[0] + l[2] * z[1]),
-               static_cast<float>(l[3] * z[0] + l[4] * z[1] + l[5] * z[2])};
-  return p + (g.mean - origin);
+  const Vec3 p{static_cast<float>(z[0]), static_cast<float>(z[1]), static_cast<float>(z[2])};
+  return spread(g, p) + (g.mean - origin);
 }
 
 }  // namespace pharos::gaussians::testing
