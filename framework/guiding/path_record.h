@@ -32,12 +32,12 @@ struct RecordedVertex {
   float unguided_pdf = 0;                  ///< of the BSDF or phase function (with the medium)
   float guided_pdf = 0;                    ///< of the guide
   float unguided_fraction = 1;             ///< in force at this vertex
-  Rgb transmittance{1};     ///< of the medium along the step [1]; part of local_weight
+  Rgb transmittance{1};      ///< of the medium along the step [1]; part of local_weight
   float medium_density = 1;  ///< the medium's factor in both densities: of stopping there [1/m], or
                              ///< the probability of getting there [1]
-  std::uint32_t region = 0;                ///< of the guiding distribution, where there was one
-  bool guidable = false;                   ///< a guide was or could have been asked here
-  float reverse_pdf = 0;                   ///< of the step back to `parent`, on request
+  std::uint32_t region = 0;  ///< of the guiding distribution, where there was one
+  bool guidable = false;     ///< a guide was or could have been asked here
+  float reverse_pdf = 0;     ///< of the step back to `parent`, on request
 
   Rgb emission;       ///< radiance leaving here towards `parent`, times its MIS weight
   Rgb full_emission;  ///< the same without MIS weight

@@ -136,8 +136,8 @@ class CellUpdate {
             .tolerance = settings_.em_tolerance};
   }
 
-  /// Least eigenvalues, as the components lie now: what they look like from the middle of the samples'
-  /// origins is no smaller than the largest concentration allows.
+  /// Least eigenvalues, as the components lie now: what they look like from the middle of the
+  /// samples' origins is no smaller than the largest concentration allows.
   void set_floors() {
     floors_.clear();
     for (const Gaussian3& g : cell_.mixture_.components) {

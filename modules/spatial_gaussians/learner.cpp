@@ -59,7 +59,9 @@ void GaussianSettings::describe(Schema<GaussianSettings>& s) {
           "leaves out matters only as far as unguided samples do not find it")
       .at_least(1e-6)
       .at_most(1);
-  s.field("split_samples", &S::split_samples, "Samples that a component is judged by before it is split").at_least(1);
+  s.field("split_samples", &S::split_samples,
+          "Samples that a component is judged by before it is split")
+      .at_least(1);
   s.field("merge_threshold", &S::merge_threshold,
           "Chi-square cost below which two components are merged")
       .at_least(0);

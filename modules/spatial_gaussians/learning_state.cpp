@@ -36,8 +36,9 @@ void GaussianState::absorb(const PathLog& log) {
 
 std::shared_ptr<const GuidingModel> GaussianState::update(std::uint32_t, bool) {
   learn();
-  const bool knows_something = std::any_of(
-      cells_.begin(), cells_.end(), [](const Cell& cell) { return cell.mixture.knows_something(); });
+  const bool knows_something = std::any_of(cells_.begin(), cells_.end(), [](const Cell& cell) {
+    return cell.mixture.knows_something();
+  });
   if (!knows_something) return nullptr;
   auto learned = model();
   std::iota(origins_.begin(), origins_.end(), 0u);
@@ -113,10 +114,9 @@ void GaussianState::divide_cells() {
 
 void GaussianState::divide(Place place, std::span<Sample> samples) {
   const Positions& positions = cells_[place.cell].positions;
-  const bool divides = settings_.spatial == SpatialCells::kdtree &&
-                       positions.count > settings_.cell_samples &&
-                       place.level < settings_.max_depth &&
-                       cells_[place.cell].mixture.knows_something();
+  const bool divides =
+      settings_.spatial == SpatialCells::kdtree && positions.count > settings_.cell_samples &&
+      place.level < settings_.max_depth && cells_[place.cell].mixture.knows_something();
   if (!divides) return;
   const int axis = positions.widest_axis();
   const auto plane = static_cast<float>(positions.sums[axis] / positions.count);

@@ -64,7 +64,7 @@ class GaussianState final : public LearningState {
   std::vector<std::uint32_t> origins_{0};  ///< of each cell, among those of the last model
   std::uint64_t lessons_ = 0;              ///< calls of learn()
   std::vector<Sample> samples_;            ///< that wait
-  std::vector<Rgb> incident_;    ///< scratch
+  std::vector<Rgb> incident_;              ///< scratch
 };
 
 }  // namespace pharos::gaussians

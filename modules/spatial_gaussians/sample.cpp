@@ -26,8 +26,7 @@ void extract_samples(const PathView& path, const SampleRule& rule, std::vector<R
         escapes ? vertex.position + rule.environment_distance * vertex.direction : end.position;
     // So close that rounding leaves no direction.
     if (!(length_squared(target - vertex.position) > 0)) continue;
-    samples.push_back(
-        {.origin = vertex.position, .target = target, .weight = weight, .pdf = pdf});
+    samples.push_back({.origin = vertex.position, .target = target, .weight = weight, .pdf = pdf});
   }
 }
 
@@ -46,8 +45,8 @@ Sample load_sample(std::istream& in) {
   }
   sample.weight = load_finite<float>(in);
   sample.pdf = load_finite<float>(in);
-  const bool is_sound = sample.weight >= 0 && sample.pdf > 0 &&
-                        length_squared(sample.target - sample.origin) > 0;
+  const bool is_sound =
+      sample.weight >= 0 && sample.pdf > 0 && length_squared(sample.target - sample.origin) > 0;
   if (!is_sound) throw InputError("a sample of the Gaussians is damaged");
   return sample;
 }

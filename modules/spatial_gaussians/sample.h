@@ -12,9 +12,9 @@ namespace pharos::gaussians {
 struct Sample {
   Point3 origin;
   Point3 target;     ///< the next vertex; for the environment a point far outside the scene
-  float weight = 0;  ///< L / p: radiance that came along the step over its density (in a medium with
-                     ///< that of its length), mean of the channels; 0 where nothing came
-  float pdf = 0;     ///< of the direction, > 0 [1/sr]
+  float weight = 0;  ///< L / p: radiance that came along the step over its density (in a medium
+                     ///< with that of its length), mean of the channels; 0 where nothing came
+  float pdf = 0;  ///< of the direction, > 0 [1/sr]
 };
 
 /// What extract_samples() needs to know.
@@ -24,8 +24,8 @@ struct SampleRule {
 };
 
 /// Appends the steps of a path from the sensor that met something, those that found no light there
-/// included. (Steps that the surface scatters nothing into end unseen.) With Russian roulette weights
-/// lack its probability.
+/// included. (Steps that the surface scatters nothing into end unseen.) With Russian roulette
+/// weights lack its probability.
 void extract_samples(const PathView& path, const SampleRule& rule, std::vector<Rgb>& incident,
                      std::vector<Sample>& samples);
 

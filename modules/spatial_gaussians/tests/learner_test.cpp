@@ -299,8 +299,7 @@ TEST_CASE("models are saved and loaded, damaged ones are refused") {
       CHECK(std::isfinite(loaded->density({0, 0, 0}, {0, 1, 0})));
       Arena arena;
       const auto view = as_gaussians(loaded).mixture_at(Point3{0, 0, 0});
-      const SeenMixture* seen =
-          SeenMixture::make(view.components, {}, {}, Technique::exact, arena);
+      const SeenMixture* seen = SeenMixture::make(view.components, {}, {}, Technique::exact, arena);
       if (seen != nullptr) CHECK(!std::isnan(seen->density({0, 1, 0})));
     } catch (const InputError&) {
     }
