@@ -55,25 +55,28 @@ struct Exact {
   }
 };
 
-/// Points of the 2D Gaussian in the plane through the mean, perpendicular to the direction there.
-/// Treats the Gaussian as isotropic, which the stub's components are.
+/// Points of a 3D Gaussian, moved along the direction to its mean into the plane through the mean
+/// that is perpendicular to it.
 struct Projected {
   static std::optional<Vec3> sample(const SpatialGaussian& g, Vec3 mean,
                                     const VertexStream& stream) {
-    const float d = length(mean);
-    if (d == 0) return std::nullopt;
-    const Frame frame = Frame::from_normal(mean / d);
-    const Vec3 z = g.cholesky[0] * normal_3d(stream);
-    return normalize(frame.to_world({z.x, z.y, d}));
+    if (length_squared(mean) == 0) return std::nullopt;
+    const Vec3 n = normalize(mean), point = spread(g, normal_3d(stream));
+    return normalize(mean + point - dot(n, point) * n);
   }
   static double pdf(const SpatialGaussian& g, Vec3 mean, Vec3 direction) {
-    const double d = length(mean);
+    const float d = length(mean);
     if (d == 0) return 0;
-    const Vec3 local = Frame::from_normal(mean / static_cast<float>(d)).to_local(direction);
-    if (local.z <= 0) return 0;
-    const double s = g.cholesky[0];
-    const double x = d * local.x / local.z / s, y = d * local.y / local.z / s;
-    return normal_pdf(x) * normal_pdf(y) / (s * s) * d * d / std::pow(double{local.z}, 3.0);
+    const float cosine = dot(mean / d, direction);
+    if (cosine <= 0) return 0;
+    // The covariance in the plane is what is perpendicular to the line of sight once that is
+    // whitened.
+    const Vec3 white = lower_solve(g.cholesky, d / cosine * direction - mean);
+    const Vec3 line = lower_solve(g.cholesky, mean);
+    const double squared = length_squared(cross(white, line)) / length_squared(line);
+    const double determinant = root_determinant(g) * length(line) / d;
+    return std::exp(-0.5 * squared) * d * d /
+           (2 * double{kPi} * determinant * std::pow(double{cosine}, 3.0));
   }
 };
 
