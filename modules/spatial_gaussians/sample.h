@@ -14,7 +14,7 @@ struct Sample {
   Point3 target;     ///< the next vertex; for the environment a point far outside the scene
   float weight = 0;  ///< L / p: radiance that came along the step over its density (in a medium
                      ///< with that of its length), mean of the channels; 0 where nothing came
-  float pdf = 0;  ///< of the direction, > 0 [1/sr]
+  float pdf = 0;     ///< of the direction, > 0 [1/sr]
 };
 
 /// What extract_samples() needs to know.
