@@ -47,16 +47,18 @@ std::shared_ptr<const GuidingModel> GaussianState::update(std::uint32_t, bool) {
 }
 
 void GaussianState::learn() {
-  update_cells(true);
-  divide_cells();
-  update_cells(false);
+  std::vector<std::size_t> first = sort_by_cell();
+  update_cells(first, true);
+  const std::size_t undivided = cells_.size();
+  divide_cells(first);
+  if (cells_.size() > undivided) first = sort_by_cell();
+  update_cells(first, false);
   for (Cell& cell : cells_) cell.is_done = false;
   samples_.clear();
   ++lessons_;
 }
 
-void GaussianState::update_cells(bool unknowing) {
-  const std::vector<std::size_t> first = sort_by_cell();
+void GaussianState::update_cells(const std::vector<std::size_t>& first, bool unknowing) {
   parallel_for(cells_.size(), [&](std::size_t cell) {
     CellMixture& mixture = cells_[cell].mixture;
     if (cells_[cell].is_done || (unknowing && mixture.knows_something())) return;
@@ -101,8 +103,7 @@ int GaussianState::Positions::widest_axis() const {
   return widest;
 }
 
-void GaussianState::divide_cells() {
-  const std::vector<std::size_t> first = sort_by_cell();
+void GaussianState::divide_cells(const std::vector<std::size_t>& first) {
   const std::vector<std::uint32_t> leaves = tree_.leaves();
   const std::vector<int> levels = tree_.levels();
   for (std::uint32_t cell = 0; cell + 1 < first.size(); ++cell) {

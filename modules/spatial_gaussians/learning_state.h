@@ -45,12 +45,12 @@ class GaussianState final : public LearningState {
   void learn();
   /// Puts the samples that wait into the order of their cells; returns where each cell's begin.
   std::vector<std::size_t> sort_by_cell();
-  /// Lets cells learn from their samples that are not done; only those that know nothing, if
-  /// `unknowing`.
-  void update_cells(bool unknowing);
+  /// Lets cells learn from their samples, which begin at `first`, that are not done; only those
+  /// that know nothing, if `unknowing`.
+  void update_cells(const std::vector<std::size_t>& first, bool unknowing);
   /// Divides cells with too many samples, but for those that know nothing: their halves would know
   /// even less.
-  void divide_cells();
+  void divide_cells(const std::vector<std::size_t>& first);
   void divide(Place place, std::span<Sample> samples);
   std::shared_ptr<const GuidingModel> model() const;
   void read(std::istream& in);
