@@ -71,15 +71,6 @@ inline Float8 sqrt(const Float8& x) {
   return r;
 #endif
 }
-inline Double4 sqrt(const Double4& x) {
-#if defined(__AVX__)
-  return _mm256_sqrt_pd(x);
-#else
-  Double4 r;
-  for (int i = 0; i < 4; ++i) r[i] = std::sqrt(x[i]);
-  return r;
-#endif
-}
 
 /// Eight doubles, in two registers whose operations can run at the same time.
 struct Double8 {
@@ -99,24 +90,13 @@ struct Double8 {
   }
   friend Double8 operator-(const Double8& a) { return {-a.low, -a.high}; }
 };
-/// Where such numbers are something.
-struct DoubleMask8 {
-  Mask4 low, high;
-};
-inline DoubleMask8 is_zero(const Double8& x) {
-  return {x.low == 0, x.high == 0};
-}
-inline DoubleMask8 is_negative(const Double8& x) {
-  return {x.low < 0, x.high < 0};
-}
-inline Double8 choose(const DoubleMask8& mask, const Double8& a, const Double8& b) {
-  return {mask.low ? a.low : b.low, mask.high ? a.high : b.high};
-}
 inline Double8 all_doubles8(double x) {
   return {all4(x), all4(x)};
 }
-inline Double8 sqrt(const Double8& x) {
-  return {sqrt(x.low), sqrt(x.high)};
+
+inline Double8 widened(const Float8& x) {
+  return {widened(__builtin_shufflevector(x, x, 0, 1, 2, 3)),
+          widened(__builtin_shufflevector(x, x, 4, 5, 6, 7))};
 }
 
 /// Numbers of double precision rounded to single.

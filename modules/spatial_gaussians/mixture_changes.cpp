@@ -78,14 +78,15 @@ struct Component {
       v[row] = w[0] * s.omega[0] + w[1] * s.omega[1] + w[2] * s.omega[2];
       m[row] = (w[0] * mu[0] + w[1] * mu[1] + w[2] * mu[2]) * over_unit;
     }
-    const Float8 a = v[0] * v[0] + v[1] * v[1] + v[2] * v[2], over = 1 / a, root = sqrt(a);
+    const Float8 over_root = 1 / sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
     const Float8 along = v[0] * m[0] + v[1] * m[1] + v[2] * m[2];
     const Float8 x = v[1] * m[2] - v[2] * m[1], y = v[2] * m[0] - v[0] * m[2],
                  z = v[0] * m[1] - v[1] * m[0];
     const Float8 miss = (-0.5f * kLog2E) * (x * x + y * y + z * z);
-    const Rays8 rays{along, root, along * along * over, miss * over};
+    const Float8 over = over_root * over_root;
+    const Rays8 rays{along * over_root, miss * over};
     const Float8 far = exp(-0.5f * (m[0] * m[0] + m[1] * m[1] + m[2] * m[2]));
-    return scale * (over * over * root) * rays.ray_integral(far);
+    return scale * (over * over_root) * rays.ray_integral(far);
   }
 };
 

@@ -15,13 +15,11 @@ namespace {
 constexpr std::size_t kGroup = 8;
 constexpr double kOverTwoPi = 0.15915494309189535;
 
+template <typename Number>
 struct Lanes3 {
-  Double8 x, y, z;
+  Number x, y, z;
 };
 
-Double8 dot8(const Lanes3& a, const Lanes3& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
 Double8 scaled(double factor, const Double8& x) {
   return all_doubles8(factor) * x;
 }
@@ -58,7 +56,7 @@ struct Components8 {
     read(eight, origin);
   }
   Double8 weight;
-  Lanes3 mu;  ///< mean, from the origin
+  Lanes3<Double8> mu;  ///< mean, from the origin
   Double8 l00, l10, l11, l20, l21, l22;
 
  private:
@@ -81,46 +79,41 @@ struct Components8 {
 };
 
 /// l00 L^-1, the lower triangle.
+template <typename Number>
 struct Whitening8 {
-  explicit Whitening8(const Components8& c)
-      : over_determinant(all_doubles8(1) / (c.l11 * c.l22)),
-        r10(-c.l10 * (over_determinant * c.l22)),
-        r11(c.l00 * (over_determinant * c.l22)),
-        r20((c.l10 * c.l21 - c.l20 * c.l11) * over_determinant),
-        r21(-c.l21 * c.l00 * over_determinant),
-        r22(c.l00 * over_determinant * c.l11) {}
-
-  Lanes3 operator()(const Lanes3& v) const {
+  Lanes3<Number> operator()(const Lanes3<Number>& v) const {
     return {v.x, r10 * v.x + r11 * v.y, r20 * v.x + r21 * v.y + r22 * v.z};
   }
   /// The row vector v^T l00 L^-1.
-  Lanes3 row(const Lanes3& v) const {
+  Lanes3<Number> row(const Lanes3<Number>& v) const {
     return {v.x + v.y * r10 + v.z * r20, v.y * r11 + v.z * r21, v.z * r22};
   }
-  Double8 over_determinant;  ///< 1 / (l11 l22)
-  Double8 r10, r11, r20, r21, r22;
+  Number r10, r11, r20, r21, r22;
 };
 
-/// Two unit vectors that are perpendicular to a third and to each other (Duff et al. 2017).
-std::array<Lanes3, 2> perpendicular(const Lanes3& n) {
-  const Double8 one = all_doubles8(1), sign = choose(is_negative(n.z), -one, one);
-  const Double8 a = -one / (sign + n.z), b = n.x * n.y * a;
-  return {Lanes3{one + sign * n.x * n.x * a, sign * b, -sign * n.x},
-          Lanes3{b, sign + n.y * n.y * a, -n.y}};
+/// In double precision, as off-diagonal numbers may nearly cancel.
+Whitening8<Double8> whitening_of(const Components8& c, const Double8& over_determinant) {
+  const Double8 over_l11 = over_determinant * c.l22;
+  return {.r10 = -c.l10 * over_l11,
+          .r11 = c.l00 * over_l11,
+          .r20 = (c.l10 * c.l21 - c.l20 * c.l11) * over_determinant,
+          .r21 = -c.l21 * c.l00 * over_determinant,
+          .r22 = c.l00 * over_determinant * c.l11};
 }
 
-/// A vector's length and direction: the x axis where it is 0.
-struct Polar8 {
-  explicit Polar8(const Lanes3& v) : length(sqrt(dot8(v, v))) {
-    const DoubleMask8 none = is_zero(length);
-    const Double8 one = all_doubles8(1), over = one / choose(none, one, length);
-    direction = {choose(none, one, v.x * over), v.y * over, v.z * over};
-  }
-  Double8 length;
-  Lanes3 direction;
-};
+Whitening8<Float8> rounded_whitening(const Whitening8<Double8>& w) {
+  return {rounded(w.r10), rounded(w.r11), rounded(w.r20), rounded(w.r21), rounded(w.r22)};
+}
 
-void set_row(SeenGroup& group, int row, const Lanes3& values) {
+/// Two unit vectors that are perpendicular to a third and to each other (Duff et al. 2017).
+std::array<Lanes3<Float8>, 2> perpendicular(const Lanes3<Float8>& n) {
+  const Float8 one = all8(1), sign = n.z < 0 ? -one : one;
+  const Float8 a = -one / (sign + n.z), b = n.x * n.y * a;
+  return {Lanes3<Float8>{one + sign * n.x * n.x * a, sign * b, -sign * n.x},
+          Lanes3<Float8>{b, sign + n.y * n.y * a, -n.y}};
+}
+
+void set_row(SeenGroup& group, int row, const Lanes3<Float8>& values) {
   group.rows[row][0] = values.x;
   group.rows[row][1] = values.y;
   group.rows[row][2] = values.z;
@@ -132,83 +125,101 @@ Float8 cosine_factor(const CosineRule& rule, const SeenGroup& group) {
   return larger(rule.both_sides ? absolute(cosine) : cosine, all8(rule.least));
 }
 
-/// Distance and direction of the means in single precision, where nothing is left to cancel.
-Float8 aim_at(const Lanes3& mu, SeenGroup& group) {
+/// One over the distances of the means, 0 for none, and the directions: their length may be off by
+/// a rounding, but they are parallel to the means in twice the precision.
+Float8 aim_at(const Lanes3<Double8>& mu, SeenGroup& group) {
   const Float8 x = rounded(mu.x), y = rounded(mu.y), z = rounded(mu.z);
-  const Float8 distance = sqrt(x * x + y * y + z * z);
-  const Float8 over = distance > 0 ? 1 / distance : Float8{};
-  group.aim[0] = x * over;
-  group.aim[1] = y * over;
-  group.aim[2] = z * over;
-  return distance;
+  const Float8 squared = x * x + y * y + z * z;
+  const Float8 over = squared > 0 ? 1 / sqrt(squared) : Float8{};
+  const Double8 wide = widened(over);
+  const Double8* from[3] = {&mu.x, &mu.y, &mu.z};
+  for (int i = 0; i < 3; ++i) {
+    const Double8 aim = *from[i] * wide;
+    group.aim[i] = rounded(aim);
+    group.aim_rest[i] = rounded(aim - widened(group.aim[i]));
+  }
+  return over;
 }
 
-/// What `plane` has of its own: the direction to the mean in place of the first axis, and its
-/// density's factors. There is no plane in the mean itself.
-void see_plane(const Components8& c, const Whitening8& whitening, const Double8& reach,
-               SeenGroup& group) {
-  const Polar8 mu(c.mu);
-  set_row(group, 0, mu.direction);
-  // d^2 / (2 pi sqrt|S|), sqrt|S| = |L| |L^-1 mu| / d.
-  const Double8 d = mu.length, cubed = d * d * d * whitening.over_determinant;
-  const DoubleMask8 inside = is_zero(reach);
-  group.weight = rounded(choose(inside, Double8{}, scaled(kOverTwoPi, cubed) / reach));
-  group.reach = rounded(d / c.l00);
-}
+/// The means in whitened space: their lengths times l00 and directions, the x axis for none.
+struct WhitenedMeans8 {
+  explicit WhitenedMeans8(const Lanes3<Double8>& m)
+      : length(sqrt(rounded(m.x * m.x + m.y * m.y + m.z * m.z))) {
+    const Mask8 any = length > 0;
+    const Float8 over = any ? 1 / length : Float8{};
+    direction = {any ? rounded(m.x) * over : all8(1), rounded(m.y) * over, rounded(m.z) * over};
+  }
+  Float8 length;
+  Lanes3<Float8> direction;
+};
 
 /// What becomes of up to eight components.
 void see_group(std::span<const SpatialGaussian> components, Point3 origin, const CosineRule& rule,
                Technique technique, SeenGroup& group) {
   const Components8 c(components, origin);
-  const Whitening8 whitening(c);
-  const Polar8 m(whitening(c.mu));  // times l00
-  const std::array<Lanes3, 2> across = perpendicular(m.direction);
+  const Double8 over_determinant = all_doubles8(1) / (c.l11 * c.l22);
+  const Whitening8<Double8> exact_whitening = whitening_of(c, over_determinant);
+  const WhitenedMeans8 m(exact_whitening(c.mu));
+  const Whitening8<Float8> whitening = rounded_whitening(exact_whitening);
+  const std::array<Lanes3<Float8>, 2> across = perpendicular(m.direction);
+  set_row(group, 0, whitening.row(m.direction));
   set_row(group, 1, whitening.row(across[0]));
   set_row(group, 2, whitening.row(across[1]));
-  const Float8 distance = aim_at(c.mu, group);
+  const Float8 over_distance = aim_at(c.mu, group);
+  const Mask8 is_outside = over_distance > 0;
+  group.ahead = m.length * over_distance;
   group.share = rounded(c.weight);
   if (rule.normal != Vec3{}) group.share *= cosine_factor(rule, group);
   if (technique == Technique::plane) {
-    see_plane(c, whitening, m.length, group);
-    group.share = distance > 0 ? group.share : Float8{};
+    // d^2 / (2 pi sqrt|S|), sqrt|S| = |L| |L^-1 mu| / d. There is no plane in the mean itself.
+    const Float8 d = is_outside ? 1 / over_distance : Float8{};
+    const Float8 cubed = d * d * d * rounded(scaled(kOverTwoPi, over_determinant));
+    group.weight = is_outside ? cubed / m.length : Float8{};
+    group.share = is_outside ? group.share : Float8{};
+    group.reach = d / rounded(c.l00);
   } else {
-    set_row(group, 0, whitening.row(m.direction));
-    group.reach = rounded(m.length) / rounded(c.l00);
-    group.weight = rounded(scaled(kOverTwoPi, c.l00 * c.l00 * whitening.over_determinant));
+    group.weight = rounded(scaled(kOverTwoPi, c.l00 * c.l00 * over_determinant));
+    group.reach = m.length / rounded(c.l00);
   }
   // Nothing is turned around in the mean itself: half of each line.
   if (technique == Technique::flipped) {
-    group.weight = distance > 0 ? group.weight : 0.5f * group.weight;
+    group.weight = is_outside ? group.weight : 0.5f * group.weight;
   }
   group.far = exp(-0.5f * group.reach * group.reach);
 }
 
-Float8 row_times(const Double8 (&row)[3], const Double8 (&direction)[3]) {
-  return rounded(row[0] * direction[0] + row[1] * direction[1] + row[2] * direction[2]);
+Float8 dot8(const Float8 (&a)[3], const Float8 (&b)[3]) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
 /// The densities of eight components, times their shares.
 template <Technique technique>
-Float8 densities(const SeenGroup& group, Vec3 direction, const Double8 (&wide)[3]) {
-  const Float8 x = row_times(group.rows[0], wide);
-  const Float8 y = row_times(group.rows[1], wide), z = row_times(group.rows[2], wide);
+Float8 densities(const SeenGroup& group, Vec3 direction) {
+  // Differences from the aims, exact wherever they are small.
+  const Float8 off[3] = {(direction.x - group.aim[0]) - group.aim_rest[0],
+                         (direction.y - group.aim[1]) - group.aim_rest[1],
+                         (direction.z - group.aim[2]) - group.aim_rest[2]};
+  const Float8 y = dot8(group.rows[1], off), z = dot8(group.rows[2], off);
   const Float8 across = y * y + z * z;
   // -log2(e) / 2 times the squared distance: what the exponent has.
   const Float8 miss = group.reach * group.reach * (-0.5f * kLog2E) * across;
+  const auto cosine_to_mean = [&] {
+    return group.aim[0] * direction.x + group.aim[1] * direction.y + group.aim[2] * direction.z;
+  };
   if constexpr (technique == Technique::plane) {
+    const Float8 x = cosine_to_mean();
     constexpr float kLeast = 1e-10f;  // so that its cube is a float
     const Float8 over = 1 / larger(x, all8(kLeast));
     // (In this order, as the factors alone may be too large for floats.)
     const Float8 value = group.weight * exp2(miss * (over * over));
     return x > kLeast ? value * over * over * over : Float8{};
   } else {
-    const Float8 a = x * x + across, over = 1 / a, root = sqrt(a), along = group.reach * x;
-    const Rays8 rays{along, root, along * along * over, miss * over};
-    const Float8 scale = group.weight * (over * over * root);  // a^(-3/2)
+    const Float8 x = group.ahead + dot8(group.rows[0], off);
+    const Float8 a = x * x + across, over = 1 / a, over_root = over * sqrt(a);
+    const Rays8 rays{group.reach * x * over_root, miss * over};
+    const Float8 scale = group.weight * (over * over_root);
     if constexpr (technique == Technique::flipped) {
-      const Float8 side =
-          group.aim[0] * direction.x + group.aim[1] * direction.y + group.aim[2] * direction.z;
-      return side < 0 ? Float8{} : scale * rays.line_integral();
+      return cosine_to_mean() < 0 ? Float8{} : scale * rays.line_integral();
     } else {
       // So far away that no ray that looks away meets anything.
       if (!any(group.far > 0)) return x < 0 ? Float8{} : scale * rays.line_integral();
@@ -219,10 +230,8 @@ Float8 densities(const SeenGroup& group, Vec3 direction, const Double8 (&wide)[3
 
 template <Technique technique>
 float density_of(std::span<const SeenGroup> groups, Vec3 direction) {
-  const Double8 wide[3] = {all_doubles8(direction.x), all_doubles8(direction.y),
-                           all_doubles8(direction.z)};
   Float8 total{};
-  for (const SeenGroup& group : groups) total += densities<technique>(group, direction, wide);
+  for (const SeenGroup& group : groups) total += densities<technique>(group, direction);
   return sum(total);
 }
 

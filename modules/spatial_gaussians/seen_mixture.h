@@ -27,16 +27,19 @@ struct CosineRule {
 
 /// Eight components as they are seen from one point: of a unit direction omega, `rows` make the
 /// whitened direction in a frame whose first axis points at the whitened mean, times l00 (a factor
-/// that keeps floats in range). For `plane` the first row is the unit direction to the mean.
+/// that keeps floats in range). They are multiplied by omega's difference from `aim`, of which the
+/// last two rows leave nothing: small angles from the mean keep their digits.
 struct SeenGroup {
   SeenGroup() {}  // leaves everything as it is: an array of groups need not be cleared
 
-  Double8 rows[3][3];
-  Float8 share;   ///< probability of choosing the component
-  Float8 weight;  ///< the density's factor that does not hang on the direction
-  Float8 reach;   ///< |L^-1 mu|; for `plane` |mu| / l00
-  Float8 far;     ///< e^(-reach^2 / 2)
-  Float8 aim[3];  ///< unit direction to the mean; zero in the mean itself
+  Float8 rows[3][3];
+  Float8 ahead;        ///< the first row times `aim`
+  Float8 aim[3];       ///< unit direction to the mean; zero in the mean itself
+  Float8 aim_rest[3];  ///< what rounding has taken from it
+  Float8 share;        ///< probability of choosing the component
+  Float8 weight;       ///< the density's factor that does not hang on the direction
+  Float8 reach;        ///< |L^-1 mu|; for `plane` |mu| / l00
+  Float8 far;          ///< e^(-reach^2 / 2)
 };
 
 /// A mixture of Gaussians as it is seen from one point: a distribution over directions. Weights are
