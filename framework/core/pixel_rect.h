@@ -16,6 +16,7 @@ struct PixelRect {
   std::size_t index(int x, int y) const {
     return static_cast<std::size_t>(y - y0) * width() + (x - x0);
   }
+  friend bool operator==(const PixelRect&, const PixelRect&) = default;
 };
 
 }  // namespace pharos

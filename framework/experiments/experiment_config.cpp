@@ -86,7 +86,9 @@ void ExperimentMethod::describe(Schema<ExperimentMethod>& s) {
   s.field("name", &ExperimentMethod::name, "Name in tables")
       .required()
       .check(std::string(kEntryNameRule) + ", not 'reference'", is_method_name);
-  s.field("settings", &ExperimentMethod::settings, "Laid over every scene's config");
+  s.field("config", &ExperimentMethod::config,
+          "A config such as a preset, laid over every scene's");
+  s.field("settings", &ExperimentMethod::settings, "Laid over both");
 }
 
 void ExperimentConfig::describe(Schema<ExperimentConfig>& s) {

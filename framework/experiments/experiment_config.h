@@ -41,6 +41,7 @@ struct ExperimentScene {
 /// Settings that are laid over every scene's config: what is compared.
 struct ExperimentMethod {
   std::string name;
+  std::filesystem::path config;  ///< such as a preset, below `settings`; empty: none
   ConfigNode settings = ConfigNode::mapping();
 
   static void describe(Schema<ExperimentMethod>& schema);

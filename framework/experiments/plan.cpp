@@ -44,7 +44,9 @@ PlannedCell plan_cell(const ExperimentConfig& experiment, const ConfigNode& scen
                       const PlannedReference& reference, std::size_t scene_index,
                       std::size_t method_index, const Registry& registry) {
   PlannedCell cell{.scene = scene_index, .method = method_index};
-  cell.config = merged(scene, experiment.methods[method_index].settings);
+  const ExperimentMethod& method = experiment.methods[method_index];
+  cell.config = method.config.empty() ? scene : merged(scene, read_config(method.config));
+  cell.config = merged(std::move(cell.config), method.settings);
   cell.config.set("budget", budget_node(experiment.budget_of(experiment.scenes[scene_index])));
   LoadedConfig loaded = build_run(cell.config, experiment.first_seed, registry);
   check_film(loaded.config.film, reference, cell.config);

@@ -56,8 +56,8 @@ GuidingState::GuidingState(const GuidingSettings& settings, const LearningContex
     : mixing_(settings.mixing->begin()) {
   std::uint64_t index = 0;
   for (GuidingMethod& method : settings.resolved_methods()) {
-    const LearningContext own{context.region, hash_combine(context.seed, index++),
-                              context.iterations};
+    LearningContext own = context;
+    own.seed = hash_combine(context.seed, index++);
     Method& added = methods_.emplace_back();
     added.settings = std::move(method);
     added.start(own);

@@ -9,6 +9,7 @@
 
 #include <pharos/config/component.h>
 #include <pharos/core/bounds.h>
+#include <pharos/core/pixel_rect.h>
 #include <pharos/guiding/model.h>
 #include <pharos/guiding/path_record.h>
 
@@ -19,6 +20,7 @@ struct LearningContext {
   Bounds3 region;                ///< bounds of geometry and sensor [scene units]
   std::uint64_t seed = 0;        ///< random numbers are keyed by (seed, iteration, cell)
   std::uint32_t iterations = 1;  ///< of training that are planned, each ended by update()
+  PixelRect window{0, 0, 1, 1};  ///< of the film that is rendered [pixels]
 };
 
 /// What is learned during one render. absorb() and update() are called by one thread at a time;

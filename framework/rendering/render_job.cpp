@@ -183,7 +183,10 @@ class RenderJob::Implementation {
     has_image_ = false;
     last_image_ = make_film().layers();
     const GuidingSettings* settings = config_.integrator->guiding();
-    const LearningContext learning{scene_.bounds(), config_.seed, training_iterations()};
+    const LearningContext learning{.region = scene_.bounds(),
+                                   .seed = config_.seed,
+                                   .iterations = training_iterations(),
+                                   .window = config_.film.window()};
     guiding_ = settings == nullptr ? nullptr : std::make_unique<GuidingState>(*settings, learning);
     frame_ = guiding_ == nullptr ? nullptr : guiding_->frame();
   }

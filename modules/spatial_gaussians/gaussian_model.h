@@ -3,10 +3,9 @@
 #include <iosfwd>
 #include <vector>
 
+#include <pharos/guiding/kd_tree.h>
 #include <pharos/guiding/model.h>
 #include <pharos/guiding/spatial_mixture.h>
-
-#include "kd_tree.h"
 
 namespace pharos::gaussians {
 

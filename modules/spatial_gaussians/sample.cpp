@@ -4,30 +4,24 @@
 #include <cmath>
 
 #include <pharos/core/binary_stream.h>
+#include <pharos/guiding/guidable_steps.h>
 
 namespace pharos::gaussians {
 
 void extract_samples(const PathView& path, const SampleRule& rule, std::vector<Rgb>& incident,
                      std::vector<Sample>& samples) {
-  if (path.transport != Transport::radiance) return;
-  estimate_incident_radiance(path, incident);
-  for (std::size_t i = 1; i < path.vertices.size(); ++i) {
-    const RecordedVertex& end = path.vertices[i];
-    if (end.parent == kNoVertex || end.parent == 0) continue;
-    const RecordedVertex& vertex = path.vertices[end.parent];
-    if (!vertex.guidable || is_discrete(vertex.event)) continue;
-    // Of the density the direction's part; the medium's is as it is.
-    const float medium = vertex.medium_density;
-    const float pdf = std::max(vertex.pdf() / medium, rule.least_pdf);
-    const float weight = mean(vertex.transmittance * incident[end.parent]) / (pdf * medium);
-    if (!(weight >= 0) || !std::isfinite(weight) || !std::isfinite(pdf)) continue;
-    const bool escapes = end.kind == VertexKind::environment;
+  for_each_guidable_step(path, incident, [&](const GuidableStep& step) {
+    const float pdf = std::max(step.pdf, rule.least_pdf);
+    const float weight = mean(step.radiance) / pdf;
+    if (!(weight >= 0) || !std::isfinite(weight) || !std::isfinite(pdf)) return;
+    const Point3 origin = step.from.position;
+    const bool escapes = step.to.kind == VertexKind::environment;
     const Point3 target =
-        escapes ? vertex.position + rule.environment_distance * vertex.direction : end.position;
+        escapes ? origin + rule.environment_distance * step.from.direction : step.to.position;
     // So close that rounding leaves no direction.
-    if (!(length_squared(target - vertex.position) > 0)) continue;
-    samples.push_back({.origin = vertex.position, .target = target, .weight = weight, .pdf = pdf});
-  }
+    if (!(length_squared(target - origin) > 0)) return;
+    samples.push_back({.origin = origin, .target = target, .weight = weight, .pdf = pdf});
+  });
 }
 
 void save_sample(const Sample& sample, std::ostream& out) {

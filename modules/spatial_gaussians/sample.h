@@ -23,9 +23,7 @@ struct SampleRule {
   float environment_distance = 0;  ///< of the stand-ins for the environment [scene units]
 };
 
-/// Appends the steps of a path from the sensor that met something, those that found no light there
-/// included. (Steps that the surface scatters nothing into end unseen.) With Russian roulette
-/// weights lack its probability.
+/// Appends the guidable steps of a path from the sensor.
 void extract_samples(const PathView& path, const SampleRule& rule, std::vector<Rgb>& incident,
                      std::vector<Sample>& samples);
 

@@ -65,6 +65,16 @@ TEST_CASE("same bits: spatial Gaussians in a tree or as one mixture, with the le
   }
 }
 
+TEST_CASE("same bits: practical path guiding, with the SD-tree") {
+  for (const char* target : {"radiance", "relative"}) {
+    check_same_bits(cornell(fmt::format(
+        "sampler: sobol\nintegrator: {{ type: path, guiding: {{ learner: {{ type: sd_tree, target: "
+        "{}, spatial_threshold: 200 }}, guider: sd_tree, mixing: learned, training: {{ schedule: "
+        "geometric, images: combine }} }} }}\n",
+        target)));
+  }
+}
+
 TEST_CASE("same bits: focal guiding, with the learned model") {
   check_same_bits(
       cornell("sampler: sobol\nintegrator: { type: path, guiding: { learner: focal, guider: focal, "

@@ -74,6 +74,30 @@ std::vector<Method> gaussian_methods() {
           gaussians_learned()};
 }
 
+Method sd_tree(const char* target, const char* mixing, const char* filters, const char* images) {
+  return {fmt::format("sd_tree {} {} {}", target, mixing, images),
+          {fmt::format("learner={{ type: sd_tree, target: {}, spatial_threshold: 1000, {} }}",
+                       target, filters),
+           "guider=sd_tree", fmt::format("mixing={}", mixing),
+           fmt::format("training={{ schedule: geometric, images: {} }}", images)}};
+}
+
+/// The same of targets, ways to mix, filters, and uses of training images.
+std::vector<Method> sd_tree_methods() {
+  const char* nearest = "spatial_filter: nearest, directional_filter: nearest";
+  const char* smooth = "spatial_filter: stochastic, directional_filter: box";
+  const char *few = "{ type: fixed, unguided_fraction: 0.1 }", *half = "fixed";
+  const char *kl = "{ type: learned, objective: kl }",
+             *variance = "{ type: learned, objective: variance }";
+  return {sd_tree("radiance", kl, smooth, "combine"),
+          sd_tree("radiance", half, nearest, "discard"),
+          sd_tree("radiance", few, smooth, "discard"),
+          sd_tree("product", variance, smooth, "discard"),
+          sd_tree("product", few, nearest, "combine"),
+          sd_tree("relative", kl, nearest, "discard"),
+          sd_tree("relative", variance, smooth, "combine")};
+}
+
 LoadedConfig load(const std::filesystem::path& config, const std::vector<std::string>& guiding,
                   std::vector<std::string> overrides = {}) {
   for (const std::string& setting : guiding) {
@@ -135,6 +159,10 @@ TEST_CASE("unbiased: spatial Gaussians under strips of light") {
   compare_proof("strip-lights", {gaussian_methods().front()});
 }
 
+TEST_CASE("unbiased: an SD-tree under strips of light") {
+  compare_proof("strip-lights", {sd_tree_methods().front()});
+}
+
 TEST_CASE("unbiased: every proof variant has a case below") {
   std::vector<std::string> found;
   for (const auto& entry : std::filesystem::directory_iterator(PHAROS_PROOF_CONFIGS)) {
@@ -169,6 +197,19 @@ TEST_CASE("long: spatial Gaussians are unbiased in the proof variant standing-li
 }
 TEST_CASE("long: spatial Gaussians are unbiased in the proof variant strip-lights") {
   compare_proof("strip-lights", gaussian_methods());
+}
+
+TEST_CASE("long: SD-trees are unbiased in the proof variant camera-obscura") {
+  compare_proof("camera-obscura", sd_tree_methods());
+}
+TEST_CASE("long: SD-trees are unbiased in the proof variant hall") {
+  compare_proof("hall", sd_tree_methods());
+}
+TEST_CASE("long: SD-trees are unbiased in the proof variant living-room") {
+  compare_proof("living-room", sd_tree_methods());
+}
+TEST_CASE("long: SD-trees are unbiased in the proof variant strip-lights") {
+  compare_proof("strip-lights", sd_tree_methods());
 }
 
 // (Not the smallest pinhole: with so few samples most renders have yet to find it.)

@@ -1,10 +1,9 @@
-#include "kd_tree.h"
-
 #include <algorithm>
 
 #include <pharos/core/binary_stream.h>
+#include <pharos/guiding/kd_tree.h>
 
-namespace pharos::gaussians {
+namespace pharos {
 namespace {
 
 constexpr const char* kHeading = "kd_tree";
@@ -12,7 +11,7 @@ constexpr std::uint32_t kVersion = 1;
 constexpr std::uint32_t kMostNodes = 1u << 25;
 
 void expect(bool holds) {
-  if (!holds) throw InputError("the kd-tree of the Gaussians is damaged");
+  if (!holds) throw InputError("the kd-tree is damaged");
 }
 
 }  // namespace
@@ -87,4 +86,4 @@ KdTree KdTree::load(std::istream& in) {
   return tree;
 }
 
-}  // namespace pharos::gaussians
+}  // namespace pharos

@@ -6,7 +6,7 @@
 
 #include <pharos/core/vec.h>
 
-namespace pharos::gaussians {
+namespace pharos {
 
 /// All of space, divided into cells by planes across its axes.
 class KdTree {
@@ -57,4 +57,4 @@ class KdTree {
   std::vector<Node> nodes_{Node::cell(0)};  ///< children follow their parents
 };
 
-}  // namespace pharos::gaussians
+}  // namespace pharos

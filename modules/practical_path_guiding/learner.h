@@ -1,0 +1,67 @@
+#pragma once
+
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include <pharos/config/schema.h>
+#include <pharos/guiding/learner.h>
+
+#include "records.h"
+
+namespace pharos {
+namespace ppg {
+
+enum class SpatialFilter {
+  nearest,    ///< the cell that a record lies in
+  stochastic  ///< a cell at random within a box of that cell's size around the record
+};
+enum class DirectionalFilter {
+  nearest,  ///< the leaf that a direction lies in
+  box       ///< all leaves, by their shares of a box of that leaf's size around the direction
+};
+
+/// Parameters of the method; docs and sources are in the README.
+struct SdTreeSettings {
+  double spatial_threshold = 4000;
+  int spatial_depth = 40;
+  double directional_threshold = 0.01;
+  int directional_depth = 20;
+  SpatialFilter spatial_filter = SpatialFilter::stochastic;
+  DirectionalFilter directional_filter = DirectionalFilter::box;
+  GuidingTarget target = GuidingTarget::radiance;
+  int pixel_radius = 2;
+  double least_pixel = 0.01;
+  std::uint32_t batch_records = 1u << 20;
+
+  static void describe(Schema<SdTreeSettings>& schema);
+};
+
+/// Learns an SD-tree (Mueller et al. 2017, with the improvements of 2019).
+class SdTreeLearner final : public Learner {
+ public:
+  using Settings = SdTreeSettings;
+  explicit SdTreeLearner(const Settings& settings) : settings_(settings) {}
+
+  LearnerTraits traits() const override;
+  std::unique_ptr<LearningState> begin(const LearningContext& context) const override;
+  std::shared_ptr<const GuidingModel> load_model(std::istream& in) const override;
+
+ private:
+  Settings settings_;
+};
+
+}  // namespace ppg
+
+template <>
+struct EnumNames<ppg::SpatialFilter> {
+  static constexpr std::array<std::pair<std::string_view, ppg::SpatialFilter>, 2> names{
+      {{"nearest", ppg::SpatialFilter::nearest}, {"stochastic", ppg::SpatialFilter::stochastic}}};
+};
+template <>
+struct EnumNames<ppg::DirectionalFilter> {
+  static constexpr std::array<std::pair<std::string_view, ppg::DirectionalFilter>, 2> names{
+      {{"nearest", ppg::DirectionalFilter::nearest}, {"box", ppg::DirectionalFilter::box}}};
+};
+
+}  // namespace pharos

@@ -1,0 +1,227 @@
+#include "learning_state.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <pharos/core/binary_stream.h>
+#include <pharos/core/counting_sort.h>
+
+#include "sd_tree.h"
+
+namespace pharos::ppg {
+namespace {
+
+constexpr const char* kHeading = "sd_tree_learning";
+constexpr std::uint32_t kVersion = 1;
+
+/// A cube with the scene's lowest corner. (A scene without extent is taken to be of size one.)
+Bounds3 cube_around(const Bounds3& region) {
+  const Vec3 extent = region.high - region.low;
+  const float size = std::max({extent.x, extent.y, extent.z});
+  Bounds3 cube;
+  cube.add(region.low);
+  const float edge = size > 0 ? size : 1;
+  cube.add(region.low + Vec3{edge, edge, edge});
+  return cube;
+}
+
+/// Both halves of a box.
+std::array<Bounds3, 2> halves(const Bounds3& box, int axis) {
+  std::array<Bounds3, 2> parts{box, box};
+  parts[0].high[axis] = parts[1].low[axis] = 0.5f * (box.low[axis] + box.high[axis]);
+  return parts;
+}
+
+/// The whole path's contribution to its pixel, mean of the channels.
+double value_of(const PathView& path, const std::vector<Rgb>& incident) {
+  const RecordedVertex& lens = path.vertices[0];
+  return mean(lens.throughput * lens.local_weight * incident[0]);
+}
+
+}  // namespace
+
+SdTreeState::SdTreeState(const SdTreeSettings& settings, const LearningContext& context)
+    : settings_(settings),
+      seed_(context.seed),
+      film_pixels_(static_cast<double>(context.window.area())),
+      cells_{{.box = cube_around(context.region), .learning = QuadTree(refinement())}},
+      pixels_(context.window) {}
+
+void SdTreeState::absorb(const PathLog& log) {
+  for (std::size_t i = 0; i < log.size(); ++i) {
+    const PathView path = log[i];
+    if (path.transport != Transport::radiance) continue;
+    extract_records(path, settings_.target, pixels_, incident_, records_);
+    ++paths_;
+    if (settings_.target != GuidingTarget::relative) continue;
+    const double value = value_of(path, incident_);
+    if (std::isfinite(value)) pixels_.add(path.film, value);
+  }
+  if (records_.size() >= settings_.batch_records) flush();
+}
+
+std::uint32_t SdTreeState::cell_for(const Record& record, RandomStream random) const {
+  const std::uint32_t own = tree_.cell_at(record.position);
+  if (settings_.spatial_filter == SpatialFilter::nearest) return own;
+  const Bounds3& box = cells_[own].box;
+  Point3 p = record.position;
+  for (int axis = 0; axis < 3; ++axis) {
+    p[axis] += (random.next_1d() - 0.5f) * (box.high[axis] - box.low[axis]);
+  }
+  return tree_.cell_at(p);
+}
+
+void SdTreeState::flush() {
+  const std::vector<std::size_t> first = sort_by_key(records_, cells_.size(), [&](std::size_t i) {
+    return cell_for(records_[i], RandomStream(seed_, batches_, i));
+  });
+  parallel_for(cells_.size(), [&](std::size_t i) {
+    Cell& cell = cells_[i];
+    for (std::size_t k = first[i]; k < first[i + 1]; ++k) {
+      const Record& record = records_[k];
+      ++cell.records;
+      if (record.value == 0) continue;
+      cell.light += record.value;
+      if (settings_.directional_filter == DirectionalFilter::box) {
+        cell.learning.spread(record.direction, record.value);
+      } else {
+        cell.learning.add(record.direction, record.value);
+      }
+    }
+  });
+  records_.clear();
+  ++batches_;
+}
+
+std::shared_ptr<const GuidingModel> SdTreeState::update(std::uint32_t, bool) {
+  flush();
+  const double samples = paths_ / film_pixels_;  // a pixel
+  const double threshold = settings_.spatial_threshold * std::sqrt(samples / 2);
+  parallel_for(cells_.size(), [&](std::size_t i) { conclude(cells_[i]); });
+  const std::vector<std::uint32_t> leaves = tree_.leaves();
+  for (std::uint32_t cell = 0; cell < leaves.size(); ++cell) {
+    halve(leaves[cell], cell, threshold);
+  }
+  const bool knows_something = std::any_of(cells_.begin(), cells_.end(),
+                                           [](const Cell& cell) { return !cell.known.empty(); });
+  auto learned = knows_something ? model() : nullptr;
+  if (learned != nullptr) std::iota(origins_.begin(), origins_.end(), 0u);
+  for (Cell& cell : cells_) cell.records = 0;
+  pixels_.update(settings_.pixel_radius, settings_.least_pixel);
+  paths_ = 0;
+  return learned;
+}
+
+void SdTreeState::conclude(Cell& cell) const {
+  // Who found nothing keeps what is known.
+  if (cell.learning.total() > 0) {
+    cell.known = cell.learning.density(leaf_mass());
+    cell.known_light = static_cast<float>(cell.light / cell.records);
+    cell.learning = cell.learning.refined(leaf_mass(), refinement());
+  }
+  cell.light = 0;
+}
+
+void SdTreeState::halve(std::uint32_t leaf, std::uint32_t cell, double threshold) {
+  if (!(cells_[cell].records > threshold) || cells_[cell].level >= settings_.spatial_depth) return;
+  const int axis = cells_[cell].level % 3;
+  const std::array<Bounds3, 2> parts = halves(cells_[cell].box, axis);
+  const KdTree::Halves places = tree_.divide(leaf, axis, parts[1].low[axis]);
+  const auto added = static_cast<std::uint32_t>(cells_.size());
+  cells_[cell].records /= 2;
+  ++cells_[cell].level;
+  cells_.push_back(cells_[cell]);
+  origins_.push_back(origins_[cell]);
+  cells_[cell].box = parts[0];
+  cells_[added].box = parts[1];
+  halve(places.low, cell, threshold);
+  halve(places.high, added, threshold);
+}
+
+std::shared_ptr<const GuidingModel> SdTreeState::model() const {
+  std::vector<SdTree::Cell> cells;
+  for (const Cell& cell : cells_) cells.push_back({cell.known, cell.known_light});
+  return std::make_shared<SdTree>(tree_, cells, origins_);
+}
+
+void SdTreeState::save(std::ostream& out) const {
+  save_heading(out, kHeading, kVersion);
+  tree_.save(out);
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    const Cell& cell = cells_[i];
+    save_number(out, origins_[i]);
+    for (const Point3 corner : {cell.box.low, cell.box.high}) {
+      for (int axis = 0; axis < 3; ++axis) save_number(out, corner[axis]);
+    }
+    save_number(out, cell.level);
+    save_number(out, cell.records);
+    save_number(out, cell.light);
+    save_number(out, cell.known_light);
+    cell.learning.save(out);
+    save_nodes(cell.known, out);
+  }
+  pixels_.save(out);
+  save_number(out, batches_);
+  save_number(out, paths_);
+  save_number(out, static_cast<std::uint64_t>(records_.size()));
+  for (const Record& record : records_) save_record(record, out);
+}
+
+void SdTreeState::load(std::istream& in) {
+  SdTreeState loaded(*this);
+  loaded.read(in);
+  *this = std::move(loaded);
+}
+
+void SdTreeState::read(std::istream& in) {
+  const auto expect = [](bool holds) {
+    if (!holds) throw InputError("the learning of the SD-tree is damaged");
+  };
+  expect_heading(in, kHeading, kVersion);
+  tree_ = KdTree::load(in);
+  cells_.clear();
+  origins_.clear();
+  while (cells_.size() < tree_.cell_count()) {
+    origins_.push_back(load_number<std::uint32_t>(in));
+    expect(origins_.back() <= cells_.size());
+    Cell& cell = cells_.emplace_back(Cell{.box = {}, .learning = QuadTree(refinement())});
+    for (Point3* corner : {&cell.box.low, &cell.box.high}) {
+      for (int axis = 0; axis < 3; ++axis) (*corner)[axis] = load_finite<float>(in);
+    }
+    cell.level = load_number<int>(in);
+    cell.records = load_finite<double>(in);
+    cell.light = load_finite<double>(in);
+    cell.known_light = load_finite<float>(in);
+    expect(cell.level >= 0 && cell.level <= KdTree::kMostLevels && cell.records >= 0 &&
+           cell.light >= 0 && cell.known_light >= 0);
+    cell.learning = QuadTree::load(in);
+    cell.known = load_nodes(in);
+  }
+  pixels_.load(in);
+  batches_ = load_number<std::uint64_t>(in);
+  paths_ = load_finite<double>(in);
+  records_.clear();
+  for (auto count = load_number<std::uint64_t>(in); count > 0; --count) {
+    records_.push_back(load_record(in));
+  }
+}
+
+void SdTreeState::merge(const LearningState& other) {
+  const auto& theirs = dynamic_cast<const SdTreeState&>(other);
+  bool is_alike = theirs.tree_ == tree_;
+  for (std::size_t i = 0; is_alike && i < cells_.size(); ++i) {
+    is_alike = cells_[i].learning.has_leaves_of(theirs.cells_[i].learning);
+  }
+  if (!is_alike) throw InputError("SD-trees of different iterations or scenes cannot be merged");
+  pixels_.merge(theirs.pixels_);
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    cells_[i].records += theirs.cells_[i].records;
+    cells_[i].light += theirs.cells_[i].light;
+    cells_[i].learning.add(theirs.cells_[i].learning);
+  }
+  paths_ += theirs.paths_;
+  records_.insert(records_.end(), theirs.records_.begin(), theirs.records_.end());
+}
+
+}  // namespace pharos::ppg

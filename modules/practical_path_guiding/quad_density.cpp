@@ -1,0 +1,112 @@
+#include "quad_density.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <pharos/core/binary_stream.h>
+
+#include "quad_links.h"
+
+namespace pharos::ppg {
+namespace {
+
+constexpr std::uint32_t kMostNodes = 1u << 24;
+
+void expect(bool holds) {
+  if (!holds) throw InputError("the directional tree is damaged");
+}
+
+/// Whether u in [0, 1) falls to the upper part, `low` and `high` being what the parts weigh; u
+/// becomes its place within the part.
+bool descend(double& u, double low, double high) {
+  const double scaled = u * (low + high);
+  const bool is_high = scaled >= low && high > 0;
+  u = is_high ? (scaled - low) / high : scaled / low;
+  constexpr double kLast = 1 - 0x1p-53;
+  u = std::min(u, kLast);
+  return is_high;
+}
+
+/// A node's densities are what those below it make.
+void expect_means(const std::vector<QuadNode>& nodes) {
+  constexpr double kRounding = 1e-3;
+  const auto mean_of = [&](std::uint32_t i) {
+    double sum = 0;
+    for (const float d : nodes[i].density) sum += d;
+    return sum / 4;
+  };
+  expect(std::abs(mean_of(0) - 1) < kRounding);
+  for (const QuadNode& node : nodes) {
+    for (int q = 0; q < 4; ++q) {
+      if (node.child[q] == 0) continue;
+      const double own = node.density[q];
+      expect(std::abs(mean_of(node.child[q]) - own) <= kRounding * own);
+    }
+  }
+}
+
+}  // namespace
+
+float QuadDensity::at(Vec2 p) const {
+  // In fixed point each level's quarter is a bit of either coordinate.
+  constexpr int kBits = 24;
+  auto x = static_cast<std::uint32_t>(p.x * (1 << kBits));
+  auto y = static_cast<std::uint32_t>(p.y * (1 << kBits));
+  const QuadNode* node = nodes_.data();
+  while (true) {
+    const std::uint32_t quarter = (x >> (kBits - 1) & 1) | (y >> (kBits - 2) & 2);
+    const std::uint32_t child = node->child[quarter];
+    if (child == 0) return node->density[quarter];
+    node = nodes_.data() + child;
+    x <<= 1;
+    y <<= 1;
+  }
+}
+
+Vec2 QuadDensity::sample(Vec2 u) const {
+  double x = u.x, y = u.y, x_low = 0, y_low = 0, size = 1;
+  std::uint32_t at = 0;
+  do {
+    const QuadNode& node = nodes_[at];
+    const float* d = node.density;
+    const unsigned right = descend(x, double{d[0]} + d[2], double{d[1]} + d[3]) ? 1 : 0;
+    const unsigned upper = descend(y, d[right], d[right + 2]) ? 2 : 0;
+    size /= 2;
+    x_low += right != 0 ? size : 0;
+    y_low += upper != 0 ? size : 0;
+    at = node.child[right | upper];
+  } while (at != 0);
+  const auto within = [](double low, double high) {
+    const auto f = static_cast<float>(low);
+    return f < high ? f : std::nextafter(static_cast<float>(high), 0.0f);
+  };
+  return {within(x_low + x * size, x_low + size), within(y_low + y * size, y_low + size)};
+}
+
+void save_nodes(std::span<const QuadNode> nodes, std::ostream& out) {
+  save_number(out, static_cast<std::uint32_t>(nodes.size()));
+  for (const QuadNode& node : nodes) {
+    for (const float d : node.density) save_number(out, d);
+    for (const std::uint32_t c : node.child) save_number(out, c);
+  }
+}
+
+std::vector<QuadNode> load_nodes(std::istream& in) {
+  const auto count = load_number<std::uint32_t>(in);
+  expect(count <= kMostNodes);
+  std::vector<QuadNode> nodes;
+  // Nodes come one by one, so that a wrong count costs no memory.
+  while (nodes.size() < count) {
+    QuadNode& node = nodes.emplace_back();
+    for (float& d : node.density) {
+      d = load_finite<float>(in);
+      expect(d >= 0);
+    }
+    for (std::uint32_t& c : node.child) c = load_number<std::uint32_t>(in);
+  }
+  expect(is_quadtree(nodes, QuadDensity::kMostLevels));
+  if (count > 0) expect_means(nodes);
+  return nodes;
+}
+
+}  // namespace pharos::ppg

@@ -1,0 +1,203 @@
+#include "quad_tree.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <pharos/core/binary_stream.h>
+
+#include "quad_links.h"
+
+namespace pharos::ppg {
+namespace {
+
+constexpr std::uint32_t kMostNodes = 1u << 24;
+
+double sum_of(const double (&masses)[4]) {
+  return (masses[0] + masses[1]) + (masses[2] + masses[3]);
+}
+
+}  // namespace
+
+/// Divides quarters from the root down, with more than their share of `total`.
+struct QuadTree::Growth {
+  const QuadRefinement& rule;
+  const std::vector<Node>& old;
+  double total;
+  std::vector<Node> nodes;
+
+  /// Adds a node at a depth (the root's is 1) for the old node of this number, or, below an old
+  /// leaf, for a mass that is spread evenly.
+  std::uint32_t grow(int depth, const Node* was, double mass) {
+    const auto index = static_cast<std::uint32_t>(nodes.size());
+    nodes.emplace_back();
+    for (int q = 0; q < 4; ++q) {
+      const double own = was != nullptr ? was->mass[q] : mass / 4;
+      if (depth >= rule.max_depth || !(own > rule.threshold * total)) continue;
+      const std::uint32_t below = was != nullptr ? was->child[q] : 0;
+      const std::uint32_t child = grow(depth + 1, below != 0 ? &old[below] : nullptr, own);
+      nodes[index].child[q] = child;
+    }
+    return index;
+  }
+};
+
+QuadTree::QuadTree(const QuadRefinement& rule) {
+  Growth growth{rule, {}, 1, {}};
+  growth.grow(1, nullptr, 1);
+  nodes_ = std::move(growth.nodes);
+}
+
+QuadTree::Leaf QuadTree::leaf_at(Vec2 p) const {
+  Leaf leaf{0, 0, 0};
+  double x = p.x, y = p.y;
+  while (true) {
+    x *= 2;
+    y *= 2;
+    const unsigned right = x >= 1 ? 1 : 0, upper = y >= 1 ? 1 : 0;
+    x -= right;
+    y -= upper;
+    leaf.quarter = right | upper << 1;
+    ++leaf.depth;
+    const std::uint32_t child = nodes_[leaf.node].child[leaf.quarter];
+    if (child == 0) return leaf;
+    leaf.node = child;
+  }
+}
+
+void QuadTree::add(Vec2 p, double value) {
+  const Leaf leaf = leaf_at(p);
+  nodes_[leaf.node].mass[leaf.quarter] += value;
+}
+
+void QuadTree::spread(Vec2 p, double value) {
+  const double size = std::ldexp(1.0, -leaf_at(p).depth);
+  const double density = value / (size * size);
+  const auto add_turned = [&](double x0, double x1, double y0) {
+    // What is left of the seam, and what goes on at the other edge.
+    y0 -= std::floor(y0);
+    const double y1 = y0 + size;
+    add_to(0, {0, 1, 0, 1}, {x0, x1, y0, std::min(y1, 1.0)}, density);
+    if (y1 > 1) add_to(0, {0, 1, 0, 1}, {x0, x1, 0, y1 - 1}, density);
+  };
+  const double x0 = p.x - size / 2, x1 = p.x + size / 2, y0 = p.y - size / 2;
+  add_turned(std::max(x0, 0.0), std::min(x1, 1.0), y0);
+  // Over a pole to its other side.
+  if (x0 < 0) add_turned(0, -x0, y0 + 0.5);
+  if (x1 > 1) add_turned(2 - x1, 1, y0 + 0.5);
+}
+
+void QuadTree::add_to(std::uint32_t node, Rectangle square, const Rectangle& part, double density) {
+  const double x = (square.x0 + square.x1) / 2, y = (square.y0 + square.y1) / 2;
+  for (unsigned q = 0; q < 4; ++q) {
+    const bool right = (q & 1) != 0, upper = (q & 2) != 0;
+    const Rectangle quarter{right ? x : square.x0, right ? square.x1 : x, upper ? y : square.y0,
+                            upper ? square.y1 : y};
+    const double width = std::min(part.x1, quarter.x1) - std::max(part.x0, quarter.x0);
+    const double height = std::min(part.y1, quarter.y1) - std::max(part.y0, quarter.y0);
+    if (!(width > 0 && height > 0)) continue;
+    const std::uint32_t child = nodes_[node].child[q];
+    if (child == 0) {
+      nodes_[node].mass[q] += density * width * height;
+    } else {
+      add_to(child, quarter, part, density);
+    }
+  }
+}
+
+bool QuadTree::has_leaves_of(const QuadTree& other) const {
+  return std::equal(nodes_.begin(), nodes_.end(), other.nodes_.begin(), other.nodes_.end(),
+                    [](const Node& a, const Node& b) {
+                      return std::equal(std::begin(a.child), std::end(a.child),
+                                        std::begin(b.child));
+                    });
+}
+
+void QuadTree::add(const QuadTree& other) {
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    for (int q = 0; q < 4; ++q) nodes_[i].mass[q] += other.nodes_[i].mass[q];
+  }
+}
+
+double QuadTree::total() const {
+  double total = 0;
+  for (const Node& node : nodes_) total += sum_of(node.mass);
+  return total;
+}
+
+std::vector<QuadTree::Node> QuadTree::with_masses(LeafMass kind) const {
+  std::vector<Node> nodes = nodes_;
+  std::vector<double> areas(nodes.size(), 1);  // of the nodes' squares
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    for (int q = 0; q < 4; ++q) {
+      const double area = areas[i] / 4;
+      if (nodes[i].child[q] != 0) {
+        areas[nodes[i].child[q]] = area;
+      } else if (kind == LeafMass::root) {
+        nodes[i].mass[q] = std::sqrt(area * nodes[i].mass[q]);
+      }
+    }
+  }
+  for (std::size_t i = nodes.size(); i-- > 0;) {  // children stand after their parents
+    for (int q = 0; q < 4; ++q) {
+      if (nodes[i].child[q] != 0) nodes[i].mass[q] = sum_of(nodes[nodes[i].child[q]].mass);
+    }
+  }
+  return nodes;
+}
+
+std::vector<QuadNode> QuadTree::density(LeafMass kind) const {
+  const std::vector<Node> masses = with_masses(kind);
+  const double total = sum_of(masses[0].mass);
+  std::vector<double> areas(masses.size(), 1);
+  std::vector<QuadNode> nodes(masses.size());
+  for (std::size_t i = 0; i < masses.size(); ++i) {
+    for (int q = 0; q < 4; ++q) {
+      const double area = areas[i] / 4;
+      const std::uint32_t child = masses[i].child[q];
+      if (child != 0) areas[child] = area;
+      nodes[i].child[q] = child;
+      nodes[i].density[q] = static_cast<float>(masses[i].mass[q] / (area * total));
+    }
+  }
+  return nodes;
+}
+
+QuadTree QuadTree::refined(LeafMass kind, const QuadRefinement& rule) const {
+  const std::vector<Node> masses = with_masses(kind);
+  const double total = sum_of(masses[0].mass);
+  if (!(total > 0)) return QuadTree(rule);
+  Growth growth{rule, masses, total, {}};
+  growth.grow(1, &masses[0], total);
+  QuadTree tree;
+  tree.nodes_ = std::move(growth.nodes);
+  return tree;
+}
+
+void QuadTree::save(std::ostream& out) const {
+  save_number(out, static_cast<std::uint32_t>(nodes_.size()));
+  for (const Node& node : nodes_) {
+    for (const double m : node.mass) save_number(out, m);
+    for (const std::uint32_t c : node.child) save_number(out, c);
+  }
+}
+
+QuadTree QuadTree::load(std::istream& in) {
+  const auto expect = [](bool holds) {
+    if (!holds) throw InputError("the learning of the directional trees is damaged");
+  };
+  const auto count = load_number<std::uint32_t>(in);
+  expect(count > 0 && count <= kMostNodes);
+  QuadTree tree;
+  while (tree.nodes_.size() < count) {
+    Node& node = tree.nodes_.emplace_back();
+    for (double& m : node.mass) {
+      m = load_finite<double>(in);
+      expect(m >= 0);
+    }
+    for (std::uint32_t& c : node.child) c = load_number<std::uint32_t>(in);
+  }
+  expect(is_quadtree(tree.nodes_, QuadDensity::kMostLevels));
+  return tree;
+}
+
+}  // namespace pharos::ppg

@@ -1,0 +1,54 @@
+#include "records.h"
+
+#include <cmath>
+
+#include <pharos/core/binary_stream.h>
+#include <pharos/core/warp.h>
+#include <pharos/guiding/guidable_steps.h>
+
+namespace pharos::ppg {
+namespace {
+
+double value_of(const GuidableStep& step, GuidingTarget target, double pixel) {
+  if (target == GuidingTarget::radiance) return double{mean(step.radiance)} / step.pdf;
+  const double x = target == GuidingTarget::product
+                       ? mean(step.reflected)
+                       : mean(step.from.throughput * step.reflected) / pixel;
+  // The step's estimate is x; as an integrand it is x p, of which the second moment is wanted.
+  return x * x * step.pdf;
+}
+
+}  // namespace
+
+void extract_records(const PathView& path, GuidingTarget target, const PixelEstimates& pixels,
+                     std::vector<Rgb>& incident, std::vector<Record>& records) {
+  const double pixel = target == GuidingTarget::relative ? pixels.at(path.film) : 1;
+  for_each_guidable_step(path, incident, [&](const GuidableStep& step) {
+    const double value = value_of(step, target, pixel);
+    // One infinite value would stay in the sums for good.
+    if (!(value >= 0) || !(value < std::numeric_limits<float>::max())) return;
+    records.push_back({.position = step.from.position,
+                       .direction = warp::square_from_sphere(step.from.direction),
+                       .value = static_cast<float>(value)});
+  });
+}
+
+void save_record(const Record& record, std::ostream& out) {
+  for (int axis = 0; axis < 3; ++axis) save_number(out, record.position[axis]);
+  for (const float v : {record.direction.x, record.direction.y, record.value}) save_number(out, v);
+}
+
+Record load_record(std::istream& in) {
+  Record record;
+  for (int axis = 0; axis < 3; ++axis) record.position[axis] = load_finite<float>(in);
+  for (float* v : {&record.direction.x, &record.direction.y, &record.value}) {
+    *v = load_finite<float>(in);
+  }
+  const auto is_unit = [](float v) { return v >= 0 && v < 1; };
+  if (!is_unit(record.direction.x) || !is_unit(record.direction.y) || record.value < 0) {
+    throw InputError("a record of the directional trees is damaged");
+  }
+  return record;
+}
+
+}  // namespace pharos::ppg

@@ -1,0 +1,224 @@
+#include "../quad_tree.h"
+
+#include <cmath>
+#include <sstream>
+
+#include <doctest/doctest.h>
+
+#include <pharos/core/error.h>
+#include <pharos/core/random.h>
+#include <pharos/core/warp.h>
+#include <pharos/statistics/goodness_of_fit.h>
+
+namespace pharos::ppg {
+namespace {
+
+/// A tree that has seen a narrow peak at `peak`, refined twice.
+QuadTree peaked(Vec2 peak, LeafMass kind = LeafMass::sum) {
+  const QuadRefinement rule;
+  QuadTree tree(rule);
+  RandomStream random(3);
+  for (int iteration = 0; iteration < 3; ++iteration) {
+    if (iteration > 0) tree = tree.refined(kind, rule);
+    for (int i = 0; i < 4000; ++i) {
+      const Vec2 u = random.next_2d();
+      const float x = peak.x + 0.02f * (u.x - 0.5f), y = peak.y + 0.02f * (u.y - 0.5f);
+      const bool is_peak = i % 2 == 0;
+      tree.add(is_peak ? Vec2{x, y} : random.next_2d(), 0.5 + random.next_1d());
+    }
+  }
+  return tree;
+}
+
+/// The integral of a density over [x0, x1) x [y0, y1), by its values at leaves' corners on a grid
+/// that is as fine as they are.
+double integral(const QuadDensity& density, int cells = 512) {
+  double sum = 0;
+  for (int y = 0; y < cells; ++y) {
+    for (int x = 0; x < cells; ++x) {
+      sum += density.at({(static_cast<float>(x) + 0.5f) / static_cast<float>(cells),
+                         (static_cast<float>(y) + 0.5f) / static_cast<float>(cells)});
+    }
+  }
+  return sum / (static_cast<double>(cells) * cells);
+}
+
+TEST_CASE("an empty tree is refined evenly, down to the share a leaf may have") {
+  // 4^-3 is above 0.01, 4^-4 is not: 16 x 16 leaves, and 1 + 4 + 16 + 64 nodes.
+  CHECK(QuadTree(QuadRefinement{}).node_count() == 85);
+  CHECK(QuadTree({.threshold = 1}).node_count() == 1);
+  CHECK(QuadTree({.threshold = 0.3}).node_count() == 1);
+  CHECK(QuadTree({.threshold = 0.2}).node_count() == 5);
+  CHECK(QuadTree({.threshold = 1e-9, .max_depth = 3}).node_count() == 1 + 4 + 16);
+}
+
+TEST_CASE("densities integrate to one and are what their leaves hold") {
+  QuadTree tree({.threshold = 0.2});  // 4 x 4 leaves
+  tree.add({0.1f, 0.1f}, 1);
+  tree.add({0.9f, 0.1f}, 3);
+  const std::vector<QuadNode> nodes = tree.density(LeafMass::sum);
+  const QuadDensity density(nodes);
+  CHECK(density.at({0.2f, 0.2f}) == doctest::Approx(0.25 * 16));
+  CHECK(density.at({0.8f, 0.2f}) == doctest::Approx(0.75 * 16));
+  CHECK(density.at({0.8f, 0.3f}) == 0);
+  CHECK(integral(density, 64) == doctest::Approx(1));
+  const std::vector<QuadNode> peak = peaked({0.3f, 0.7f}).density(LeafMass::sum);
+  CHECK(integral(QuadDensity(peak)) == doctest::Approx(1).epsilon(1e-5));
+}
+
+TEST_CASE("second moments become the root of area times sum") {
+  QuadTree tree({.threshold = 0.2});
+  tree.add({0.1f, 0.1f}, 1);
+  tree.add({0.9f, 0.1f}, 9);
+  const std::vector<QuadNode> nodes = tree.density(LeafMass::root);
+  CHECK(QuadDensity(nodes).at({0.1f, 0.1f}) == doctest::Approx(0.25 * 16));
+  CHECK(QuadDensity(nodes).at({0.9f, 0.1f}) == doctest::Approx(0.75 * 16));
+  // A leaf of a quarter of the area counts half as much for the same sum.
+  QuadTree uneven = QuadTree({.threshold = 1});
+  uneven.add({0.1f, 0.1f}, 4);
+  uneven.add({0.9f, 0.1f}, 1);
+  uneven = uneven.refined(LeafMass::sum, {.threshold = 0.5});
+  REQUIRE(uneven.node_count() == 2);
+  uneven.add({0.1f, 0.1f}, 1);
+  uneven.add({0.9f, 0.1f}, 1);
+  const std::vector<QuadNode> mixed = uneven.density(LeafMass::root);
+  CHECK(QuadDensity(mixed).at({0.1f, 0.1f}) == doctest::Approx(16.0 / 3));
+  CHECK(QuadDensity(mixed).at({0.9f, 0.1f}) == doctest::Approx(4 * 2.0 / 3));
+}
+
+TEST_CASE("refinement keeps the flux and divides what has more than its share") {
+  const QuadTree tree = peaked({0.3f, 0.7f});
+  const QuadRefinement rule{.threshold = 0.004};
+  QuadTree finer = tree.refined(LeafMass::sum, rule);
+  CHECK(finer.total() == 0);
+  CHECK(finer.node_count() > tree.node_count());
+  // Filled with samples of the density it makes the same density, leaf by leaf.
+  const std::vector<QuadNode> nodes = tree.density(LeafMass::sum);
+  const QuadDensity density(nodes);
+  constexpr int kGrid = 1024;
+  double most = 0;
+  for (int y = 0; y < kGrid; ++y) {
+    for (int x = 0; x < kGrid; ++x) {
+      const Vec2 p{(static_cast<float>(x) + 0.5f) / kGrid, (static_cast<float>(y) + 0.5f) / kGrid};
+      finer.add(p, density.at(p));
+    }
+  }
+  const std::vector<QuadNode> same = finer.density(LeafMass::sum);
+  for (const Vec2 p : {Vec2{0.3f, 0.7f}, {0.305f, 0.695f}, {0.1f, 0.1f}, {0.99f, 0.5f}}) {
+    most = std::max(most, std::abs(double{QuadDensity(same).at(p)} / density.at(p) - 1));
+  }
+  CHECK(most < 1e-5);
+  // No leaf of the finer tree has much more than its share, nor do brothers of four leaves less.
+  CHECK(QuadTree(rule).refined(LeafMass::sum, rule).node_count() == QuadTree(rule).node_count());
+  for (const QuadNode& node : same) {
+    for (int q = 0; q < 4; ++q) CHECK(node.density[q] >= 0);
+  }
+}
+
+TEST_CASE("the box filter keeps what it spreads, over the seam and over the poles") {
+  RandomStream random(5);
+  const QuadTree start = peaked({0.999f, 0.001f});
+  for (int i = 0; i < 2000; ++i) {
+    QuadTree tree = start.refined(LeafMass::sum, {});
+    Vec2 p = random.next_2d();
+    if (i % 3 == 0) p.x = random.next_1d() < 0.5f ? 0.0f : std::nextafter(1.0f, 0.0f);
+    if (i % 5 == 0) p.y = random.next_1d() < 0.5f ? 0.0f : std::nextafter(1.0f, 0.0f);
+    tree.spread(p, 2.5);
+    CHECK(tree.total() == doctest::Approx(2.5).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("a box goes on at the other edge of the seam, and half a turn further at a pole") {
+  const QuadRefinement rule{.threshold = 0.2};  // 4 x 4 leaves
+  const auto share_at = [&](Vec2 center, Vec2 p) {
+    QuadTree tree(rule);
+    tree.spread(center, 1);
+    const std::vector<QuadNode> nodes = tree.density(LeafMass::sum);
+    return double{QuadDensity(nodes).at(p)} / 16;
+  };
+  // Centre at the middle of a leaf's edge on the seam: half of the box on either side.
+  CHECK(share_at({0.375f, 0}, {0.375f, 0.1f}) == doctest::Approx(0.5));
+  CHECK(share_at({0.375f, 0}, {0.375f, 0.9f}) == doctest::Approx(0.5));
+  // On a pole: one half stays, the other one lies opposite.
+  CHECK(share_at({0, 0.125f}, {0.1f, 0.125f}) == doctest::Approx(0.5));
+  CHECK(share_at({0, 0.125f}, {0.1f, 0.625f}) == doctest::Approx(0.5));
+  const float one = std::nextafter(1.0f, 0.0f);
+  CHECK(share_at({one, 0.875f}, {0.9f, 0.875f}) == doctest::Approx(0.5).epsilon(1e-5));
+  CHECK(share_at({one, 0.875f}, {0.9f, 0.375f}) == doctest::Approx(0.5).epsilon(1e-5));
+  // Within a leaf all stays there.
+  CHECK(share_at({0.375f, 0.375f}, {0.3f, 0.3f}) == doctest::Approx(1));
+}
+
+TEST_CASE("what is drawn has the density, on the square and on the sphere") {
+  for (const LeafMass kind : {LeafMass::sum, LeafMass::root}) {
+    const std::vector<QuadNode> nodes = peaked({0.98f, 0.01f}, kind).density(kind);
+    const QuadDensity density(nodes);
+    RandomStream random(7);
+    constexpr int kCells = 16, kDraws = 200'000;
+    std::vector<double> observed(kCells * kCells), expected(kCells * kCells);
+    const auto cell_of = [](Vec2 p) {
+      return static_cast<std::size_t>(p.y * kCells) * kCells +
+             static_cast<std::size_t>(p.x * kCells);
+    };
+    for (int i = 0; i < kDraws; ++i) {
+      const Vec3 direction = warp::sphere_from_square(density.sample(random.next_2d()));
+      ++observed[cell_of(warp::square_from_sphere(direction))];
+    }
+    constexpr int kFine = 1024;
+    for (int y = 0; y < kFine; ++y) {
+      for (int x = 0; x < kFine; ++x) {
+        const Vec2 p{(static_cast<float>(x) + 0.5f) / kFine,
+                     (static_cast<float>(y) + 0.5f) / kFine};
+        expected[cell_of(p)] += density.at(p) * kDraws / (double{kFine} * kFine);
+      }
+    }
+    CHECK(statistics::chi_square_test(observed, expected).p_value > 1e-4);
+  }
+}
+
+TEST_CASE("warping keeps points in their leaf and in order") {
+  const std::vector<QuadNode> nodes = peaked({0.3f, 0.7f}).density(LeafMass::sum);
+  const QuadDensity density(nodes);
+  const float one = std::nextafter(1.0f, 0.0f);
+  for (const Vec2 u : {Vec2{0, 0}, {one, one}, {0, one}, {one, 0}, {0.5f, 0.5f}}) {
+    const Vec2 p = density.sample(u);
+    CHECK(p.x >= 0);
+    CHECK(p.x < 1);
+    CHECK(p.y >= 0);
+    CHECK(p.y < 1);
+    CHECK(density.at(p) > 0);
+  }
+  CHECK(density.sample({0.2f, 0.4f}).x < density.sample({0.4f, 0.4f}).x);
+}
+
+TEST_CASE("trees and densities survive being saved; damage is found") {
+  const QuadTree tree = peaked({0.3f, 0.7f});
+  std::stringstream file;
+  tree.save(file);
+  save_nodes(tree.density(LeafMass::sum), file);
+  const std::string saved = file.str();
+  const QuadTree loaded = QuadTree::load(file);
+  CHECK(loaded.has_leaves_of(tree));
+  CHECK(loaded.total() == tree.total());
+  const std::vector<QuadNode> nodes = load_nodes(file);
+  CHECK(QuadDensity(nodes).at({0.3f, 0.7f}) ==
+        QuadDensity(tree.density(LeafMass::sum)).at({0.3f, 0.7f}));
+  RandomStream random(1);
+  int refused = 0;
+  for (int i = 0; i < 300; ++i) {
+    std::string damaged = saved;
+    damaged[random() % damaged.size()] ^= static_cast<char>(1 << random() % 8);
+    std::stringstream in(damaged);
+    try {
+      QuadTree::load(in);
+      const std::vector<QuadNode> read = load_nodes(in);
+      CHECK(std::abs(integral(QuadDensity(read), 64)) < 10);
+    } catch (const InputError&) {
+      ++refused;
+    }
+  }
+  CHECK(refused > 50);
+}
+
+}  // namespace
+}  // namespace pharos::ppg
