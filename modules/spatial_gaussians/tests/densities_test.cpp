@@ -202,7 +202,7 @@ TEST_CASE("projection and the exact density are the closer the farther the lobe"
   const std::pair<float, double> distances[] = {{1, 0.28}, {2, 0.17}, {4, 0.07}, {10, 0.04}};
   double last = 1;
   for (const auto& [distance, expected] : distances) {
-    constexpr int kLobes = 8;
+    constexpr int kLobes = 16;
     double mean = 0;
     for (int i = 0; i < kLobes; ++i) {
       const SpatialGaussian g = lobe_at(distance, random);
