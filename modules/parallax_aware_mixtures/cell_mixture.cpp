@@ -1,0 +1,351 @@
+#include "cell_mixture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+#include <pharos/core/binary_stream.h>
+#include <pharos/core/warp.h>
+
+namespace pharos::vmf {
+namespace {
+
+constexpr const char* kHeading = "vmf_cell_mixture";
+constexpr std::uint32_t kVersion = 1;
+
+Direction to_vector(Point3 p) {
+  return {p.x, p.y, p.z};
+}
+Point3 to_point(const Direction& d) {
+  return {static_cast<float>(d[0]), static_cast<float>(d[1]), static_cast<float>(d[2])};
+}
+
+/// Directions spread evenly over the sphere, on a spiral by the golden angle.
+Direction spiral_direction(std::size_t i, std::size_t count) {
+  constexpr double kGoldenAngle = 2.39996322972865332;
+  const double z = 1 - (2 * static_cast<double>(i) + 1) / static_cast<double>(count);
+  const double sine = std::sqrt((1 - z) * (1 + z)), phi = kGoldenAngle * static_cast<double>(i);
+  return {sine * std::cos(phi), sine * std::sin(phi), z};
+}
+
+void save_vector(const Direction& v, std::ostream& out) {
+  for (const double x : v) save_number(out, x);
+}
+Direction load_vector(std::istream& in) {
+  Direction v;
+  for (double& x : v) x = load_finite<double>(in);
+  return v;
+}
+
+}  // namespace
+
+/// One update of a cell, step by step.
+class CellUpdate {
+ public:
+  CellUpdate(CellMixture& cell, std::span<const Sample> samples, const VmfSettings& settings)
+      : cell_(cell), settings_(settings) {
+    if (!cell_.knows_something()) begin();
+    move_pivot(samples);
+    for (const Sample& sample : samples) aimed_.push_back(aim(sample));
+    set_directions();
+    box_.add(samples.front().origin);
+    for (const Sample& sample : samples) box_.add(sample.origin);
+  }
+
+  void run() {
+    frozen_ = cell_.moments_;
+    fit({});
+    cell_.found_ += static_cast<double>(directions_.size());
+    cell_.since_merge_ += static_cast<double>(aimed_.size());
+    if (cell_.since_merge_ >= settings_.merge_samples) merge();
+    split_where_needed();
+    for (std::size_t k = 0; k < frozen_.size(); ++k) {
+      cell_.moments_[k] = frozen_[k];
+      cell_.moments_[k] += seen_[k];
+    }
+  }
+
+ private:
+  FitRules rules(std::span<const std::size_t> changing) const {
+    return {.frozen = frozen_,
+            .prior_share = settings_.prior_share,
+            .prior_strength = settings_.prior_strength,
+            .most_kappa = settings_.most_kappa,
+            .changing = changing,
+            .most_iterations = settings_.em_iterations,
+            .tolerance = settings_.em_tolerance};
+  }
+
+  void begin() {
+    const std::size_t count = settings_.components;
+    cell_.moments_.assign(count, {});
+    cell_.assessments_.assign(count, {});
+    for (std::size_t k = 0; k < count; ++k) {
+      cell_.mixture_.push_back(
+          {1 / static_cast<double>(count), spiral_direction(k, count), settings_.first_kappa});
+    }
+  }
+
+  /// The pivot follows the mean of all origins, and lobes point from there at where they did.
+  void move_pivot(std::span<const Sample> samples) {
+    Direction sum = Direction::Zero();
+    for (const Sample& s : samples) sum += to_vector(s.origin);
+    const double added = static_cast<double>(samples.size());
+    const Direction mean = (cell_.origins_ * cell_.pivot_ + sum) / (cell_.origins_ + added);
+    const Direction step = mean - cell_.pivot_;
+    cell_.pivot_ = mean;
+    cell_.origins_ += added;
+    for (std::size_t k = 0; k < cell_.mixture_.size(); ++k) shift(k, step);
+  }
+
+  void shift(std::size_t k, const Direction& step) {
+    const PlacedLobe before = placed(k), after = before.seen_from(step);
+    cell_.mixture_[k].mean = after.lobe.mean;
+    Moments& m = cell_.moments_[k];
+    m.resultant = m.resultant.norm() * after.lobe.mean;
+    if (before.inverse_distance > 0) {
+      cell_.assessments_[k].inverse *= after.inverse_distance / before.inverse_distance;
+    }
+  }
+
+  PlacedLobe placed(std::size_t k) const {
+    const Assessment& a = cell_.assessments_[k];
+    return {cell_.mixture_[k], a.certainty > 0 ? a.inverse / a.certainty : 0};
+  }
+
+  AimedSample aim(const Sample& sample) const {
+    AimedSample aimed{sample.direction, 0, sample.weight, sample.pdf};
+    if (!settings_.parallax) return aimed;
+    const PlacedLobe there{{1, to_vector(sample.direction), 0}, sample.inverse_distance};
+    const PlacedLobe here = there.seen_from(cell_.pivot_ - to_vector(sample.origin));
+    aimed.direction = normalize(to_point(here.lobe.mean));
+    aimed.inverse_distance = static_cast<float>(here.inverse_distance);
+    return aimed;
+  }
+
+  /// Those of samples that found something; weights add up to their number.
+  void set_directions() {
+    double total = 0, count = 0;
+    for (const AimedSample& s : aimed_) {
+      total += s.weight;
+      count += s.weight > 0 ? 1 : 0;
+    }
+    for (const AimedSample& s : aimed_) {
+      const auto weight = static_cast<float>(s.weight * count / total);
+      if (s.weight > 0) directions_.push_back({s.direction, weight});
+    }
+  }
+
+  void fit(std::span<const std::size_t> changing) {
+    seen_ = vmf::fit(cell_.mixture_, directions_, rules(changing));
+  }
+
+  /// Merges the cheapest pair as long as one is cheap enough.
+  void merge() {
+    cell_.since_merge_ = 0;
+    while (cell_.mixture_.size() > 1) {
+      std::size_t best_i = 0, best_j = 0;
+      double least = settings_.merge_threshold;
+      for (std::size_t i = 0; i < cell_.mixture_.size(); ++i) {
+        for (std::size_t j = i + 1; j < cell_.mixture_.size(); ++j) {
+          const double cost = cost_anywhere(i, j, least);
+          if (cost < least) std::tie(least, best_i, best_j) = std::tuple(cost, i, j);
+        }
+      }
+      if (best_j == 0) return;
+      join(best_i, best_j);
+    }
+  }
+
+  /// The cost of merging two lobes, from wherever in the cell it is largest. Only whether it is
+  /// below `bound` matters.
+  double cost_anywhere(std::size_t i, std::size_t j, double bound) const {
+    const PlacedLobe a = placed(i), b = placed(j);
+    double most = merge_cost(a, b);
+    if (!settings_.parallax) return most;
+    const Direction low = to_vector(box_.low) - cell_.pivot_,
+                    high = to_vector(box_.high) - cell_.pivot_;
+    for (const Direction& corner :
+         {Direction(low[0], high[1], high[2]), Direction(high[0], low[1], high[2]),
+          Direction(high[0], high[1], low[2])}) {
+      if (most >= bound) return most;
+      most = std::max(most, merge_cost(a.seen_from(corner / 2), b.seen_from(corner / 2)));
+    }
+    return most;
+  }
+
+  void join(std::size_t i, std::size_t j) {
+    const auto erase = [j](auto& list) {
+      list.erase(list.begin() + static_cast<std::ptrdiff_t>(j));
+    };
+    const Lobe whole = merged(placed(i), placed(j)).lobe;
+    frozen_[i] += frozen_[j];
+    seen_[i] += seen_[j];
+    const double inverse = cell_.assessments_[i].inverse + cell_.assessments_[j].inverse;
+    const double certainty = cell_.assessments_[i].certainty + cell_.assessments_[j].certainty;
+    cell_.assessments_[i] = {.inverse = inverse, .certainty = certainty};
+    cell_.mixture_[i] = whole;
+    erase(frozen_);
+    erase(seen_);
+    erase(cell_.mixture_);
+    erase(cell_.moments_);
+    erase(cell_.assessments_);
+  }
+
+  /// Splits lobes that the samples contradict, and fits their halves, until none is left or there
+  /// is no room or no data for more.
+  void split_where_needed() {
+    const std::vector<Assessment> now = assess();
+    for (std::size_t k = 0; k < now.size(); ++k) cell_.assessments_[k] += now[k];
+    std::vector<std::size_t> changed = split();
+    while (!changed.empty()) {
+      fit(changed);
+      // What the halves are like these samples tell anew.
+      const std::vector<Assessment> again = assess();
+      for (const std::size_t k : changed) cell_.assessments_[k] = again[k];
+      changed = split();
+    }
+  }
+
+  std::vector<Assessment> assess() const {
+    return vmf::assess(cell_.mixture_, aimed_, settings_.least_density * warp::sphere_pdf());
+  }
+
+  /// Halves what needs it, the worst first; returns the numbers of all halves.
+  std::vector<std::size_t> split() {
+    const auto divergence = [&](std::size_t k) {
+      const Assessment& a = cell_.assessments_[k];
+      return a.samples < settings_.split_samples ? 0 : a.divergence();
+    };
+    std::vector<std::size_t> worst;
+    for (std::size_t k = 0; k < cell_.mixture_.size(); ++k) {
+      if (divergence(k) > settings_.split_threshold) worst.push_back(k);
+    }
+    std::stable_sort(worst.begin(), worst.end(),
+                     [&](std::size_t a, std::size_t b) { return divergence(a) > divergence(b); });
+    std::vector<std::size_t> changed;
+    for (const std::size_t k : worst) {
+      if (cell_.mixture_.size() >= settings_.most_components) break;
+      if (!halve(k)) continue;
+      changed.push_back(k);
+      changed.push_back(cell_.mixture_.size() - 1);
+    }
+    std::sort(changed.begin(), changed.end());
+    return changed;
+  }
+
+  bool halve(std::size_t k) {
+    const auto axis = cell_.assessments_[k].half_axis(cell_.mixture_[k].mean);
+    if (!axis) return false;
+    const std::array<Lobe, 2> parts = halves(cell_.mixture_[k], *axis, settings_.most_kappa);
+    for (auto* moments : {&frozen_, &seen_}) {
+      Moments& whole = (*moments)[k];
+      const double length = whole.resultant.norm() / 2 * std::sqrt(1 + axis->squaredNorm());
+      const double weight = whole.weight / 2, most = weight;
+      whole = {weight, std::min(length, most) * parts[0].mean};
+      moments->push_back({weight, std::min(length, most) * parts[1].mean});
+    }
+    cell_.mixture_[k] = parts[0];
+    cell_.mixture_.push_back(parts[1]);
+    cell_.moments_.emplace_back();
+    Assessment& a = cell_.assessments_[k];
+    a = {.inverse = a.inverse / 2, .certainty = a.certainty / 2};
+    cell_.assessments_.push_back(a);
+    return true;
+  }
+
+  CellMixture& cell_;
+  const VmfSettings& settings_;
+  std::vector<AimedSample> aimed_;
+  std::vector<WeightedDirection> directions_;
+  Bounds3 box_;                  ///< of the samples' origins
+  std::vector<Moments> frozen_;  ///< of earlier iterations
+  std::vector<Moments> seen_;    ///< of this one
+};
+
+void CellMixture::update(std::span<const Sample> samples, const VmfSettings& settings) {
+  const auto finds = [](const Sample& s) { return s.weight > 0; };
+  const auto found = static_cast<std::size_t>(std::count_if(samples.begin(), samples.end(), finds));
+  if (found == 0) return;
+  if (knows_something()) {
+    CellUpdate(*this, samples, settings).run();
+  } else if (first_.size() + found < settings.first_samples) {
+    std::copy_if(samples.begin(), samples.end(), std::back_inserter(first_), finds);
+  } else {
+    std::vector<Sample> all = std::exchange(first_, {});
+    all.insert(all.end(), samples.begin(), samples.end());
+    CellUpdate(*this, all, settings).run();
+  }
+}
+
+void CellMixture::forget(double factor) {
+  for (Moments& m : moments_) m *= factor;
+  for (Assessment& a : assessments_) a *= factor;
+  origins_ *= factor;
+  found_ *= factor;
+}
+
+std::vector<double> CellMixture::inverse_distances() const {
+  std::vector<double> all;
+  for (const Assessment& a : assessments_) {
+    all.push_back(a.certainty > 0 ? a.inverse / a.certainty : 0);
+  }
+  return all;
+}
+
+Point3 CellMixture::pivot() const {
+  return to_point(pivot_);
+}
+
+void CellMixture::save(std::ostream& out) const {
+  save_heading(out, kHeading, kVersion);
+  save_vector(pivot_, out);
+  for (const double v : {origins_, found_, since_merge_}) save_number(out, v);
+  save_number(out, static_cast<std::uint32_t>(mixture_.size()));
+  for (std::size_t k = 0; k < mixture_.size(); ++k) {
+    save_vector(mixture_[k].mean, out);
+    save_vector(moments_[k].resultant, out);
+    const Assessment& a = assessments_[k];
+    for (const double v : {mixture_[k].weight, mixture_[k].kappa, moments_[k].weight, a.samples,
+                           a.divergence_sum, a.weight, a.xx, a.xy, a.yy, a.inverse, a.certainty}) {
+      save_number(out, v);
+    }
+  }
+  save_number(out, static_cast<std::uint32_t>(first_.size()));
+  for (const Sample& sample : first_) save_sample(sample, out);
+}
+
+CellMixture CellMixture::load(std::istream& in) {
+  const auto expect = [](bool holds) {
+    if (!holds) throw InputError("the learning of the von Mises-Fisher mixtures is damaged");
+  };
+  expect_heading(in, kHeading, kVersion);
+  CellMixture cell;
+  cell.pivot_ = load_vector(in);
+  for (double* v : {&cell.origins_, &cell.found_, &cell.since_merge_}) {
+    *v = load_finite<double>(in);
+    expect(*v >= 0);
+  }
+  for (auto count = load_number<std::uint32_t>(in); count > 0; --count) {
+    Lobe& lobe = cell.mixture_.emplace_back();
+    Moments& moments = cell.moments_.emplace_back();
+    Assessment& a = cell.assessments_.emplace_back();
+    lobe.mean = load_vector(in);
+    moments.resultant = load_vector(in);
+    for (double* v : {&lobe.weight, &lobe.kappa, &moments.weight, &a.samples, &a.divergence_sum,
+                      &a.weight, &a.xx, &a.xy, &a.yy, &a.inverse, &a.certainty}) {
+      *v = load_finite<double>(in);
+    }
+    expect(std::abs(lobe.mean.squaredNorm() - 1) < 1e-6 && lobe.weight > 0 && lobe.kappa >= 0 &&
+           moments.weight >= 0 && a.weight >= 0 && a.certainty >= 0 && a.inverse >= 0);
+  }
+  for (auto count = load_number<std::uint32_t>(in); count > 0; --count) {
+    cell.first_.push_back(load_sample(in));
+  }
+  return cell;
+}
+
+}  // namespace pharos::vmf

@@ -1,0 +1,83 @@
+#include "guider.h"
+
+#include "scattering_lobes.h"
+#include "seen_lobes.h"
+#include "vmf_model.h"
+
+namespace pharos::vmf {
+namespace {
+
+class VmfDistribution final : public GuidingDistribution {
+ public:
+  VmfDistribution(const SeenLobes& lobes, std::uint32_t region) : lobes_(lobes), region_(region) {}
+
+  std::optional<Proposal> propose(const VertexStream& stream) const override {
+    return Proposal{.direction = lobes_.sample(stream.get_1d(Purpose::guide_choice),
+                                               stream.get_2d(Purpose::guide_direction))};
+  }
+  Density density(const ResolvedVertex& vertex) const override {
+    return {lobes_.density(vertex.direction), Measure::solid_angle};
+  }
+  std::uint32_t region() const override { return region_; }
+
+ private:
+  const SeenLobes& lobes_;
+  std::uint32_t region_;
+};
+
+class BoundVmfGuider final : public BoundGuider {
+ public:
+  BoundVmfGuider(std::shared_ptr<const VmfModel> model, const VmfGuiderSettings& settings)
+      : model_(std::move(model)), settings_(settings) {}
+
+  const GuidingDistribution* query(const GuidingQuery& query, Arena& arena) const override {
+    if (query.scattering.purely_discrete()) return nullptr;
+    const VmfModel::View view = model_->at(query.current.position);
+    if (view.groups.empty()) return nullptr;
+    const ScatteringLobes factors = factors_at(query);
+    const SeenLobes* seen =
+        SeenLobes::make(view.groups, view.offset, {factors.lobes.data(), factors.count}, arena);
+    return seen == nullptr ? nullptr : arena.make<VmfDistribution>(*seen, view.cell);
+  }
+
+ private:
+  ScatteringLobes factors_at(const GuidingQuery& query) const {
+    if (settings_.product == ProductFactor::bsdf) {
+      return fit_scattering(query.scattering, settings_.bsdf_samples);
+    }
+    const bool is_opaque = query.current.kind == VertexKind::surface &&
+                           !contains(query.scattering.events(), Event::smooth_transmit);
+    if (settings_.product == ProductFactor::none || !is_opaque) return {};
+    const Vec3 n = query.current.shading_normal;
+    const Vec3 towards_path = dot(n, query.towards_previous) < 0 ? -n : n;
+    return {.lobes = {Factor{towards_path, kCosineKappa}}, .count = 1};
+  }
+
+  std::shared_ptr<const VmfModel> model_;
+  VmfGuiderSettings settings_;
+};
+
+}  // namespace
+
+void VmfGuiderSettings::describe(Schema<VmfGuiderSettings>& s) {
+  s.field("product", &VmfGuiderSettings::product,
+          "What mixtures are multiplied by at a vertex: nothing, a lobe in place of the cosine, or "
+          "lobes fitted to its BSDF or phase function");
+  s.field("bsdf_samples", &VmfGuiderSettings::bsdf_samples,
+          "For `bsdf`: directions that these lobes are fitted to")
+      .at_least(4)
+      .at_most(64);
+  s.example("{ product: none }");
+  s.example("{ product: bsdf }");
+}
+
+GuiderTraits VmfGuider::traits() const {
+  return {.model = VmfModel::kName};
+}
+
+std::unique_ptr<const BoundGuider> VmfGuider::bind(
+    std::shared_ptr<const GuidingModel> model) const {
+  return std::make_unique<BoundVmfGuider>(bind_model<VmfModel>(model, *this), settings_);
+}
+
+}  // namespace pharos::vmf

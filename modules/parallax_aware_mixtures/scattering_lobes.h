@@ -1,0 +1,23 @@
+#pragma once
+
+#include <pharos/scene/local_scattering.h>
+
+#include "seen_lobes.h"
+
+namespace pharos::vmf {
+
+/// Concentration of the lobe that stands for a clamped cosine about the normal (Ruppert et al.
+/// 2020).
+inline constexpr float kCosineKappa = 2.18853f;
+
+/// At most two lobes that stand for a vertex's smooth scattering, cosine included.
+struct ScatteringLobes {
+  std::array<Factor, 2> lobes;
+  std::size_t count = 0;
+};
+
+/// Fitted to `samples` directions that the scattering draws from a fixed point set: the same for
+/// the same vertex. None where it draws nothing.
+ScatteringLobes fit_scattering(const LocalScattering& scattering, std::uint32_t samples);
+
+}  // namespace pharos::vmf

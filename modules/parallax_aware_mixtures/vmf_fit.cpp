@@ -1,0 +1,162 @@
+#include "vmf_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <pharos/core/parallel.h>
+
+#include "lobe_lanes.h"
+#include "vmf.h"
+
+namespace pharos::vmf {
+namespace {
+
+/// Lobes in the form of the E step.
+struct LogLobes8 {
+  LogLobes8(const Mixture& mixture, std::size_t first) {
+    for (std::size_t i = 0; i < kLanes; ++i) {
+      const bool is_lobe = first + i < mixture.size();
+      const Lobe lobe = is_lobe ? mixture[first + i] : Lobe{};
+      for (int axis = 0; axis < 3; ++axis) mean[axis][i] = static_cast<float>(lobe.mean[axis]);
+      half_kappa[i] = static_cast<float>(0.5 * lobe.kappa);
+      log_scale[i] = is_lobe ? static_cast<float>(std::log(lobe.weight * mode_density(lobe.kappa)))
+                             : -std::numeric_limits<float>::infinity();
+    }
+  }
+  /// Logarithms of the lobes' densities times their weights.
+  Float8 operator()(Vec3 w) const { return log_scale - half_kappa * squared_distance(mean, w); }
+  Float8 mean[3];
+  Float8 half_kappa, log_scale;
+};
+
+struct Moments8 {
+  Float8 weight{}, resultant[3]{};
+
+  void add(const Float8& shares, Vec3 w) {
+    weight += shares;
+    resultant[0] += shares * w.x;
+    resultant[1] += shares * w.y;
+    resultant[2] += shares * w.z;
+  }
+  void add_to(std::span<Moments> moments) const {
+    for (std::size_t i = 0; i < std::min(kLanes, moments.size()); ++i) {
+      moments[i].weight += weight[i];
+      for (int axis = 0; axis < 3; ++axis) moments[i].resultant[axis] += resultant[axis][i];
+    }
+  }
+};
+
+/// The E step over a few directions: few enough for sums in single precision.
+void expect_part(std::span<const LogLobes8> lobes, std::span<const WeightedDirection> directions,
+                 Expectation& result) {
+  std::vector<Float8> terms(lobes.size());
+  std::vector<Moments8> sums(lobes.size());
+  for (const WeightedDirection& d : directions) {
+    if (!(d.weight > 0)) continue;
+    Float8 largest = all8(-std::numeric_limits<float>::infinity());
+    for (std::size_t g = 0; g < lobes.size(); ++g) {
+      terms[g] = lobes[g](d.direction);
+      largest = larger(largest, terms[g]);
+    }
+    const float most = largest_of(largest);
+    Float8 total8{};
+    for (Float8& term : terms) {
+      term = exp(term - most);
+      total8 += term;
+    }
+    const float total = sum(total8), share = d.weight / total;
+    result.log_likelihood += d.weight * (double{most} + std::log(double{total}));
+    for (std::size_t g = 0; g < lobes.size(); ++g) sums[g].add(share * terms[g], d.direction);
+  }
+  for (std::size_t g = 0; g < lobes.size(); ++g) {
+    sums[g].add_to(std::span(result.moments).subspan(g * kLanes));
+  }
+}
+
+std::size_t number(const FitRules& rules, std::size_t i) {
+  return rules.changing.empty() ? i : rules.changing[i];
+}
+
+}  // namespace
+
+Expectation expectation(const Mixture& mixture, std::span<const WeightedDirection> directions) {
+  std::vector<LogLobes8> lobes;
+  for (std::size_t k = 0; k < mixture.size(); k += kLanes) lobes.emplace_back(mixture, k);
+  constexpr std::size_t kPart = 4096, kBlock = 256;
+  std::vector<Expectation> parts((directions.size() + kPart - 1) / kPart,
+                                 {std::vector<Moments>(mixture.size()), 0});
+  parallel_for(parts.size(), [&](std::size_t i) {
+    const auto part = directions.subspan(i * kPart, std::min(kPart, directions.size() - i * kPart));
+    for (std::size_t first = 0; first < part.size(); first += kBlock) {
+      expect_part(lobes, part.subspan(first, std::min(kBlock, part.size() - first)), parts[i]);
+    }
+  });
+  Expectation all{std::vector<Moments>(mixture.size()), 0};
+  for (const Expectation& part : parts) {
+    for (std::size_t k = 0; k < mixture.size(); ++k) all.moments[k] += part.moments[k];
+    all.log_likelihood += part.log_likelihood;
+  }
+  return all;
+}
+
+void maximise(std::span<const Moments> moments, const FitRules& rules, Mixture& mixture) {
+  const std::size_t count = rules.changing.empty() ? mixture.size() : rules.changing.size();
+  double seen = 0;
+  for (const Moments& m : moments) seen += m.weight;
+  const double believed = rules.prior_share * seen;
+  double total = 0, share = 0;  // of those that change
+  for (std::size_t i = 0; i < count; ++i) {
+    total += moments[number(rules, i)].weight + believed;
+    share += mixture[number(rules, i)].weight;
+  }
+  if (!(total > 0)) return;
+  const double most_cosine = mean_cosine(rules.most_kappa);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Moments& m = moments[number(rules, i)];
+    Lobe& lobe = mixture[number(rules, i)];
+    lobe.weight = (rules.changing.empty() ? 1 : share) * (m.weight + believed) / total;
+    const double length = m.resultant.norm();
+    if (!(length > 0)) continue;
+    lobe.mean = m.resultant / length;
+    const double cosine = length / (m.weight + rules.prior_strength);
+    lobe.kappa = cosine < most_cosine ? concentration(cosine) : rules.most_kappa;
+  }
+}
+
+double objective(const Mixture& mixture, double log_likelihood, double seen,
+                 const FitRules& rules) {
+  double value = log_likelihood;
+  for (std::size_t k = 0; k < mixture.size(); ++k) {
+    const Lobe& lobe = mixture[k];
+    const Moments old = rules.frozen.empty() ? Moments{} : rules.frozen[k];
+    const double counts = old.weight + rules.prior_share * seen;
+    if (counts > 0) value += counts * std::log(lobe.weight);
+    value += (old.weight + rules.prior_strength) * log_norm(lobe.kappa) +
+             lobe.kappa * lobe.mean.dot(old.resultant);
+  }
+  return value;
+}
+
+std::vector<Moments> fit(Mixture& mixture, std::span<const WeightedDirection> directions,
+                         const FitRules& rules) {
+  double weight = 0, seen = 0;
+  for (const WeightedDirection& d : directions) weight += d.weight;
+  for (const Moments& m : rules.frozen) seen += m.weight;
+  seen += weight;
+  std::vector<Moments> result(mixture.size());
+  double last = -std::numeric_limits<double>::infinity();
+  for (int i = 0; i < rules.most_iterations; ++i) {
+    Expectation now = expectation(mixture, directions);
+    const double reached = objective(mixture, now.log_likelihood, seen, rules);
+    std::vector<Moments> moments = now.moments;
+    for (std::size_t k = 0; k < rules.frozen.size(); ++k) moments[k] += rules.frozen[k];
+    maximise(moments, rules, mixture);
+    result = std::move(now.moments);
+    if (reached - last < rules.tolerance * weight) break;
+    last = reached;
+  }
+  return result;
+}
+
+}  // namespace pharos::vmf
