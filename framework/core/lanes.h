@@ -145,7 +145,10 @@ inline bool any(const Mask8& mask) {
 
 /// Sums of all, always added in the same order.
 inline float sum(const Float8& x) {
-  return ((x[0] + x[4]) + (x[2] + x[6])) + ((x[1] + x[5]) + (x[3] + x[7]));
+  const Float4 four =
+      __builtin_shufflevector(x, x, 0, 1, 2, 3) + __builtin_shufflevector(x, x, 4, 5, 6, 7);
+  const Float4 two = four + __builtin_shufflevector(four, four, 2, 3, 0, 1);
+  return two[0] + two[1];
 }
 inline double sum(const Double4& x) {
   return (x[0] + x[2]) + (x[1] + x[3]);

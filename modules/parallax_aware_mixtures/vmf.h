@@ -1,9 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include <pharos/core/frame.h>
-#include <pharos/core/vec.h>
+#include <pharos/core/warp.h>
 
 /// The von Mises-Fisher distribution of directions, kappa / (2 pi (1 - e^(-2 kappa)))
 /// e^(kappa (cos theta - 1)) [1/sr]: the form that is sound for any concentration kappa >= 0.
@@ -41,19 +42,26 @@ inline double concentration(double r) {
   return kappa;
 }
 
-/// 1 - cos theta for u in [0, 1).
-inline float versine(float kappa, float u) {
-  constexpr float kFlat = 1e-4f;
-  if (kappa < kFlat) return 2 * u;
-  const float v = -std::log1p(u * std::expm1(-2 * kappa)) / kappa;
-  return v < 2 ? v : 2;
+/// 1 - cos theta where `left` in (0, 1] of all directions are farther from the mean:
+/// -ln(left + (1 - left) e^(-2 kappa)) / kappa.
+inline float versine(float kappa, float left) {
+  constexpr float kFlat = 1e-4f, kWide = 0.5f, kNarrow = 9;
+  if (kappa < kFlat) return 2 * (1 - left);
+  // Wide lobes would lose digits, for narrow ones the second term is below rounding.
+  const float v = kappa < kWide     ? -std::log1p((1 - left) * std::expm1(-2 * kappa))
+                  : kappa < kNarrow ? -std::log(left + (1 - left) * std::exp(-2 * kappa))
+                                    : -std::log(left);
+  return std::min(v / kappa, 2.0f);
 }
 
-/// A direction around `mean` from u in [0, 1)^2.
+/// A direction around `mean` from u in [0, 1)^2, by way of the disk.
 inline Vec3 sample(Vec3 mean, float kappa, Vec2 u) {
-  const float v = versine(kappa, u.x);
-  const float sine = std::sqrt(v * (2 - v)), phi = 2 * kPi * u.y;
-  return Frame::from_normal(mean).to_world({sine * std::cos(phi), sine * std::sin(phi), 1 - v});
+  const warp::ConcentricPoint p = warp::concentric_from_square(u);
+  // The disk's r^2 is uniform; 1 - r^2 by its factors keeps the digits of small numbers.
+  const float left = std::max((1 - p.radius) * (1 + p.radius), 0x1p-25f);
+  const float v = versine(kappa, left);
+  const float sine = std::copysign(std::sqrt(v * (2 - v)), p.radius);
+  return Frame::from_normal(mean).to_world({sine * p.direction.x, sine * p.direction.y, 1 - v});
 }
 
 }  // namespace pharos::vmf

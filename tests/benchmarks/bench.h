@@ -29,5 +29,6 @@ std::vector<Measurement> bench_samplers(int repeats);
 std::vector<Measurement> bench_growth(int repeats);
 std::vector<Measurement> bench_aligned(int repeats);
 std::vector<Measurement> bench_gaussians(int repeats);
+std::vector<Measurement> bench_baselines(int repeats);
 
 }  // namespace pharos::bench

@@ -65,6 +65,17 @@ TEST_CASE("same bits: spatial Gaussians in a tree or as one mixture, with the le
   }
 }
 
+TEST_CASE("same bits: parallax-aware mixtures in a tree or as one, with the learned model") {
+  for (const char* settings :
+       {"{ type: vmf_mixtures, cell_samples: 4096 }, guider: vmf_mixtures",
+        "{ type: vmf_mixtures, spatial: single }, guider: { type: vmf_mixtures, product: bsdf }"}) {
+    check_same_bits(cornell(fmt::format(
+        "sampler: sobol\nintegrator: {{ type: path, guiding: {{ learner: {}, mixing: learned, "
+        "training: {{ iterations: 3 }} }} }}\n",
+        settings)));
+  }
+}
+
 TEST_CASE("same bits: practical path guiding, with the SD-tree") {
   for (const char* target : {"radiance", "relative"}) {
     check_same_bits(cornell(fmt::format(

@@ -98,6 +98,26 @@ std::vector<Method> sd_tree_methods() {
           sd_tree("relative", variance, smooth, "combine")};
 }
 
+Method lobes(const char* learner, const char* product, const char* mixing, const char* images) {
+  return {fmt::format("vmf {} {} {} {}", learner, product, mixing, images),
+          {fmt::format("learner={{ type: vmf_mixtures, {} }}", learner),
+           fmt::format("guider={{ type: vmf_mixtures, product: {} }}", product),
+           fmt::format("mixing={}", mixing),
+           fmt::format("training={{ schedule: uniform, iterations: 8, images: {} }}", images)}};
+}
+
+/// The same of mixtures, products, ways to mix, and uses of training images.
+std::vector<Method> lobe_methods() {
+  const char *tree = "spatial: kdtree, cell_samples: 8192", *single = "spatial: single",
+             *plain = "parallax: false";
+  const char *few = "{ type: fixed, unguided_fraction: 0.1 }", *half = "fixed",
+             *learned = "learned";
+  return {lobes(tree, "cosine", half, "discard"), lobes(single, "bsdf", few, "discard"),
+          lobes(plain, "none", few, "combine"),   lobes(tree, "bsdf", learned, "combine"),
+          lobes(single, "none", half, "combine"), lobes(plain, "cosine", learned, "discard"),
+          lobes(single, "cosine", few, "combine")};
+}
+
 LoadedConfig load(const std::filesystem::path& config, const std::vector<std::string>& guiding,
                   std::vector<std::string> overrides = {}) {
   for (const std::string& setting : guiding) {
@@ -163,6 +183,10 @@ TEST_CASE("unbiased: an SD-tree under strips of light") {
   compare_proof("strip-lights", {sd_tree_methods().front()});
 }
 
+TEST_CASE("unbiased: parallax-aware mixtures under strips of light") {
+  compare_proof("strip-lights", {lobe_methods()[3]});
+}
+
 TEST_CASE("unbiased: every proof variant has a case below") {
   std::vector<std::string> found;
   for (const auto& entry : std::filesystem::directory_iterator(PHAROS_PROOF_CONFIGS)) {
@@ -210,6 +234,19 @@ TEST_CASE("long: SD-trees are unbiased in the proof variant living-room") {
 }
 TEST_CASE("long: SD-trees are unbiased in the proof variant strip-lights") {
   compare_proof("strip-lights", sd_tree_methods());
+}
+
+TEST_CASE("long: parallax-aware mixtures are unbiased in the proof variant camera-obscura") {
+  compare_proof("camera-obscura", lobe_methods());
+}
+TEST_CASE("long: parallax-aware mixtures are unbiased in the proof variant hall") {
+  compare_proof("hall", lobe_methods());
+}
+TEST_CASE("long: parallax-aware mixtures are unbiased in the proof variant living-room") {
+  compare_proof("living-room", lobe_methods());
+}
+TEST_CASE("long: parallax-aware mixtures are unbiased in the proof variant strip-lights") {
+  compare_proof("strip-lights", lobe_methods());
 }
 
 // (Not the smallest pinhole: with so few samples most renders have yet to find it.)

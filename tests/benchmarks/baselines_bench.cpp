@@ -1,0 +1,176 @@
+// What the baselines of guiding cost: directional quadtrees (ppg) and von Mises-Fisher mixtures
+// (pavmm), learned from 200,000 steps of a synthetic light field in the Cornell box: sixteen spots
+// of light around it, seen from everywhere. Queries, directions and densities on one thread,
+// updates on two.
+
+#include <chrono>
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+#include <pharos/config/module_loader.h>
+#include <pharos/conformance/guided.h>
+#include <pharos/core/random.h>
+#include <pharos/core/warp.h>
+#include <pharos/rendering/render_config.h>
+
+#include "bench.h"
+#include "bench_scenes.h"
+#include "guide_costs.h"
+
+namespace pharos::bench {
+namespace {
+
+constexpr std::size_t kVertices = 20'000;
+constexpr int kSteps = 200'000, kUpdates = 4;
+
+struct Spot {
+  Point3 center;
+  float radius, light;
+};
+
+/// Paths of one guidable step each: half of them at a spot, half at random.
+PathLog light_field(const Bounds3& bounds, std::uint64_t seed) {
+  RandomStream spots_random(1), random(seed, 2);
+  const auto inside = [&](RandomStream& stream) {
+    const Vec3 u{stream.next_1d(), stream.next_1d(), stream.next_1d()}, e = bounds.extent();
+    return bounds.low + Vec3{u.x * e.x, u.y * e.y, u.z * e.z};
+  };
+  std::vector<Spot> spots(16);
+  for (Spot& spot : spots) {
+    spot = {inside(spots_random), bounds.diagonal() * 0.1f * spots_random.next_1d(),
+            0.5f + spots_random.next_1d()};
+  }
+  PathLog log;
+  for (int i = 0; i < kSteps; ++i) {
+    const Point3 from = inside(random);
+    const Spot& spot = spots[random() % spots.size()];
+    const bool hits = random.next_1d() < 0.5f;
+    const Vec3 aside = warp::sphere_from_square(random.next_2d());
+    const Point3 to = hits ? spot.center + spot.radius * aside : from + bounds.diagonal() * aside;
+    log.begin_path({}, Transport::radiance);
+    log.add(RecordedVertex{.throughput = Rgb(1), .local_weight = Rgb(1)});
+    log.add(RecordedVertex{.position = from,
+                           .event = Event::smooth_reflect,
+                           .parent = 0,
+                           .throughput = Rgb(1),
+                           .local_weight = Rgb(1),
+                           .direction = normalize(to - from),
+                           .unguided_pdf = hits ? 1.0f : 0.1f,
+                           .guidable = true});
+    log.add(
+        RecordedVertex{.position = to, .parent = 1, .emission = Rgb(hits ? spot.light : 0.01f)});
+  }
+  return log;
+}
+
+template <class Contract>
+Ref<Contract> build(const std::string& settings, const Registry& registry) {
+  BuildContext context{registry};
+  ConfigNode resolved;
+  return registry.build<Contract>(parse_yaml(settings, "benchmark"), context, resolved);
+}
+
+/// What a learner makes of the light field, and how long its updates take on two threads [s].
+struct Learned {
+  std::shared_ptr<const GuidingModel> model;
+  std::vector<double> seconds;
+};
+Learned learn(const std::string& learner, const Bounds3& bounds, const Registry& registry) {
+  const auto state = build<Learner>(learner, registry)->begin({.region = bounds, .seed = 1});
+  Learned learned;
+  tbb::task_arena arena(2);
+  for (std::uint32_t i = 0; i < kUpdates; ++i) {
+    const PathLog log = light_field(bounds, i);
+    const auto start = std::chrono::steady_clock::now();
+    arena.execute([&] {
+      state->absorb(log);
+      learned.model = state->update(i, i + 1 == kUpdates);
+    });
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+    learned.seconds.push_back(elapsed.count());
+  }
+  return learned;
+}
+
+class BaselineMeter {
+ public:
+  BaselineMeter(const Registry& registry, const Scene& scene, int repeats)
+      : registry_(registry), scene_(scene), repeats_(repeats) {}
+
+  /// Times of a guider's answers, under these names (empty: not wanted).
+  void answers(const std::string& learner, const std::string& guider, const char* pdf,
+               const char* sample, const char* query) {
+    const Ref<Guider> technique = build<Guider>(guider, registry_);
+    const Learned learned = learn(learner, scene_.bounds(), registry_);
+    const auto queries =
+        guide_queries(scene_, conformance::frame_of(*technique, learned.model), kVertices);
+    const auto bound = technique->bind(learned.model);
+    Measurement a{pdf, "ns", {}}, b{sample, "ns", {}}, c{query, "ns", {}};
+    for (int i = 0; i < repeats_; ++i) {
+      const GuideCosts costs = measure_costs(*bound, queries);
+      a.runs.push_back(costs.pdf_ns);
+      b.runs.push_back(costs.sample_ns);
+      c.runs.push_back(costs.query_ns);
+    }
+    for (Measurement& m : {std::ref(a), std::ref(b), std::ref(c)}) {
+      if (!m.name.empty()) all_.push_back(m);
+    }
+  }
+
+  /// Absorbing and learning from 200,000 steps: the first time, and later ones.
+  void updates(const std::string& name, const std::string& learner, bool counts_cells) {
+    Measurement first{name + ".first_update_s.200k", "s", {}},
+        later{name + ".update_s.200k", "s", {}};
+    Measurement bytes{name + ".bytes_per_cell", "B", {}};
+    for (int i = 0; i < repeats_; ++i) {
+      const Learned learned = learn(learner, scene_.bounds(), registry_);
+      first.runs.push_back(learned.seconds.front());
+      later.runs.push_back(learned.seconds.back());
+      bytes.runs.push_back(static_cast<double>(learned.model->size_bytes()) /
+                           learned.model->region_count());
+    }
+    all_.push_back(first);
+    all_.push_back(later);
+    if (counts_cells) all_.push_back(bytes);
+  }
+
+  const std::vector<Measurement>& all() const { return all_; }
+
+ private:
+  const Registry& registry_;
+  const Scene& scene_;
+  int repeats_;
+  std::vector<Measurement> all_;
+};
+
+std::string lobes(int count) {
+  return fmt::format(
+      "{{ type: vmf_mixtures, spatial: single, components: {0}, most_components: {0}, "
+      "merge_threshold: 0 }}",
+      count);
+}
+
+}  // namespace
+
+std::vector<Measurement> bench_baselines(int repeats) {
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 2);
+  const Registry registry = load_default_modules();
+  const std::string config = scene_entry("cornell-box") + "\nbudget: { spp: 1 }\n";
+  const RenderConfig loaded = build_render_config(parse_yaml(config, "benchmark"), registry).config;
+  const Scene scene(loaded.scene);
+  BaselineMeter meter(registry, scene, repeats);
+  meter.answers("sd_tree", "sd_tree", "ppg.pdf_ns", "ppg.sample_ns", "ppg.query_ns");
+  meter.updates("ppg", "sd_tree", true);
+  const std::string plain = "{ type: vmf_mixtures, product: none }";
+  meter.answers(lobes(16), plain, "pavmm.pdf_ns.k16", "pavmm.sample_ns.k16", "pavmm.query_ns");
+  meter.answers(lobes(16), "vmf_mixtures", "", "", "pavmm.query_cosine_ns");
+  meter.answers(lobes(16), "{ type: vmf_mixtures, product: bsdf }", "pavmm.product_pdf_ns.k16", "",
+                "pavmm.query_product_ns");
+  meter.answers(lobes(32), plain, "pavmm.pdf_ns.k32", "pavmm.sample_ns.k32", "pavmm.query_ns.k32");
+  meter.updates("pavmm", "vmf_mixtures", true);
+  return meter.all();
+}
+
+}  // namespace pharos::bench
