@@ -21,6 +21,11 @@ std::vector<std::uint32_t> training_samples(ScheduleKind kind, std::uint32_t ite
   return sizes;
 }
 
+/// Of training images only so many of the last ones count that they and the final one are `latest`.
+void keep_latest(std::vector<Iteration>& iterations, std::uint32_t latest) {
+  for (std::size_t i = 0; i + latest < iterations.size(); ++i) iterations[i].keeps_image = false;
+}
+
 }  // namespace
 
 void TrainingSchedule::describe(Schema<TrainingSchedule>& s) {
@@ -34,6 +39,11 @@ void TrainingSchedule::describe(Schema<TrainingSchedule>& s) {
   s.field("images", &TrainingSchedule::images,
           "What becomes of the training iterations' images: thrown away, or combined with the "
           "final one by their samples");
+  s.field("latest_images", &TrainingSchedule::latest_images,
+          "Images that are combined at most, the final one included: the first ones, of guides "
+          "that know little, may be much noisier than the rest")
+      .at_least(1)
+      .at_most(1001);
 }
 
 std::vector<Iteration> TrainingSchedule::divide(const Budget& budget, std::uint32_t granule) const {
@@ -49,6 +59,7 @@ std::vector<Iteration> TrainingSchedule::divide(const Budget& budget, std::uint3
       if (schedule == ScheduleKind::geometric) size *= 2;
     }
     all.push_back({.seconds = *budget.seconds - training});
+    keep_latest(all, latest_images);
     return all;
   }
   const auto wanted = static_cast<std::uint32_t>(std::floor(*budget.spp * share));
@@ -62,6 +73,7 @@ std::vector<Iteration> TrainingSchedule::divide(const Budget& budget, std::uint3
     left -= left % granule;
   }
   all.push_back({.samples = left});
+  keep_latest(all, latest_images);
   return all;
 }
 

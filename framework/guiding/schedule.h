@@ -39,6 +39,7 @@ struct TrainingSchedule {
   std::uint32_t iterations = 15;  ///< of training
   double share = 0.5;             ///< of the budget spent on training
   TrainingImages images = TrainingImages::discard;
+  std::uint32_t latest_images = 1001;  ///< that are combined at most, the final one included
 
   static void describe(Schema<TrainingSchedule>& schema);
 

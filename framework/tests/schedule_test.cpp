@@ -37,6 +37,22 @@ TEST_CASE("geometric training doubles") {
   CHECK(total(iterations) == 64);
 }
 
+TEST_CASE("only the latest images are combined") {
+  TrainingSchedule schedule{.schedule = ScheduleKind::geometric,
+                            .iterations = 5,
+                            .images = TrainingImages::combine,
+                            .latest_images = 3};
+  for (const Budget& budget : {Budget{.spp = 64}, Budget{.seconds = 10.0}}) {
+    const auto iterations = schedule.divide(budget, 1);
+    REQUIRE(iterations.size() == 6);
+    for (std::size_t i = 0; i < 6; ++i) CHECK(iterations[i].keeps_image == (i >= 3));
+  }
+  schedule.latest_images = 1;
+  const auto iterations = schedule.divide({.spp = 64}, 1);
+  CHECK_FALSE(iterations[4].keeps_image);
+  CHECK(iterations[5].keeps_image);
+}
+
 TEST_CASE("small budgets make fewer iterations, never empty ones") {
   for (const ScheduleKind kind : {ScheduleKind::uniform, ScheduleKind::geometric}) {
     for (const std::uint32_t spp : {1u, 2u, 3u, 7u, 20u, 100u}) {
