@@ -27,7 +27,7 @@ class KdTree {
   std::size_t size_bytes() const { return nodes_.size() * sizeof(Node); }
 
   /// Divides a cell at `position` across an axis: what is below keeps its number, the rest becomes
-  /// the cell with the next free one. `leaf` is the cell's place, as leaf_of() says.
+  /// the cell with the next free one. `leaf` is the cell's place, as leaves() says.
   struct Halves {
     std::uint32_t low, high;  ///< places of both parts
   };

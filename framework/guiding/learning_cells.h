@@ -141,7 +141,8 @@ class LearningCells {
         samples.begin(), samples.end(), [&](const Sample& s) { return s.origin[axis] < plane; });
     if (middle == samples.begin() || middle == samples.end()) return;  // all in one place
     const KdTree::Halves halves = tree_.divide(at.leaf, axis, plane);
-    cells_[at.cell].content.forget(rule.decay);
+    // What it has learned from these very samples, its halves learn themselves.
+    cells_[at.cell].content.forget(cells_[at.cell].is_done ? 0 : rule.decay);
     cells_[at.cell].positions = {};
     cells_[at.cell].is_done = false;
     const auto added = static_cast<std::uint32_t>(cells_.size());

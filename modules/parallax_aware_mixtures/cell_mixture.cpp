@@ -51,7 +51,6 @@ class CellUpdate {
     move_pivot(samples);
     for (const Sample& sample : samples) aimed_.push_back(aim(sample));
     set_directions();
-    box_.add(samples.front().origin);
     for (const Sample& sample : samples) box_.add(sample.origin);
   }
 
@@ -205,7 +204,12 @@ class CellUpdate {
       fit(changed);
       // What the halves are like these samples tell anew.
       const std::vector<Assessment> again = assess();
-      for (const std::size_t k : changed) cell_.assessments_[k] = again[k];
+      for (const std::size_t k : changed) {
+        // But where their light is, the whole lobe knew.
+        Assessment& known = cell_.assessments_[k];
+        known = {.inverse = known.inverse, .certainty = known.certainty};
+        known += again[k];
+      }
       changed = split();
     }
   }
@@ -244,9 +248,9 @@ class CellUpdate {
     for (auto* moments : {&frozen_, &seen_}) {
       Moments& whole = (*moments)[k];
       const double length = whole.resultant.norm() / 2 * std::sqrt(1 + axis->squaredNorm());
-      const double weight = whole.weight / 2, most = weight;
-      whole = {weight, std::min(length, most) * parts[0].mean};
-      moments->push_back({weight, std::min(length, most) * parts[1].mean});
+      const double weight = whole.weight / 2, resultant = std::min(length, weight);
+      whole = {weight, resultant * parts[0].mean};
+      moments->push_back({weight, resultant * parts[1].mean});
     }
     cell_.mixture_[k] = parts[0];
     cell_.mixture_.push_back(parts[1]);
@@ -310,9 +314,10 @@ void CellMixture::save(std::ostream& out) const {
     save_vector(moments_[k].resultant, out);
     const Assessment& a = assessments_[k];
     for (const double v : {mixture_[k].weight, mixture_[k].kappa, moments_[k].weight, a.samples,
-                           a.divergence_sum, a.weight, a.xx, a.xy, a.yy, a.inverse, a.certainty}) {
+                           a.divergence_sum, a.weight, a.inverse, a.certainty}) {
       save_number(out, v);
     }
+    for (const double v : a.spread.reshaped()) save_number(out, v);
   }
   save_number(out, static_cast<std::uint32_t>(first_.size()));
   for (const Sample& sample : first_) save_sample(sample, out);
@@ -336,11 +341,13 @@ CellMixture CellMixture::load(std::istream& in) {
     lobe.mean = load_vector(in);
     moments.resultant = load_vector(in);
     for (double* v : {&lobe.weight, &lobe.kappa, &moments.weight, &a.samples, &a.divergence_sum,
-                      &a.weight, &a.xx, &a.xy, &a.yy, &a.inverse, &a.certainty}) {
+                      &a.weight, &a.inverse, &a.certainty}) {
       *v = load_finite<double>(in);
+      expect(*v >= 0);
     }
-    expect(std::abs(lobe.mean.squaredNorm() - 1) < 1e-6 && lobe.weight > 0 && lobe.kappa >= 0 &&
-           moments.weight >= 0 && a.weight >= 0 && a.certainty >= 0 && a.inverse >= 0);
+    for (double& v : a.spread.reshaped()) v = load_finite<double>(in);
+    expect(std::abs(lobe.mean.squaredNorm() - 1) < 1e-6 && lobe.weight > 0 &&
+           a.inverse <= kLargestInverse * a.certainty);
   }
   for (auto count = load_number<std::uint32_t>(in); count > 0; --count) {
     cell.first_.push_back(load_sample(in));

@@ -43,7 +43,7 @@ class BoundVmfGuider final : public BoundGuider {
  private:
   ScatteringLobes factors_at(const GuidingQuery& query) const {
     if (settings_.product == ProductFactor::bsdf) {
-      return fit_scattering(query.scattering, settings_.bsdf_samples);
+      return fit_scattering(query.scattering, {settings_.bsdf_samples, settings_.bsdf_tail});
     }
     const bool is_opaque = query.current.kind == VertexKind::surface &&
                            !contains(query.scattering.events(), Event::smooth_transmit);
@@ -66,7 +66,12 @@ void VmfGuiderSettings::describe(Schema<VmfGuiderSettings>& s) {
   s.field("bsdf_samples", &VmfGuiderSettings::bsdf_samples,
           "For `bsdf`: directions that these lobes are fitted to")
       .at_least(4)
-      .at_most(64);
+      .at_most(kMostScatteringSamples);
+  s.field("bsdf_tail", &VmfGuiderSettings::bsdf_tail,
+          "For `bsdf`: directions whose density is below this share of the largest make the second "
+          "lobe")
+      .above(0)
+      .below(1);
   s.example("{ product: none }");
   s.example("{ product: bsdf }");
 }

@@ -20,6 +20,7 @@ enum class ProductFactor {
 struct VmfGuiderSettings {
   ProductFactor product = ProductFactor::cosine;
   std::uint32_t bsdf_samples = 16;
+  float bsdf_tail = 0.1f;
   static void describe(Schema<VmfGuiderSettings>& schema);
 };
 

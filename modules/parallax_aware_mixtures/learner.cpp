@@ -37,7 +37,7 @@ void VmfSettings::describe(Schema<VmfSettings>& s) {
       .at_least(2);
   s.field("em_iterations", &S::em_iterations, "Steps of a fit at most").at_least(1);
   s.field("em_tolerance", &S::em_tolerance,
-          "A fit ends when a step raises the mean logarithm of its objective by less")
+          "A fit ends when a step raises its objective, a logarithm, by less for each sample")
       .at_least(0);
   s.field("prior_share", &S::prior_share,
           "What every lobe is believed to have seen, relative to all that was seen")

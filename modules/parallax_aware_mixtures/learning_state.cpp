@@ -14,12 +14,16 @@ VmfState::VmfState(const VmfSettings& settings, const LearningContext&) : settin
 
 void VmfState::absorb(const PathLog& log) {
   const SampleRule rule{settings_.least_pdf, settings_.glossy};
-  for (std::size_t i = 0; i < log.size(); ++i) extract_samples(log[i], rule, incident_, samples_);
-  if (samples_.size() >= settings_.batch_samples) learn();
+  for (std::size_t i = 0; i < log.size(); ++i) extract_samples(log[i], rule, scratch_, samples_);
+  if (samples_.size() >= settings_.batch_samples) {
+    learn();
+    learned_early_ = true;
+  }
 }
 
 std::shared_ptr<const GuidingModel> VmfState::update(std::uint32_t, bool) {
   learn();
+  learned_early_ = false;
   if (!cells_.know_something()) return nullptr;
   auto learned = model();
   cells_.mark_origins();
@@ -52,6 +56,7 @@ std::shared_ptr<const GuidingModel> VmfState::model() const {
 void VmfState::save(std::ostream& out) const {
   save_heading(out, kHeading, kVersion);
   save_number(out, lessons_);
+  save_number(out, static_cast<std::uint8_t>(learned_early_));
   cells_.save(out);
   save_number(out, static_cast<std::uint64_t>(samples_.size()));
   for (const Sample& sample : samples_) save_sample(sample, out);
@@ -61,6 +66,7 @@ void VmfState::load(std::istream& in) {
   expect_heading(in, kHeading, kVersion);
   VmfState loaded(*this);
   loaded.lessons_ = load_number<std::uint64_t>(in);
+  loaded.learned_early_ = load_number<std::uint8_t>(in) != 0;
   loaded.cells_.load(in);
   loaded.samples_.clear();
   for (auto count = load_number<std::uint64_t>(in); count > 0; --count) {
@@ -71,7 +77,8 @@ void VmfState::load(std::istream& in) {
 
 void VmfState::merge(const LearningState& other) {
   const auto& theirs = dynamic_cast<const VmfState&>(other);
-  if (theirs.cells_.tree() != cells_.tree() || theirs.lessons_ != lessons_) {
+  const bool is_alike = theirs.cells_.tree() == cells_.tree() && theirs.lessons_ == lessons_;
+  if (!is_alike || learned_early_ || theirs.learned_early_) {
     throw InputError(
         "learning of mixtures in another iteration or scene, or after more than `batch_samples`, "
         "cannot be merged");

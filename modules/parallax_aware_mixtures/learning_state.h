@@ -30,8 +30,9 @@ class VmfState final : public LearningState {
   VmfSettings settings_;
   LearningCells<Sample, CellMixture> cells_;
   std::uint64_t lessons_ = 0;    ///< calls of learn()
+  bool learned_early_ = false;   ///< from samples of this iteration, before its end
   std::vector<Sample> samples_;  ///< that wait
-  std::vector<Rgb> incident_;    ///< scratch
+  PathScratch scratch_;
 };
 
 }  // namespace pharos::vmf

@@ -40,6 +40,12 @@ struct TestLobes8 {
     }
   }
   Float8 density(Vec3 w) const { return mode * exp2(slope * squared_distance(mean, w)); }
+  /// Second moments xx, xy and yy across a lobe's mean, in world space.
+  statistics::Matrix<3> to_world(std::size_t lane, const double (&moments)[3]) const {
+    const Direction a(s[0][lane], s[1][lane], s[2][lane]), b(t[0][lane], t[1][lane], t[2][lane]);
+    return moments[0] * a * a.transpose() + moments[1] * (a * b.transpose() + b * a.transpose()) +
+           moments[2] * b * b.transpose();
+  }
 
   Float8 mean[3], s[3], t[3];
   Float8 slope, mode, weight;
@@ -67,14 +73,18 @@ struct Sums8 {
     inverse += certain * sample.inverse_distance;
     certainty += certain;
   }
-  void add_to(std::span<Assessment> all) const {
+  void add_to(const TestLobes8& lobes, std::span<Assessment> all) const {
     for (std::size_t i = 0; i < std::min(kLanes, all.size()); ++i) {
-      const float of[] = {divergence[i], weight[i], xx[i], xy[i], yy[i], inverse[i], certainty[i]};
+      const double moments[] = {xx[i], xy[i], yy[i]};
+      const Assessment part{.divergence_sum = divergence[i],
+                            .weight = weight[i],
+                            .spread = lobes.to_world(i, moments),
+                            .inverse = inverse[i],
+                            .certainty = certainty[i]};
       // What is too bright for floats says nothing.
-      if (!std::all_of(std::begin(of), std::end(of), [](float v) { return std::isfinite(v); })) {
-        continue;
-      }
-      all[i] += {0, of[0], of[1], of[2], of[3], of[4], of[5], of[6]};
+      const double sum =
+          part.divergence_sum + part.weight + part.spread.sum() + part.inverse + part.certainty;
+      if (std::isfinite(sum)) all[i] += part;
     }
   }
 };
@@ -104,7 +114,7 @@ void assess_part(std::span<const TestLobes8> lobes, std::span<const AimedSample>
     }
   }
   for (std::size_t g = 0; g < lobes.size(); ++g) {
-    sums[g].add_to(std::span(result).subspan(g * kLanes));
+    sums[g].add_to(lobes[g], std::span(result).subspan(g * kLanes));
   }
 }
 
@@ -157,34 +167,28 @@ std::array<Lobe, 2> halves(const Lobe& lobe, const Direction& axis, double most_
 
 std::optional<Direction> Assessment::half_axis(const Direction& mean) const {
   if (!(weight > 0)) return std::nullopt;
-  Eigen::Matrix2d covariance;
-  covariance << xx, xy, xy, yy;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(covariance / weight);
-  const double variance = solver.eigenvalues()[1];
+  const statistics::Matrix<3> across = statistics::Matrix<3>::Identity() - mean * mean.transpose();
+  const statistics::Matrix<3> covariance = across * spread * across / weight;
+  const Eigen::SelfAdjointEigenSolver<statistics::Matrix<3>> solver(covariance);
+  const double variance = solver.eigenvalues()[2];
   if (!(variance > 0)) return std::nullopt;
-  const Eigen::Vector2d axis = 0.5 * std::sqrt(variance) * solver.eigenvectors().col(1);
-  const Frame frame = Frame::from_normal(to_vec(mean));
-  const Direction s(frame.s.x, frame.s.y, frame.s.z), t(frame.t.x, frame.t.y, frame.t.z);
-  const Direction flat = axis[0] * s + axis[1] * t;
-  return Direction(flat - flat.dot(mean) * mean);
+  const Direction axis = across * solver.eigenvectors().col(2);
+  return Direction(0.5 * std::sqrt(variance) * axis);
 }
 
 Assessment& Assessment::operator+=(const Assessment& o) {
   samples += o.samples;
   divergence_sum += o.divergence_sum;
   weight += o.weight;
-  xx += o.xx;
-  xy += o.xy;
-  yy += o.yy;
+  spread += o.spread;
   inverse += o.inverse;
   certainty += o.certainty;
   return *this;
 }
 
 Assessment& Assessment::operator*=(double factor) {
-  for (double* v : {&samples, &divergence_sum, &weight, &xx, &xy, &yy, &inverse, &certainty}) {
-    *v *= factor;
-  }
+  for (double* v : {&samples, &divergence_sum, &weight, &inverse, &certainty}) *v *= factor;
+  spread *= factor;
   return *this;
 }
 

@@ -42,9 +42,10 @@ struct AimedSample {
 /// What samples say of one lobe; adds up.
 struct Assessment {
   double samples = 0;
-  double divergence_sum = 0;          ///< see divergence()
-  double weight = 0;                  ///< of samples, by responsibility
-  double xx = 0, xy = 0, yy = 0;      ///< their second moments in the tangent plane, times weight
+  double divergence_sum = 0;  ///< see divergence()
+  double weight = 0;          ///< of samples, by responsibility
+  /// Their second moments in the plane across the mean, times weight, in world space.
+  statistics::Matrix<3> spread = statistics::Matrix<3>::Zero();
   double inverse = 0, certainty = 0;  ///< sum of inverse distances, weighted; sum of these weights
 
   /// The Pearson chi-square divergence, the lobe's part of it:

@@ -72,7 +72,8 @@ std::vector<LobeGroup> load_groups(std::istream& in) {
       const Vec3 mean{group.mean[0][i], group.mean[1][i], group.mean[2][i]};
       const float kappa = group.kappa[i];
       expect(group.weight[i] >= 0 && kappa >= kLeastKappa && kappa <= kMostKappa &&
-             std::abs(length_squared(mean) - 1) < 1e-4f && group.inverse_distance[i] >= 0);
+             std::abs(length_squared(mean) - 1) < 1e-4f && group.inverse_distance[i] >= 0 &&
+             group.inverse_distance[i] <= kLargestInverse);
       set_shape(group, i, kappa);
       total += group.weight[i];
     }

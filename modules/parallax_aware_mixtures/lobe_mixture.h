@@ -22,6 +22,9 @@ struct LobeGroup {
 /// Lobes that are flatter count as this flat: quotients of differences stay sound.
 inline constexpr float kLeastKappa = 1e-3f;
 
+/// No light is nearer [1/scene unit]: what is beyond is damage.
+inline constexpr double kLargestInverse = 1e12;
+
 /// Appends a mixture's groups; `inverse_distances` has one for each lobe.
 void append_groups(const Mixture& mixture, std::span<const double> inverse_distances,
                    std::vector<LobeGroup>& groups);

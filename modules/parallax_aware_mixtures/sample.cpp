@@ -24,9 +24,9 @@ float share_behind(const RecordedVertex& vertex, const RecordedVertex& from, flo
   return std::isfinite(scale) ? scale : 0;
 }
 
-/// Distance of the image that a step from each vertex shows; of the last step where there are many.
-std::vector<float> image_distances(const PathView& path, float glossy) {
-  std::vector<float> distances(path.vertices.size(), 0);
+/// Distance of the image that a step from each vertex shows; of the first step where it branches.
+void image_distances(const PathView& path, float glossy, std::vector<float>& distances) {
+  distances.assign(path.vertices.size(), 0);
   for (std::size_t i = path.vertices.size(); i-- > 1;) {
     const RecordedVertex& vertex = path.vertices[i];
     if (vertex.parent == kNoVertex) continue;
@@ -37,18 +37,17 @@ std::vector<float> image_distances(const PathView& path, float glossy) {
         escapes ? kInfinity
                 : length(vertex.position - from.position) + (share > 0 ? share * distances[i] : 0);
   }
-  return distances;
 }
 
 }  // namespace
 
-void extract_samples(const PathView& path, const SampleRule& rule, std::vector<Rgb>& incident,
+void extract_samples(const PathView& path, const SampleRule& rule, PathScratch& scratch,
                      std::vector<Sample>& samples) {
-  const std::vector<float> distances = image_distances(path, rule.glossy);
-  for_each_guidable_step(path, incident, [&](const GuidableStep& step) {
+  image_distances(path, rule.glossy, scratch.distances);
+  for_each_guidable_step(path, scratch.incident, [&](const GuidableStep& step) {
     const float pdf = std::max(step.pdf, rule.least_pdf);
     const float weight = mean(step.radiance) / pdf;
-    const float inverse = 1 / distances[step.to.parent];
+    const float inverse = 1 / scratch.distances[step.number];
     if (!(weight >= 0) || !std::isfinite(weight) || !std::isfinite(pdf)) return;
     if (!std::isfinite(inverse)) return;
     samples.push_back({.origin = step.from.position,

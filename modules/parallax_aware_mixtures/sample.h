@@ -23,10 +23,16 @@ struct SampleRule {
   float glossy = 0.3f;     ///< roughness below which a surface shows what is behind it
 };
 
+/// Memory that is kept from path to path.
+struct PathScratch {
+  std::vector<Rgb> incident;
+  std::vector<float> distances;
+};
+
 /// Appends the guidable steps of a path from the sensor. Distances are those of images: they go on
 /// past smooth surfaces, through lenses as far as thin ones would show (Ruppert et al. 2020,
 /// section 5.1).
-void extract_samples(const PathView& path, const SampleRule& rule, std::vector<Rgb>& incident,
+void extract_samples(const PathView& path, const SampleRule& rule, PathScratch& scratch,
                      std::vector<Sample>& samples);
 
 void save_sample(const Sample& sample, std::ostream& out);

@@ -8,25 +8,27 @@
 namespace pharos::vmf {
 namespace {
 
-constexpr std::uint32_t kMostSamples = 64;
-constexpr float kMostKappa = 1e5f;
+constexpr float kMostKappa = 1e4f;
+/// A lobe of fewer directions would be guessed.
+constexpr int kFewest = 3;
 
 /// Directions that are to become a lobe.
 struct Heap {
   Vec3 resultant;
   float weight = 0;
+  int count = 0;
 
-  void add(Vec3 direction, float w) {
-    resultant = resultant + w * direction;
-    weight += w;
+  void add(const Heap& other) {
+    resultant = resultant + other.resultant;
+    weight += other.weight;
+    count += other.count;
   }
-  /// Empty of directions: of no weight.
   Factor lobe(float total) const {
     const float size = length(resultant);
-    if (!(size > 0)) return {};
-    // A half of a direction more, of no preference, so that few of them are no needle.
-    const float cosine = size / (weight * (1 + 0.5f / kMostSamples));
-    const float kappa = cosine * (3 - cosine * cosine) / ((1 - cosine) * (1 + cosine));
+    // The mean is nearer to the directions than to those that they are drawn from.
+    const auto n = static_cast<float>(count);
+    const float apart = std::min(1.0f, (1 - size / weight) * n / (n - 1));
+    const float kappa = (1 - apart) * (3 - square(1 - apart)) / (apart * (2 - apart));
     const float bounded = std::clamp(kappa, kLeastKappa, kMostKappa);
     const auto mode = static_cast<float>(mode_density(bounded));
     return {resultant / size, bounded, mode * weight / total};
@@ -48,33 +50,37 @@ FixedNumbers fixed_numbers(std::uint32_t i, std::uint32_t count) {
 
 }  // namespace
 
-ScatteringLobes fit_scattering(const LocalScattering& scattering, std::uint32_t samples) {
+ScatteringLobes fit_scattering(const LocalScattering& scattering, const ScatteringFit& rule) {
   struct Draw {
-    Vec3 direction;
-    float weight, pdf;
+    Heap heap;  // of it alone
+    float pdf;
   };
-  std::array<Draw, kMostSamples> draws;
+  std::array<Draw, kMostScatteringSamples> draws;
   std::size_t count = 0;
-  float peak = 0, total = 0;
-  samples = std::min(samples, kMostSamples);
-  for (std::uint32_t i = 0; i < samples; ++i) {
-    const FixedNumbers numbers = fixed_numbers(i, samples);
+  float peak = 0;
+  Heap all;
+  for (std::uint32_t i = 0; i < rule.samples; ++i) {
+    const FixedNumbers numbers = fixed_numbers(i, rule.samples);
     const auto drawn = scattering.sample(numbers.choice, numbers.u, EventMask::smooth);
     if (!drawn || !(mean(drawn->weight) > 0)) continue;
-    draws[count++] = {drawn->direction, mean(drawn->weight), drawn->pdf};
+    const float weight = mean(drawn->weight);
+    draws[count] = {{weight * drawn->direction, weight, 1}, drawn->pdf};
     peak = std::max(peak, drawn->pdf);
-    total += mean(drawn->weight);
+    all.add(draws[count++].heap);
   }
-  // What is about as likely as the most likely direction is one lobe, the rest another.
-  constexpr float kTail = 0.1f;
   std::array<Heap, 2> heaps;
   for (std::size_t i = 0; i < count; ++i) {
-    heaps[draws[i].pdf < kTail * peak ? 1 : 0].add(draws[i].direction, draws[i].weight);
+    heaps[draws[i].pdf < rule.tail * peak ? 1 : 0].add(draws[i].heap);
   }
   ScatteringLobes result;
-  for (const Heap& heap : heaps) {
-    const Factor lobe = heap.lobe(total);
-    if (lobe.kappa > 0) result.lobes[result.count++] = lobe;
+  const auto append = [&](const Heap& heap) {
+    const bool is_lobe = heap.count >= kFewest && length_squared(heap.resultant) > 0;
+    if (is_lobe) result.lobes[result.count++] = heap.lobe(all.weight);
+  };
+  if (heaps[0].count >= kFewest && heaps[1].count >= kFewest) {
+    for (const Heap& heap : heaps) append(heap);
+  } else {
+    append(all);
   }
   return result;
 }

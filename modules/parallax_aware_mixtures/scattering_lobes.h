@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include <pharos/scene/local_scattering.h>
 
 #include "seen_lobes.h"
@@ -16,8 +18,16 @@ struct ScatteringLobes {
   std::size_t count = 0;
 };
 
-/// Fitted to `samples` directions that the scattering draws from a fixed point set: the same for
-/// the same vertex. None where it draws nothing.
-ScatteringLobes fit_scattering(const LocalScattering& scattering, std::uint32_t samples);
+inline constexpr std::uint32_t kMostScatteringSamples = 64;
+
+/// How they are fitted.
+struct ScatteringFit {
+  std::uint32_t samples = 16;  ///< directions, at most kMostScatteringSamples
+  float tail = 0.1f;           ///< densities below this share of the largest make the second lobe
+};
+
+/// Fitted to directions that the scattering draws from a fixed point set: the same for the same
+/// vertex. None where it draws nothing.
+ScatteringLobes fit_scattering(const LocalScattering& scattering, const ScatteringFit& rule);
 
 }  // namespace pharos::vmf

@@ -10,13 +10,13 @@ void SdTreeSettings::describe(Schema<SdTreeSettings>& s) {
   s.field("spatial_threshold", &S::spatial_threshold,
           "Records of an iteration, over the square root of half its samples a pixel, above which "
           "a cell is halved (c)")
-      .above(0);
+      .at_least(10);
   s.field("spatial_depth", &S::spatial_depth, "Planes above the smallest cell at most")
       .at_least(0)
       .at_most(KdTree::kMostLevels);
   s.field("directional_threshold", &S::directional_threshold,
           "Share of a cell's light above which a quarter of its directions is divided (rho)")
-      .above(0)
+      .at_least(1e-4)
       .at_most(1);
   s.field("directional_depth", &S::directional_depth, "Levels of quarters at most")
       .at_least(1)
@@ -31,7 +31,7 @@ void SdTreeSettings::describe(Schema<SdTreeSettings>& s) {
   s.field("pixel_radius", &S::pixel_radius,
           "For the relative target: pixels are averaged with those up to so far away")
       .at_least(0)
-      .at_most(64);
+      .at_most(16);
   s.field("least_pixel", &S::least_pixel,
           "For the relative target: no pixel counts as darker, relative to the image's mean")
       .above(0);

@@ -1,6 +1,7 @@
 #include "learning_state.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -46,7 +47,7 @@ SdTreeState::SdTreeState(const SdTreeSettings& settings, const LearningContext& 
       seed_(context.seed),
       film_pixels_(static_cast<double>(context.window.area())),
       cells_{{.box = cube_around(context.region), .learning = QuadTree(refinement())}},
-      pixels_(context.window) {}
+      pixels_(settings.target == GuidingTarget::relative ? context.window : PixelRect{}) {}
 
 void SdTreeState::absorb(const PathLog& log) {
   for (std::size_t i = 0; i < log.size(); ++i) {
@@ -154,7 +155,6 @@ void SdTreeState::save(std::ostream& out) const {
     for (const Point3 corner : {cell.box.low, cell.box.high}) {
       for (int axis = 0; axis < 3; ++axis) save_number(out, corner[axis]);
     }
-    save_number(out, cell.level);
     save_number(out, cell.records);
     save_number(out, cell.light);
     save_number(out, cell.known_light);
@@ -180,6 +180,8 @@ void SdTreeState::read(std::istream& in) {
   };
   expect_heading(in, kHeading, kVersion);
   tree_ = KdTree::load(in);
+  const std::vector<std::uint32_t> leaves = tree_.leaves();
+  const std::vector<int> levels = tree_.levels();
   cells_.clear();
   origins_.clear();
   while (cells_.size() < tree_.cell_count()) {
@@ -189,12 +191,11 @@ void SdTreeState::read(std::istream& in) {
     for (Point3* corner : {&cell.box.low, &cell.box.high}) {
       for (int axis = 0; axis < 3; ++axis) (*corner)[axis] = load_finite<float>(in);
     }
-    cell.level = load_number<int>(in);
+    cell.level = levels[leaves[cells_.size() - 1]];
     cell.records = load_finite<double>(in);
     cell.light = load_finite<double>(in);
     cell.known_light = load_finite<float>(in);
-    expect(cell.level >= 0 && cell.level <= KdTree::kMostLevels && cell.records >= 0 &&
-           cell.light >= 0 && cell.known_light >= 0);
+    expect(cell.records >= 0 && cell.light >= 0 && cell.known_light >= 0);
     cell.learning = QuadTree::load(in);
     cell.known = load_nodes(in);
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <pharos/core/binary_stream.h>
+#include <pharos/core/parallel.h>
 
 namespace pharos::ppg {
 
@@ -34,13 +35,14 @@ void PixelEstimates::update(int radius, double least) {
   }
   if (!(sum > 0)) return;
   const double floor = least * sum / paths;
-  for (int y = window_.y0; y < window_.y1; ++y) {
+  parallel_for(static_cast<std::size_t>(window_.height()), [&](std::size_t row) {
+    const int y = window_.y0 + static_cast<int>(row);
     for (int x = window_.x0; x < window_.x1; ++x) {
       const Pixel around = sum_around(x, y, radius);
       const double mean = around.paths > 0 ? around.sum / around.paths : 0;
       estimates_[window_.index(x, y)] = std::max(mean, floor);
     }
-  }
+  });
 }
 
 PixelEstimates::Pixel PixelEstimates::sum_around(int x, int y, int radius) const {
@@ -71,7 +73,7 @@ void PixelEstimates::merge(const PixelEstimates& other) {
 }
 
 void PixelEstimates::save(std::ostream& out) const {
-  save_number(out, static_cast<std::uint32_t>(pixels_.size()));
+  for (const int edge : {window_.x0, window_.y0, window_.x1, window_.y1}) save_number(out, edge);
   for (std::size_t i = 0; i < pixels_.size(); ++i) {
     for (const Pixel& pixel : {pixels_[i], new_[i]}) {
       save_number(out, pixel.sum);
@@ -82,8 +84,10 @@ void PixelEstimates::save(std::ostream& out) const {
 }
 
 void PixelEstimates::load(std::istream& in) {
-  if (load_number<std::uint32_t>(in) != pixels_.size()) {
-    throw InputError("what was learned belongs to a film of another size");
+  for (const int edge : {window_.x0, window_.y0, window_.x1, window_.y1}) {
+    if (load_number<int>(in) != edge) {
+      throw InputError("what was learned belongs to a film of another size");
+    }
   }
   for (std::size_t i = 0; i < pixels_.size(); ++i) {
     for (Pixel* pixel : {&pixels_[i], &new_[i]}) {

@@ -10,8 +10,6 @@
 namespace pharos::ppg {
 namespace {
 
-constexpr std::uint32_t kMostNodes = 1u << 24;
-
 void expect(bool holds) {
   if (!holds) throw InputError("the directional tree is damaged");
 }

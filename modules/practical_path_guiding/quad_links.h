@@ -1,9 +1,13 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace pharos::ppg {
+
+/// More nodes than that no tree has: a larger count is damage.
+inline constexpr std::uint32_t kMostNodes = 1u << 24;
 
 /// Whether the nodes' `child[4]` make a tree of at most `levels` levels: every node but the first
 /// is the child of one that stands before it. (There may be none at all.)

@@ -10,8 +10,6 @@
 namespace pharos::ppg {
 namespace {
 
-constexpr std::uint32_t kMostNodes = 1u << 24;
-
 double sum_of(const double (&masses)[4]) {
   return (masses[0] + masses[1]) + (masses[2] + masses[3]);
 }

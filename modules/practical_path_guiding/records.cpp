@@ -1,6 +1,6 @@
 #include "records.h"
 
-#include <cmath>
+#include <limits>
 
 #include <pharos/core/binary_stream.h>
 #include <pharos/core/warp.h>

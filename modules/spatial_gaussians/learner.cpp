@@ -34,7 +34,7 @@ void GaussianSettings::describe(Schema<GaussianSettings>& s) {
       .at_most(1024);
   s.field("em_iterations", &S::em_iterations, "Steps of a fit at most").at_least(1);
   s.field("em_tolerance", &S::em_tolerance,
-          "A fit ends when a step raises the mean logarithm of its objective by less")
+          "A fit ends when a step raises its objective, a logarithm, by less for each sample")
       .at_least(0);
   s.field("prior_counts", &S::prior_counts,
           "Samples that every component is believed to have (Dirichlet prior)")

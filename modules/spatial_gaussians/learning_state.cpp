@@ -26,11 +26,15 @@ void GaussianState::absorb(const PathLog& log) {
   for (std::size_t i = 0; i < log.size(); ++i) {
     extract_samples(log[i], rule_, incident_, samples_);
   }
-  if (samples_.size() >= settings_.batch_samples) learn();
+  if (samples_.size() >= settings_.batch_samples) {
+    learn();
+    learned_early_ = true;
+  }
 }
 
 std::shared_ptr<const GuidingModel> GaussianState::update(std::uint32_t, bool) {
   learn();
+  learned_early_ = false;
   if (!cells_.know_something()) return nullptr;
   auto learned = model();
   cells_.mark_origins();
@@ -61,6 +65,7 @@ std::shared_ptr<const GuidingModel> GaussianState::model() const {
 void GaussianState::save(std::ostream& out) const {
   save_heading(out, kHeading, kVersion);
   save_number(out, lessons_);
+  save_number(out, static_cast<std::uint8_t>(learned_early_));
   cells_.save(out);
   save_number(out, static_cast<std::uint64_t>(samples_.size()));
   for (const Sample& sample : samples_) save_sample(sample, out);
@@ -70,6 +75,7 @@ void GaussianState::load(std::istream& in) {
   expect_heading(in, kHeading, kVersion);
   GaussianState loaded(*this);
   loaded.lessons_ = load_number<std::uint64_t>(in);
+  loaded.learned_early_ = load_number<std::uint8_t>(in) != 0;
   loaded.cells_.load(in);
   loaded.samples_.clear();
   for (auto count = load_number<std::uint64_t>(in); count > 0; --count) {
@@ -80,7 +86,8 @@ void GaussianState::load(std::istream& in) {
 
 void GaussianState::merge(const LearningState& other) {
   const auto& theirs = dynamic_cast<const GaussianState&>(other);
-  if (theirs.cells_.tree() != cells_.tree() || theirs.lessons_ != lessons_) {
+  const bool is_alike = theirs.cells_.tree() == cells_.tree() && theirs.lessons_ == lessons_;
+  if (!is_alike || learned_early_ || theirs.learned_early_) {
     throw InputError(
         "learning of Gaussians in another iteration or scene, or after more than `batch_samples`, "
         "cannot be merged");

@@ -33,6 +33,7 @@ class GaussianState final : public LearningState {
   std::uint64_t seed_;
   LearningCells<Sample, CellMixture> cells_;
   std::uint64_t lessons_ = 0;    ///< calls of learn()
+  bool learned_early_ = false;   ///< from samples of this iteration, before its end
   std::vector<Sample> samples_;  ///< that wait
   std::vector<Rgb> incident_;    ///< scratch
 };

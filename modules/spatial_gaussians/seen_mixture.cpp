@@ -192,6 +192,16 @@ Float8 dot8(const Float8 (&a)[3], const Float8 (&b)[3]) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
+/// The cosines between the means and a direction, whose digits near the horizon count when they are
+/// cubed.
+Float8 exact_cosine(const SeenGroup& group, Vec3 direction) {
+  const auto part = [&](int axis) {
+    return (widened(group.aim[axis]) + widened(group.aim_rest[axis])) *
+           all_doubles8(direction[axis]);
+  };
+  return rounded(part(0) + part(1) + part(2));
+}
+
 /// The densities of eight components, times their shares.
 template <Technique technique>
 Float8 densities(const SeenGroup& group, Vec3 direction) {
@@ -207,7 +217,7 @@ Float8 densities(const SeenGroup& group, Vec3 direction) {
     return group.aim[0] * direction.x + group.aim[1] * direction.y + group.aim[2] * direction.z;
   };
   if constexpr (technique == Technique::plane) {
-    const Float8 x = cosine_to_mean();
+    const Float8 x = exact_cosine(group, direction);
     constexpr float kLeast = 1e-10f;  // so that its cube is a float
     const Float8 over = 1 / larger(x, all8(kLeast));
     // (In this order, as the factors alone may be too large for floats.)

@@ -78,7 +78,8 @@ struct Learned {
   std::vector<double> seconds;
 };
 Learned learn(const std::string& learner, const Bounds3& bounds, const Registry& registry) {
-  const auto state = build<Learner>(learner, registry)->begin({.region = bounds, .seed = 1});
+  const auto state = build<Learner>(learner, registry)
+                         ->begin({.region = bounds, .seed = 1, .window = {0, 0, 100, 100}});
   Learned learned;
   tbb::task_arena arena(2);
   for (std::uint32_t i = 0; i < kUpdates; ++i) {
@@ -120,7 +121,7 @@ class BaselineMeter {
   }
 
   /// Absorbing and learning from 200,000 steps: the first time, and later ones.
-  void updates(const std::string& name, const std::string& learner, bool counts_cells) {
+  void updates(const std::string& name, const std::string& learner) {
     Measurement first{name + ".first_update_s.200k", "s", {}},
         later{name + ".update_s.200k", "s", {}};
     Measurement bytes{name + ".bytes_per_cell", "B", {}};
@@ -133,7 +134,7 @@ class BaselineMeter {
     }
     all_.push_back(first);
     all_.push_back(later);
-    if (counts_cells) all_.push_back(bytes);
+    all_.push_back(bytes);
   }
 
   const std::vector<Measurement>& all() const { return all_; }
@@ -162,14 +163,14 @@ std::vector<Measurement> bench_baselines(int repeats) {
   const Scene scene(loaded.scene);
   BaselineMeter meter(registry, scene, repeats);
   meter.answers("sd_tree", "sd_tree", "ppg.pdf_ns", "ppg.sample_ns", "ppg.query_ns");
-  meter.updates("ppg", "sd_tree", true);
+  meter.updates("ppg", "sd_tree");
   const std::string plain = "{ type: vmf_mixtures, product: none }";
   meter.answers(lobes(16), plain, "pavmm.pdf_ns.k16", "pavmm.sample_ns.k16", "pavmm.query_ns");
   meter.answers(lobes(16), "vmf_mixtures", "", "", "pavmm.query_cosine_ns");
   meter.answers(lobes(16), "{ type: vmf_mixtures, product: bsdf }", "pavmm.product_pdf_ns.k16", "",
                 "pavmm.query_product_ns");
   meter.answers(lobes(32), plain, "pavmm.pdf_ns.k32", "pavmm.sample_ns.k32", "pavmm.query_ns.k32");
-  meter.updates("pavmm", "vmf_mixtures", true);
+  meter.updates("pavmm", "vmf_mixtures");
   return meter.all();
 }
 

@@ -123,6 +123,21 @@ TEST_CASE("an experiment leaves tables, images, records and a report") {
         folder.path());
     CHECK(rendered_runs(more) == 4);
   }
+  SUBCASE("a method's config lies below its settings: the same in either is not rendered again") {
+    folder.write("preset.yaml", "sampler: sobol\n");
+    const std::string config = "--set 'methods.1={ name: sobol, config: preset.yaml";
+    const Outcome same = run_pharos("experiment test.yaml " + config + " }'", folder.path());
+    REQUIRE_MESSAGE(same.exit_code == 0, same.err);
+    CHECK(rendered_runs(same) == 0);
+    const Outcome over = run_pharos(
+        "experiment test.yaml " + config + ", settings: { sampler: halton } }'", folder.path());
+    CHECK(over.exit_code == 0);
+    CHECK(rendered_runs(over) == 4);
+    const Outcome missing = run_pharos(
+        "experiment test.yaml --set 'methods.1={ name: sobol, config: none.yaml }'", folder.path());
+    CHECK(missing.exit_code == 2);
+    CHECK(missing.err.find("none.yaml") != std::string::npos);
+  }
   SUBCASE("another number of threads gives the same table") {
     const std::string table = table_of(folder.path());
     fs::remove_all(folder.path() / "test");

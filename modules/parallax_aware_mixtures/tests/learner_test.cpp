@@ -115,17 +115,33 @@ TEST_CASE("a tree of mixtures finds the lamp, and its cells are divided") {
   REQUIRE(model->region_origins().size() == model->region_count());
 }
 
-TEST_CASE("one lobe is enough for one lamp: superfluous ones are merged") {
+TEST_CASE("superfluous lobes are merged") {
   VmfSettings settings = small_settings();
   settings.spatial = SpatialCells::single;
+  settings.most_components = settings.components;  // no splits
+  const auto lobes = [&] { return std::stoi(trained(settings)->facts()[1].value); };
+  const int merged = lobes();
+  settings.merge_threshold = 0;
+  CHECK(lobes() == 8);
+  CHECK(merged < 8);
+}
+
+TEST_CASE("the halves of a lobe know how far away its light is") {
+  VmfSettings settings = small_settings();
+  settings.spatial = SpatialCells::single;
+  settings.components = 1;
   const auto model = trained(settings);
   const auto view = dynamic_cast<const VmfModel&>(*model).at({0, 0, 0});
-  float largest = 0;
+  int lobes = 0;
   for (const LobeGroup& group : view.groups) {
-    for (std::size_t i = 0; i < kLanes; ++i) largest = std::max(largest, group.weight[i]);
+    for (std::size_t i = 0; i < kLanes; ++i) {
+      if (group.weight[i] == 0) continue;
+      ++lobes;
+      CHECK(group.inverse_distance[i] > 0.2f);
+      CHECK(group.inverse_distance[i] < 2);
+    }
   }
-  CHECK(largest > 0.2f);
-  CHECK(std::stoi(model->facts()[1].value) < 16);
+  CHECK(lobes > 2);
 }
 
 TEST_CASE("a wide light takes several lobes: those that fit badly are split") {
@@ -193,6 +209,16 @@ TEST_CASE("merged states know what both absorbed") {
   CHECK_THROWS_AS(part->merge(*other), InputError);
 }
 
+TEST_CASE("states that learned before the iteration's end are not merged") {
+  VmfSettings settings = small_settings();
+  settings.spatial = SpatialCells::single;
+  settings.batch_samples = 1024;
+  const VmfLearner learner(settings);
+  const auto one = learner.begin({.seed = 7}), other = learner.begin({.seed = 7});
+  for (auto* state : {one.get(), other.get()}) state->absorb(lamp_paths(1500, 1));
+  CHECK_THROWS_AS(one->merge(*other), InputError);
+}
+
 TEST_CASE("little light waits for more; without any there is no model") {
   const auto state = VmfLearner(small_settings()).begin({.seed = 7});
   CHECK(state->update(0, false) == nullptr);
@@ -215,7 +241,14 @@ TEST_CASE("models survive being saved; damaged ones are refused or sound") {
     std::istringstream stream(damaged);
     try {
       const auto loaded = learner.load_model(stream);
-      CHECK(std::isfinite(loaded->density({0.1f, 0.2f, 0}, {0, 0, 1})));
+      const Point3 at{0.1f, 0.2f, 0};
+      CHECK(std::isfinite(loaded->density(at, {0, 0, 1})));
+      const auto view = dynamic_cast<const VmfModel&>(*loaded).at(at);
+      Arena arena;
+      const SeenLobes* seen = SeenLobes::make(view.groups, view.offset, {}, arena);
+      if (seen == nullptr) continue;
+      const Vec3 drawn = seen->sample(random.next_1d(), random.next_2d());
+      CHECK(length(drawn) == doctest::Approx(1).epsilon(1e-3));
     } catch (const InputError&) {
     }
   }

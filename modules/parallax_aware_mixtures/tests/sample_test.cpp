@@ -29,8 +29,8 @@ std::vector<Sample> samples_over(RecordedVertex surface, Vec3 onward,
   log.add(RecordedVertex{
       .position = surface.position + 4.0f * onward, .kind = end, .parent = 2, .emission = Rgb(6)});
   std::vector<Sample> samples;
-  std::vector<Rgb> incident;
-  extract_samples(log[0], {.least_pdf = 0.1f, .glossy = 0.3f}, incident, samples);
+  PathScratch scratch;
+  extract_samples(log[0], {.least_pdf = 0.1f, .glossy = 0.3f}, scratch, samples);
   return samples;
 }
 

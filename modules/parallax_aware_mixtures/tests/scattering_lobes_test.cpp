@@ -1,0 +1,72 @@
+#include "../scattering_lobes.h"
+
+#include <doctest/doctest.h>
+
+#include "test_lobes.h"
+
+namespace pharos::vmf {
+namespace {
+
+using namespace testing;
+
+/// Two lobes, one ahead and one straight up, or one alone.
+class LobePhase final : public PhaseFunction {
+ public:
+  LobePhase(float kappa, float share_up) : kappa_(kappa), share_up_(share_up) {}
+  float evaluate(Vec3, Vec3 wi) const override {
+    const auto at = [&](Vec3 mean, float kappa) {
+      return static_cast<float>(density_of(Lobe{1, to_direction(mean), kappa}, wi));
+    };
+    return (1 - share_up_) * at(kAhead, kappa_) + share_up_ * at(kUp, 3);
+  }
+  Vec3 sample(Vec3, Vec2 u) const override {
+    if (u.x < share_up_) return vmf::sample(kUp, 3, {u.x / share_up_, u.y});
+    return vmf::sample(kAhead, kappa_, {(u.x - share_up_) / (1 - share_up_), u.y});
+  }
+  float mean_cosine() const override { return 0; }
+
+  static constexpr Vec3 kAhead{0, 0, 1}, kUp{0, 1, 0};
+
+ private:
+  float kappa_, share_up_;
+};
+
+ScatteringLobes fitted(const LobePhase& phase, std::uint32_t samples = 64) {
+  const LocalScattering scattering(phase, Rgb(2), {0, 0, -1}, Transport::radiance);
+  return fit_scattering(scattering, {.samples = samples});
+}
+
+TEST_CASE("lobes are fitted to what a vertex scatters, narrow or wide") {
+  for (const float kappa : {0.5f, 5.0f, 60.0f, 2000.0f}) {
+    CAPTURE(kappa);
+    const ScatteringLobes lobes = fitted(LobePhase(kappa, 0));
+    REQUIRE(lobes.count >= 1);
+    const Factor& first = lobes.lobes[0];
+    CHECK(dot(first.mean, LobePhase::kAhead) > 0.9f);
+    // A fit of 64 directions whose tail may be a lobe of its own.
+    CHECK(first.kappa > 0.6f * kappa);
+    CHECK(first.kappa < 4 * kappa + 2);
+  }
+}
+
+TEST_CASE("a narrow lobe in a wide one makes two, with their shares") {
+  const ScatteringLobes lobes = fitted(LobePhase(500, 0.6f));
+  REQUIRE(lobes.count == 2);
+  CHECK(dot(lobes.lobes[0].mean, LobePhase::kAhead) > 0.99f);
+  CHECK(lobes.lobes[0].kappa > 200);
+  CHECK(dot(lobes.lobes[1].mean, LobePhase::kUp) > 0.9f);
+  const auto weight = [](const Factor& f) { return f.peak / mode_density(f.kappa); };
+  CHECK(weight(lobes.lobes[0]) + weight(lobes.lobes[1]) == doctest::Approx(1).epsilon(1e-3));
+  CHECK(weight(lobes.lobes[1]) > 0.5);
+}
+
+TEST_CASE("few directions make no needles, and the fit is the same each time") {
+  const ScatteringLobes lobes = fitted(LobePhase(1e5f, 0), 4);
+  REQUIRE(lobes.count == 1);
+  CHECK(lobes.lobes[0].kappa <= 1e4f);
+  const LobePhase phase(20, 0.5f);
+  CHECK(fitted(phase).lobes[0].kappa == fitted(phase).lobes[0].kappa);
+}
+
+}  // namespace
+}  // namespace pharos::vmf
