@@ -127,7 +127,7 @@ Float8 cosine_factor(const CosineRule& rule, const SeenGroup& group) {
 
 /// One over the distances of the means, 0 for none, and the directions: their length may be off by
 /// a rounding, but they are parallel to the means in twice the precision.
-Float8 aim_at(const Lanes3<Double8>& mu, SeenGroup& group) {
+Float8 aim_at(const Lanes3<Double8>& mu, Technique technique, SeenGroup& group) {
   const Float8 x = rounded(mu.x), y = rounded(mu.y), z = rounded(mu.z);
   const Float8 squared = x * x + y * y + z * z;
   const Float8 over = squared > 0 ? 1 / sqrt(squared) : Float8{};
@@ -137,6 +137,7 @@ Float8 aim_at(const Lanes3<Double8>& mu, SeenGroup& group) {
     const Double8 aim = *from[i] * wide;
     group.aim[i] = rounded(aim);
     group.aim_rest[i] = rounded(aim - widened(group.aim[i]));
+    if (technique == Technique::plane) group.wide_aim[i] = aim;
   }
   return over;
 }
@@ -165,7 +166,7 @@ void see_group(std::span<const SpatialGaussian> components, Point3 origin, const
   set_row(group, 0, whitening.row(m.direction));
   set_row(group, 1, whitening.row(across[0]));
   set_row(group, 2, whitening.row(across[1]));
-  const Float8 over_distance = aim_at(c.mu, group);
+  const Float8 over_distance = aim_at(c.mu, technique, group);
   const Mask8 is_outside = over_distance > 0;
   group.ahead = m.length * over_distance;
   group.share = rounded(c.weight);
@@ -195,11 +196,9 @@ Float8 dot8(const Float8 (&a)[3], const Float8 (&b)[3]) {
 /// The cosines between the means and a direction, whose digits near the horizon count when they are
 /// cubed.
 Float8 exact_cosine(const SeenGroup& group, Vec3 direction) {
-  const auto part = [&](int axis) {
-    return (widened(group.aim[axis]) + widened(group.aim_rest[axis])) *
-           all_doubles8(direction[axis]);
-  };
-  return rounded(part(0) + part(1) + part(2));
+  const Double8* aim = group.wide_aim;
+  return rounded(aim[0] * all_doubles8(direction.x) + aim[1] * all_doubles8(direction.y) +
+                 aim[2] * all_doubles8(direction.z));
 }
 
 /// The densities of eight components, times their shares.

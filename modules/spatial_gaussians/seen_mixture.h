@@ -33,13 +33,14 @@ struct SeenGroup {
   SeenGroup() {}  // leaves everything as it is: an array of groups need not be cleared
 
   Float8 rows[3][3];
-  Float8 ahead;        ///< the first row times `aim`
-  Float8 aim[3];       ///< unit direction to the mean; zero in the mean itself
-  Float8 aim_rest[3];  ///< what rounding has taken from it
-  Float8 share;        ///< probability of choosing the component
-  Float8 weight;       ///< the density's factor that does not hang on the direction
-  Float8 reach;        ///< |L^-1 mu|; for `plane` |mu| / l00
-  Float8 far;          ///< e^(-reach^2 / 2)
+  Float8 ahead;         ///< the first row times `aim`
+  Float8 aim[3];        ///< unit direction to the mean; zero in the mean itself
+  Float8 aim_rest[3];   ///< what rounding has taken from it
+  Double8 wide_aim[3];  ///< the same before rounding; for `plane` only
+  Float8 share;         ///< probability of choosing the component
+  Float8 weight;        ///< the density's factor that does not hang on the direction
+  Float8 reach;         ///< |L^-1 mu|; for `plane` |mu| / l00
+  Float8 far;           ///< e^(-reach^2 / 2)
 };
 
 /// A mixture of Gaussians as it is seen from one point: a distribution over directions. Weights are
