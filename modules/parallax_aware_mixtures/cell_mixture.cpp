@@ -163,7 +163,7 @@ class CellUpdate {
   /// below `bound` matters.
   double cost_anywhere(std::size_t i, std::size_t j, double bound) const {
     const PlacedLobe a = placed(i), b = placed(j);
-    double most = merge_cost(a, b);
+    double most = merge_cost(a.lobe, b.lobe);
     if (!settings_.parallax) return most;
     const Direction low = to_vector(box_.low) - cell_.pivot_,
                     high = to_vector(box_.high) - cell_.pivot_;
@@ -171,7 +171,7 @@ class CellUpdate {
          {Direction(low[0], high[1], high[2]), Direction(high[0], low[1], high[2]),
           Direction(high[0], high[1], low[2])}) {
       if (most >= bound) return most;
-      most = std::max(most, merge_cost(a.seen_from(corner / 2), b.seen_from(corner / 2)));
+      most = std::max(most, merge_cost(a.seen_from(corner / 2).lobe, b.seen_from(corner / 2).lobe));
     }
     return most;
   }
@@ -180,7 +180,7 @@ class CellUpdate {
     const auto erase = [j](auto& list) {
       list.erase(list.begin() + static_cast<std::ptrdiff_t>(j));
     };
-    const Lobe whole = merged(placed(i), placed(j)).lobe;
+    const Lobe whole = merged(cell_.mixture_[i], cell_.mixture_[j]);
     frozen_[i] += frozen_[j];
     seen_[i] += seen_[j];
     const double inverse = cell_.assessments_[i].inverse + cell_.assessments_[j].inverse;

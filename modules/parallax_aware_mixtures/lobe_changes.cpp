@@ -130,22 +130,17 @@ PlacedLobe PlacedLobe::seen_from(const Direction& step) const {
   return seen;
 }
 
-PlacedLobe merged(const PlacedLobe& a, const PlacedLobe& b) {
-  const double weight = a.lobe.weight + b.lobe.weight;
-  const Direction resultant = (a.lobe.weight * mean_cosine(a.lobe.kappa) * a.lobe.mean +
-                               b.lobe.weight * mean_cosine(b.lobe.kappa) * b.lobe.mean) /
-                              weight;
+Lobe merged(const Lobe& a, const Lobe& b) {
+  const double weight = a.weight + b.weight;
+  const Direction resultant =
+      (a.weight * mean_cosine(a.kappa) * a.mean + b.weight * mean_cosine(b.kappa) * b.mean) /
+      weight;
   const double length = resultant.norm();
-  PlacedLobe whole{
-      {weight, length > 0 ? Direction(resultant / length) : a.lobe.mean, concentration(length)}};
-  whole.inverse_distance =
-      (a.lobe.weight * a.inverse_distance + b.lobe.weight * b.inverse_distance) / weight;
-  return whole;
+  return {weight, length > 0 ? Direction(resultant / length) : a.mean, concentration(length)};
 }
 
-double merge_cost(const PlacedLobe& a, const PlacedLobe& b) {
-  const Lobe whole = merged(a, b).lobe;
-  const Lobe &i = a.lobe, &j = b.lobe;
+double merge_cost(const Lobe& i, const Lobe& j) {
+  const Lobe whole = merged(i, j);
   const double sum = i.weight * i.weight * overlap(i, i, whole) +
                      2 * i.weight * j.weight * overlap(i, j, whole) +
                      j.weight * j.weight * overlap(j, j, whole);

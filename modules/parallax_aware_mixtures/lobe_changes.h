@@ -21,12 +21,12 @@ struct PlacedLobe {
 };
 
 /// Both in one: moments add up.
-PlacedLobe merged(const PlacedLobe& a, const PlacedLobe& b);
+Lobe merged(const Lobe& a, const Lobe& b);
 
 /// What merging two lobes would cost: the chi-square divergence of both from the one that stands
 /// for them, times their weight, (p_i^2 I_ii + 2 p_i p_j I_ij + p_j^2 I_jj) / p - p, I_ij being the
 /// integral of v_i v_j / v.
-double merge_cost(const PlacedLobe& a, const PlacedLobe& b);
+double merge_cost(const Lobe& a, const Lobe& b);
 
 /// A lobe in two, side by side along an axis: lobes that merge to the same one again.
 std::array<Lobe, 2> halves(const Lobe& lobe, const Direction& axis, double most_kappa);
