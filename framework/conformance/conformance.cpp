@@ -76,6 +76,12 @@ std::function<void(Suite&)> suite_of(const Subject& s) {
   if (contract == Sampler::contract_name) {
     return [c = as.operator()<Sampler>()](Suite& suite) { check_sampler(*c, suite); };
   }
+  if (contract == PhaseFunction::contract_name) {
+    return [c = as.operator()<PhaseFunction>()](Suite& suite) { check_phase_function(*c, suite); };
+  }
+  if (contract == Medium::contract_name) {
+    return [c = as.operator()<Medium>()](Suite& suite) { check_medium(*c, suite); };
+  }
   if (contract == Shape::contract_name) {
     return [c = as.operator()<Shape>()](Suite& suite) { check_shape(c, suite); };
   }

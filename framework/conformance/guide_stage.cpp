@@ -73,7 +73,8 @@ class Walk {
     if (ray.t_max == kInfinity) return nullptr;
     bool in_medium = false;
     if (medium_ != nullptr) {
-      const DistanceSample stop = medium_->sample(ray, 0, random_.next_1d());
+      const DistanceSample stop =
+          medium_->sample(ray, channel_shares(Rgb(1)), 0, random_.next_1d());
       in_medium = stop.scattered;
       if (in_medium) hit = {.position = ray.at(stop.t)};
     }
@@ -183,7 +184,8 @@ ResolvedVertex StageVertex::surface_along(Vec3 direction, Event event) const {
     vertex.kind = VertexKind::environment;
     vertex.position = scene_.environment_point(ray.origin, direction);
   }
-  if (medium_ != nullptr) vertex.medium_density = medium_->pass_probability(ray, distance);
+  if (medium_ != nullptr)
+    vertex.medium_density = medium_->pass_probability(ray, channel_shares(Rgb(1)), distance);
   return vertex;
 }
 

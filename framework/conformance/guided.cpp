@@ -45,7 +45,7 @@ ResolvedVertex Guided::stopped(ResolvedVertex v, float distance) const {
   v.distance = distance;
   v.position = ray.at(distance);
   v.kind = VertexKind::volume;
-  v.medium_density = vertex_.medium()->scatter_pdf(ray, distance);
+  v.medium_density = vertex_.medium()->scatter_pdf(ray, channel_shares(Rgb(1)), distance);
   return v;
 }
 
@@ -69,7 +69,7 @@ std::optional<ResolvedVertex> Guided::reach(const ResolvedVertex& end, const Pro
   DistanceSample stop{proposal.distance, at_distance};
   if (proposal.reach == Proposal::Reach::medium) {
     const Ray ray{vertex_.query().current.position, end.direction, end.distance};
-    stop = vertex_.medium()->sample(ray, 0, random.next_1d());
+    stop = vertex_.medium()->sample(ray, channel_shares(Rgb(1)), 0, random.next_1d());
   } else if (at_distance && !(stop.t < end.distance)) {
     return std::nullopt;
   }

@@ -78,6 +78,42 @@ void check_density(const PreparedSensor& sensor, bool one_direction, Suite& suit
   }
 }
 
+/// From points along rays back to their film positions, and the density of rays there: what three
+/// neighbouring rays span across, per share of the film between them.
+void check_connection(const PreparedSensor& sensor, Suite& suite) {
+  constexpr float kStep = 0.01f;
+  Check& check = suite.check("connection");
+  RandomStream random(suite.seed(), 3);
+  for (int i = 0; i < 2000; ++i) {
+    const Vec2 u_lens = random.next_2d(), film = 0.02f * Vec2{1, 1} + 0.96f * random.next_2d();
+    const LensPoint lens = sensor.sample_lens(u_lens);
+    const Ray ray = sensor.ray(lens, film);
+    const Point3 at = ray.at(0.5f + 4 * random.next_1d());
+    const auto way = sensor.connect(at, u_lens);
+    check.expect_mostly(
+        way && std::abs(way->film.x - film.x) < 1e-3f && std::abs(way->film.y - film.y) < 1e-3f &&
+            length(way->direction + ray.direction) < 1e-3f &&
+            std::abs(length(at - ray.origin) - way->distance) < 1e-3f * way->distance,
+        [&] {
+          return fmt::format("film ({}, {}): the way back from its ray {}", film.x, film.y,
+                             way ? "leads elsewhere" : "is not there");
+        });
+    if (!way) continue;
+    const auto across = [&](Vec2 shift) {
+      const Ray beside = sensor.ray(lens, film + shift);
+      const float t = dot(at - beside.origin, ray.direction) / dot(beside.direction, ray.direction);
+      return beside.at(t);
+    };
+    const Vec3 dx = across({kStep / 2, 0}) - across({-kStep / 2, 0});
+    const Vec3 dy = across({0, kStep / 2}) - across({0, -kStep / 2});
+    const double found = kStep * kStep / double{length(cross(dx, dy))};
+    check.expect_mostly(close(way->pdf, found, 0.01), [&] {
+      return fmt::format("film ({}, {}): a density of {:.5g}, rays have {:.5g}", film.x, film.y,
+                         way->pdf, found);
+    });
+  }
+}
+
 /// Lens positions in the plane of the lens, scaled to [0,1)^2 by their extent.
 class LensPlane {
  public:
@@ -177,6 +213,7 @@ void check_sensor(const Sensor& sensor, Suite& suite) {
   const bool one_direction = sensor.sees_one_direction();
   check_inverse(*prepared, one_direction, suite);
   check_density(*prepared, one_direction, suite);
+  check_connection(*prepared, suite);
   check_lens(*prepared, suite);
   check_determinism(*prepared, suite);
 }

@@ -84,6 +84,19 @@ class GlowLight final : public Light {
   Rgb radiance(const SurfacePoint& point, Vec3 direction) const override {
     return dot(direction, point.normal) > 0 ? Rgb(radiance_) : Rgb();
   }
+  EmissionSample sample_emission(Vec2 u_position, Vec2 u_direction) const override {
+    const ShapeSample s = site_.shape->sample(u_position);
+    const Vec3 local = warp::cosine_hemisphere_from_square(u_direction);
+    EmissionSample sample{.point = s.point,
+                          .direction = Frame::from_normal(s.point.normal).to_world(local),
+                          .pdf = {s.pdf, warp::cosine_hemisphere_pdf(local.z)},
+                          .weight = Rgb(kPi * radiance_ / s.pdf)};
+    sample.point.object = site_.object;
+    return sample;
+  }
+  EmissionDensity pdf_emission(const SurfacePoint& point, Vec3 direction) const override {
+    return {1 / site_.shape->area(), warp::cosine_hemisphere_pdf(dot(direction, point.normal))};
+  }
   float power() const override { return kPi * radiance_ * site_.shape->area(); }
 
  private:
@@ -146,14 +159,16 @@ class Fog final : public Medium {
  public:
   explicit Fog(float density) : density_(density) {}
 
-  DistanceSample sample(const Ray& ray, float, float u) const override {
+  DistanceSample sample(const Ray& ray, Rgb, float, float u) const override {
     const float t = -std::log1p(-u) / density_;
     return {t, t > 0 && t < ray.t_max};
   }
-  float scatter_pdf(const Ray&, float t) const override {
+  float scatter_pdf(const Ray&, Rgb, float t) const override {
     return density_ * std::exp(-density_ * t);
   }
-  float pass_probability(const Ray&, float t) const override { return std::exp(-density_ * t); }
+  float pass_probability(const Ray&, Rgb, float t) const override {
+    return std::exp(-density_ * t);
+  }
   Rgb transmittance(const Ray&, float t) const override { return Rgb(std::exp(-density_ * t)); }
   Rgb scattering(Point3) const override { return Rgb(density_); }
   const PhaseFunction& phase_function() const override { return phase_; }

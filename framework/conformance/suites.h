@@ -12,6 +12,7 @@
 #include <pharos/sampling/sampler.h>
 #include <pharos/scene/bsdf.h>
 #include <pharos/scene/emitter.h>
+#include <pharos/scene/medium.h>
 #include <pharos/scene/sensor.h>
 #include <pharos/scene/shape.h>
 #include <pharos/scene/texture.h>
@@ -26,6 +27,8 @@ void check_sensor(const Sensor& sensor, Suite& suite);
 void check_filter(const Filter& filter, Suite& suite);
 void check_texture(const Texture& texture, Suite& suite);
 void check_sampler(const Sampler& sampler, Suite& suite);
+void check_phase_function(const PhaseFunction& phase, Suite& suite);
+void check_medium(const Medium& medium, Suite& suite);
 void check_shape(const Ref<Shape>& shape, Suite& suite);
 /// A guider bound to what a learner of its model learns in small renders.
 void check_guider(const Registry& registry, const Subject& guider, const Subject& learner,

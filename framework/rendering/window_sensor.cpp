@@ -21,6 +21,12 @@ class WindowSensor final : public PreparedSensor {
     seen->direction_pdf /= share_;
     return seen;
   }
+  std::optional<SensorConnection> connect(Point3 from, Vec2 u_lens) const override {
+    std::optional<SensorConnection> way = whole_->connect(from, u_lens);
+    if (!way || !holds({way->film.x * size_.x, way->film.y * size_.y})) return std::nullopt;
+    way->pdf /= share_;
+    return way;
+  }
 
  private:
   /// Of a position in pixels.

@@ -64,7 +64,9 @@ class Bsdf : public Component {
  public:
   static constexpr std::string_view contract_name = "bsdf";
 
-  /// All events that can occur anywhere on the surface.
+  /// All events that can occur anywhere on the surface. `pass_through` alone says that it is no
+  /// surface at all but a boundary of media: all light goes through, and paths have no vertex
+  /// there.
   virtual EventMask events() const = 0;
 
   /// Value f |cos(wi)| [1/sr] and pdf [1/sr] of the smooth events; zero on sides without any.

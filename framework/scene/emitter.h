@@ -26,6 +26,23 @@ struct LightSample {
   VertexKind kind = VertexKind::surface;
 };
 
+/// Densities of a ray that leaves a light: of where it begins and of its direction, which are drawn
+/// one after the other. Each is 1 where there is but one.
+struct EmissionDensity {
+  float position = 0;  ///< [1/m^2]: on the light's surface, or across rays from infinitely far away
+  float direction = 0;  ///< [1/sr]
+};
+
+/// A ray of light as it leaves a light, for paths that begin there.
+struct EmissionSample {
+  SurfacePoint point;  ///< on the light (position and normal); a stand-in for the environment, from
+                       ///< which the ray crosses the whole scene
+  Vec3 direction;      ///< unit, away from the light
+  EmissionDensity pdf;  ///< 0 in both for a valid sample of value zero
+  Rgb weight;  ///< power that the sample stands for: radiance times |cos| over both densities [W]
+  VertexKind kind = VertexKind::surface;
+};
+
 /// A light as it stands in a scene: constant, thread-safe.
 class Light {
  public:
@@ -46,6 +63,13 @@ class Light {
   virtual float pdf_direction(Vec3) const { return 0; }
   /// Radiance arriving from `direction` (pointing away from the scene); environment lights only.
   virtual Rgb environment_radiance(Vec3) const { return {}; }
+
+  /// Draws a ray that leaves this light.
+  virtual EmissionSample sample_emission(Vec2 u_position, Vec2 u_direction) const = 0;
+  /// The densities with which sample_emission() draws the ray that leaves `point` of this light (or
+  /// passes there, if it comes from infinitely far away) into `direction`. Lights of a single point
+  /// or direction are not asked whether it is that one.
+  virtual EmissionDensity pdf_emission(const SurfacePoint& point, Vec3 direction) const = 0;
 
   /// Emitted power, at least roughly [W]; for choosing among lights.
   virtual float power() const = 0;

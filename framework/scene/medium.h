@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <string_view>
 
@@ -30,17 +31,27 @@ struct DistanceSample {
   bool scattered = false;  ///< false: the ray reaches its end
 };
 
-/// Contract: what fills a part of space. Thread-safe.
+/// How likely each channel is to decide on a distance: shares that add up to one, as those of a
+/// path's throughput do, so that no channel is left to chance that still carries light. Of three
+/// equal ones for black.
+inline Rgb channel_shares(Rgb throughput) {
+  const float sum = throughput.r + throughput.g + throughput.b;
+  return sum > 0 && std::isfinite(sum) ? throughput / sum : Rgb(1.0f / 3);
+}
+
+/// Contract: what fills a part of space. Thread-safe. Distances are drawn for one channel, chosen
+/// by `shares` (channel_shares()); densities are those of the choice and the distance together.
 class Medium : public Component {
  public:
   static constexpr std::string_view contract_name = "medium";
 
   /// Draws whether and where the ray scatters before `ray.t_max`.
-  virtual DistanceSample sample(const Ray& ray, float u_channel, float u_distance) const = 0;
+  virtual DistanceSample sample(const Ray& ray, Rgb shares, float u_channel,
+                                float u_distance) const = 0;
   /// The density [1/m] with which sample() scatters at distance t < ray.t_max.
-  virtual float scatter_pdf(const Ray& ray, float t) const = 0;
+  virtual float scatter_pdf(const Ray& ray, Rgb shares, float t) const = 0;
   /// The probability [1] with which sample() reaches distance t unscattered.
-  virtual float pass_probability(const Ray& ray, float t) const = 0;
+  virtual float pass_probability(const Ray& ray, Rgb shares, float t) const = 0;
 
   /// Fraction of light left after distance t [1].
   virtual Rgb transmittance(const Ray& ray, float t) const = 0;

@@ -41,6 +41,11 @@ bool bounds_media(const SceneObject& o) {
   return o.interior != nullptr || o.exterior != nullptr;
 }
 
+/// Whether light goes through an object's surfaces as if they were not there.
+bool only_bounds_media(const SceneObject& o) {
+  return o.emitter == nullptr && o.bsdf->events() == mask_of(Event::pass_through);
+}
+
 /// Where environments stand: around the geometry, or around nothing in particular.
 EmitterSite site_around(const Bounds3& geometry) {
   const float radius = geometry.diagonal() / 2;
@@ -61,6 +66,8 @@ Scene::Scene(SceneParts parts)
       has_media_(medium_ != nullptr ||
                  std::any_of(objects_.begin(), objects_.end(), bounds_media)) {
   place_lights();
+  for (const SceneObject& o : objects_) object_is_boundary_.push_back(only_bounds_media(o) ? 1 : 0);
+  has_boundaries_ = std::count(object_is_boundary_.begin(), object_is_boundary_.end(), 1) > 0;
 }
 
 Scene::~Scene() = default;
@@ -86,6 +93,24 @@ void Scene::place_lights() {
       environment_lights_.push_back(static_cast<int>(lights_.size()) - 1);
     }
   }
+}
+
+const Medium* Scene::medium_at(Point3 point) const {
+  if (!has_media_ || sensor_ == nullptr) return medium_.get();
+  const Medium* medium = medium_.get();
+  const Vec3 way = point - sensor_->position();
+  float left = length(way);
+  Ray ray{sensor_->position(), left > 0 ? way / left : Vec3{0, 0, 1}};
+  while (left > 0) {
+    SurfacePoint at;
+    ray.t_max = left;
+    const float t = intersect(ray, at);
+    if (std::isinf(t)) break;
+    medium = medium_after(at, ray.direction, medium);
+    left -= t;
+    ray.origin = at.origin_towards(ray.direction);
+  }
+  return medium;
 }
 
 std::size_t Scene::primitive_count() const {

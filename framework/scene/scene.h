@@ -87,7 +87,14 @@ class Scene {
   const Sensor& sensor() const { return *sensor_; }
   /// The medium around the sensor; null: empty.
   const Medium* sensor_medium() const { return medium_.get(); }
+  /// The medium at a point: what a walk straight from the sensor ends in.
+  const Medium* medium_at(Point3 point) const;
   bool has_media() const { return has_media_; }
+  /// Whether a surface does nothing but let all light pass, straight on: it only bounds media.
+  bool is_boundary(const SurfacePoint& point) const {
+    return has_boundaries_ && object_is_boundary_[point.object] != 0;
+  }
+  bool has_boundaries() const { return has_boundaries_; }
 
   /// Box of all geometry and the sensor [scene units].
   const Bounds3& bounds() const { return bounds_; }
@@ -114,7 +121,9 @@ class Scene {
   std::vector<const Light*> object_lights_;
   std::vector<int> object_light_index_;
   std::vector<int> environment_lights_;
+  std::vector<std::uint8_t> object_is_boundary_;
   bool has_media_ = false;
+  bool has_boundaries_ = false;
 };
 
 }  // namespace pharos

@@ -21,6 +21,16 @@ struct SensorResponse {
   float direction_pdf = 0;  ///< density of directions when film positions are uniform [1/sr]
 };
 
+/// A way from a point to the lens, for paths that begin at a light.
+struct SensorConnection {
+  LensPoint lens;
+  Vec3 direction;      ///< unit, from the point to the lens
+  float distance = 0;  ///< [scene units]
+  Vec2 film;           ///< normalised film position that it belongs to
+  float pdf = 0;       ///< density of rays of uniform film positions across a surface at the point
+                  ///< that faces them [1/m^2]: what the pixels together make of light from there
+};
+
 /// A sensor for a film of given size: constant, thread-safe. Film positions are normalised to
 /// [0,1)^2 with the origin at the top left. The measurement of a pixel is the mean of radiance
 /// over its film positions and the lens, so a ray of uniform film and lens position has weight 1.
@@ -36,6 +46,10 @@ class PreparedSensor {
   /// The film position that a direction from `lens` belongs to; empty off the film, and always for
   /// sensors that see one direction.
   virtual std::optional<SensorResponse> response(const LensPoint& lens, Vec3 direction) const = 0;
+
+  /// The way from a point to a uniform point of the lens, if the film sees it there; what is in
+  /// between is for the caller to find out. By default that of response().
+  virtual std::optional<SensorConnection> connect(Point3 from, Vec2 u_lens) const;
 };
 
 /// Contract: a camera.

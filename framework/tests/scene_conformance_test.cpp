@@ -21,7 +21,7 @@ using test::red_with;
 
 // --- emitter -------------------------------------------------------------------------------------
 
-enum class SkyFault { none, pdf, radiance, power };
+enum class SkyFault { none, pdf, radiance, power, emission, emission_pdf };
 
 /// The same radiance from everywhere.
 class FaultySky final : public Emitter {
@@ -30,13 +30,14 @@ class FaultySky final : public Emitter {
   explicit FaultySky(const Settings&) : fault_(Settings::planted) {}
   bool needs_shape() const override { return false; }
   std::unique_ptr<const pharos::Light> place(const EmitterSite& site) const override {
-    return std::make_unique<const Sky>(fault_, site.scene_radius);
+    return std::make_unique<const Sky>(fault_, site);
   }
 
  private:
   class Sky final : public pharos::Light {
    public:
-    Sky(SkyFault fault, float radius) : fault_(fault), radius_(radius) {}
+    Sky(SkyFault fault, const EmitterSite& site)
+        : fault_(fault), center_(site.scene_center), radius_(site.scene_radius) {}
     LightSample sample(Point3 from, Vec2 u) const override {
       LightSample s{.direction = warp::sphere_from_square(u), .distance = kInfinity};
       s.radiance = Rgb(fault_ == SkyFault::radiance ? 2.1f : 2.0f);
@@ -50,12 +51,28 @@ class FaultySky final : public Emitter {
       return (fault_ == SkyFault::pdf ? 1.03f : 1) * warp::sphere_pdf();
     }
     Rgb environment_radiance(Vec3) const override { return Rgb(2); }
+    EmissionSample sample_emission(Vec2 u_position, Vec2 u_direction) const override {
+      const Vec3 towards = warp::sphere_from_square(u_direction);
+      Vec2 at = warp::disk_from_square(u_position);
+      if (fault_ == SkyFault::emission) at = length(Vec3{at.x, at.y, 0}) * at;
+      const Frame frame = Frame::from_normal(towards);
+      EmissionSample sample{.direction = -towards, .kind = VertexKind::environment};
+      sample.point.position = center_ + radius_ * frame.to_world({at.x, at.y, 1});
+      sample.pdf = {1 / (kPi * square(radius_)), warp::sphere_pdf()};
+      sample.weight = Rgb(2 / sample.pdf.position / sample.pdf.direction);
+      return sample;
+    }
+    EmissionDensity pdf_emission(const SurfacePoint&, Vec3) const override {
+      const float scale = fault_ == SkyFault::emission_pdf ? 1.03f : 1;
+      return {scale / (kPi * square(radius_)), warp::sphere_pdf()};
+    }
     float power() const override {
       return 8 * kPi * kPi * square(radius_) * (fault_ == SkyFault::power ? 0.3f : 1);
     }
 
    private:
     SkyFault fault_;
+    Point3 center_;
     float radius_;
   };
   SkyFault fault_;
@@ -64,8 +81,10 @@ class FaultySky final : public Emitter {
 TEST_CASE("conformance: faults of an emitter") {
   CHECK(red_with<FaultySky>(SkyFault::none) == "");
   CHECK(red_with<FaultySky>(SkyFault::pdf) == "integral");
-  CHECK(red_with<FaultySky>(SkyFault::radiance) == "weight");
+  CHECK(red_with<FaultySky>(SkyFault::radiance) == "emission weight");
   CHECK(red_with<FaultySky>(SkyFault::power) == "power");
+  CHECK(red_with<FaultySky>(SkyFault::emission) == "emission");
+  CHECK(red_with<FaultySky>(SkyFault::emission_pdf) == "emission_density");
 }
 
 enum class SpotFault { none, none_far_away, direction, pdf, dark };
@@ -99,6 +118,18 @@ class FaultySpot final : public Emitter {
       s.kind = VertexKind::light;
       return s;
     }
+    EmissionSample sample_emission(Vec2, Vec2 u_direction) const override {
+      EmissionSample sample{.kind = VertexKind::light};
+      if (fault_ == SpotFault::dark) return sample;
+      sample.point.position = {0, 0, fault_ == SpotFault::none_far_away ? 50.0f : 0.0f};
+      sample.direction = warp::cone_from_square(u_direction, 1 - kCosine);
+      sample.pdf = {1, warp::cone_pdf(1 - kCosine)};
+      sample.weight = Rgb(1 / sample.pdf.direction);
+      return sample;
+    }
+    EmissionDensity pdf_emission(const SurfacePoint&, Vec3 direction) const override {
+      return {1, direction.z > kCosine ? warp::cone_pdf(1 - kCosine) : 0};
+    }
     float power() const override { return 2 * kPi * (1 - kCosine); }
 
    private:
@@ -111,8 +142,8 @@ class FaultySpot final : public Emitter {
 TEST_CASE("conformance: faults of a narrow spot") {
   CHECK(red_with<FaultySpot>(SpotFault::none) == "");
   CHECK(red_with<FaultySpot>(SpotFault::none_far_away) == "");
-  CHECK(red_with<FaultySpot>(SpotFault::direction) == "discrete");
-  CHECK(red_with<FaultySpot>(SpotFault::pdf) == "discrete");
+  CHECK(red_with<FaultySpot>(SpotFault::direction) == "discrete emission");
+  CHECK(red_with<FaultySpot>(SpotFault::pdf) == "discrete emission");
   CHECK(red_with<FaultySpot>(SpotFault::dark) == "power");
 }
 
@@ -162,12 +193,12 @@ class FaultyLens final : public Sensor {
 
 TEST_CASE("conformance: faults of a sensor") {
   CHECK(red_with<FaultyLens>(SensorFault::none) == "");
-  CHECK(red_with<FaultyLens>(SensorFault::inverse) == "inverse");
+  CHECK(red_with<FaultyLens>(SensorFault::inverse) == "connection inverse");
   CHECK(red_with<FaultyLens>(SensorFault::lens) == "lens");
   CHECK(red_with<FaultyLens>(SensorFault::rim) == "lens");
   CHECK(red_with<FaultyLens>(SensorFault::silent).find("inverse") != std::string::npos);
   CHECK(red_with<FaultyLens>(SensorFault::claims_parallel) == "inverse");
-  CHECK(red_with<FaultyLens>(SensorFault::pdf) == "chi_square integral");
+  CHECK(red_with<FaultyLens>(SensorFault::pdf) == "chi_square connection integral");
 }
 
 // --- filter and texture --------------------------------------------------------------------------

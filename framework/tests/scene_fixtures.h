@@ -58,6 +58,8 @@ class PlacedEmitter : public Emitter {
     PlacedLight(bool on_shape, const EmitterSite& where) : site(where), on_shape_(on_shape) {}
     LightSample sample(Point3, Vec2) const override { return {}; }
     bool is_environment() const override { return !on_shape_; }
+    EmissionSample sample_emission(Vec2, Vec2) const override { return {}; }
+    EmissionDensity pdf_emission(const SurfacePoint&, Vec3) const override { return {}; }
     float power() const override { return 1; }
 
     EmitterSite site;
@@ -90,9 +92,9 @@ class ClearMedium : public Medium {
  public:
   using Settings = NoSettings;
   explicit ClearMedium(Settings = {}) {}
-  DistanceSample sample(const Ray&, float, float) const override { return {}; }
-  float scatter_pdf(const Ray&, float) const override { return 0; }
-  float pass_probability(const Ray&, float) const override { return 1; }
+  DistanceSample sample(const Ray&, Rgb, float, float) const override { return {}; }
+  float scatter_pdf(const Ray&, Rgb, float) const override { return 0; }
+  float pass_probability(const Ray&, Rgb, float) const override { return 1; }
   Rgb transmittance(const Ray&, float) const override { return Rgb(1); }
   Rgb scattering(Point3) const override { return {}; }
   const PhaseFunction& phase_function() const override { std::abort(); }

@@ -1,7 +1,7 @@
 // pass_through: a surface that is not there, light goes straight through it and keeps its strength
 // (the event `pass_through`). For shapes that only bound a medium of the same refractive index as
-// what surrounds it: a cloud, smoke, a box of fog. Paths see light through it; light samples do
-// not, as to them every surface is closed.
+// what surrounds it: a cloud, smoke, a box of fog. Paths have no vertex there, and light samples go
+// through.
 //
 //     { type: pass_through }
 #include "pass_through.h"

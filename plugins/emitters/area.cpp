@@ -7,6 +7,8 @@
 
 #include "area.h"
 
+#include <pharos/core/warp.h>
+
 #include "area_light.h"
 
 namespace pharos {
@@ -16,6 +18,8 @@ namespace {
 struct UniformLobe {
   float operator()(float) const { return 1; }
   float projected_solid_angle() const { return kPi; }
+  Vec3 sample(Vec2 u) const { return warp::cosine_hemisphere_from_square(u); }
+  float pdf(float cosine) const { return warp::cosine_hemisphere_pdf(cosine); }
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include <pharos/config/registry.h>
+#include <pharos/core/frame.h>
 #include <pharos/scene/emitter.h>
 #include <pharos/scene/texture.h>
 
@@ -25,9 +26,10 @@ void describe_radiance(Schema<Settings>& s, std::string help) {
 /// A light on a shape: `scale` times the texture `radiance` times what the lobe makes of the angle
 /// to the geometric normal, and nothing to the other side. Sampled as the shape is.
 ///
-/// `Lobe` has `float operator()(float cosine) const`, the factor [1] for a cosine in (0, 1], and
+/// `Lobe` has `float operator()(float cosine) const`, the factor [1] for a cosine in (0, 1],
 /// `float projected_solid_angle() const`, the integral of factor times cosine over the hemisphere
-/// [sr].
+/// [sr], and `Vec3 sample(Vec2 u) const`, a direction about +z whose density `float pdf(float
+/// cosine) const` [1/sr] goes about like factor times cosine.
 template <class Lobe>
 class AreaLight final : public Light {
  public:
@@ -64,6 +66,24 @@ class AreaLight final : public Light {
     const float cosine = std::min(1.0f, dot(direction, point.normal));
     if (cosine <= 0) return {};
     return scale_ * lobe_(cosine) * radiance_.evaluate(point);
+  }
+
+  EmissionSample sample_emission(Vec2 u_position, Vec2 u_direction) const override {
+    const ShapeSample on_shape = shape_.sample(u_position);
+    const Vec3 local = lobe_.sample(u_direction);
+    EmissionSample sample{.point = on_shape.point};
+    sample.point.object = object_;
+    sample.direction = Frame::from_normal(sample.point.normal).to_world(local);
+    const EmissionDensity pdf{on_shape.pdf, lobe_.pdf(local.z)};
+    if (!(local.z > 0) || !(pdf.position * pdf.direction > 0)) return sample;
+    sample.pdf = pdf;
+    sample.weight =
+        local.z / pdf.position / pdf.direction * radiance(sample.point, sample.direction);
+    return sample;
+  }
+  EmissionDensity pdf_emission(const SurfacePoint& point, Vec3 direction) const override {
+    const float cosine = std::min(1.0f, dot(direction, point.normal));
+    return {1 / shape_.area(), cosine > 0 ? lobe_.pdf(cosine) : 0};
   }
 
   float power() const override {

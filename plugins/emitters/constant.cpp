@@ -24,6 +24,14 @@ class ConstantLight : public Light {
   float pdf_direction(Vec3) const override { return warp::sphere_pdf(); }
   Rgb environment_radiance(Vec3) const override { return radiance_; }
 
+  EmissionSample sample_emission(Vec2 u_position, Vec2 u_direction) const override {
+    return distant_emission(site_, warp::sphere_from_square(u_direction), radiance_,
+                            warp::sphere_pdf(), u_position);
+  }
+  EmissionDensity pdf_emission(const SurfacePoint&, Vec3 direction) const override {
+    return {distant_position_pdf(site_), pdf_direction(-direction)};
+  }
+
   float power() const override { return power_into_scene(site_, 4 * kPi * mean(radiance_)); }
 
  private:

@@ -22,6 +22,13 @@ class DirectionalLight final : public Light {
     return sample;
   }
 
+  EmissionSample sample_emission(Vec2 u_position, Vec2) const override {
+    return distant_emission(site_, towards_light_, irradiance_, 1, u_position);
+  }
+  EmissionDensity pdf_emission(const SurfacePoint&, Vec3) const override {
+    return {distant_position_pdf(site_), 1};
+  }
+
   float power() const override { return power_into_scene(site_, mean(irradiance_)); }
 
  private:

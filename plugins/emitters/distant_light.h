@@ -1,5 +1,6 @@
 #pragma once
 
+#include <pharos/core/warp.h>
 #include <pharos/scene/emitter.h>
 
 namespace pharos {
@@ -18,6 +19,29 @@ inline LightSample distant_sample(const EmitterSite& site, Point3 from, Vec3 dir
   sample.point.position = from + beyond * direction;
   sample.point.normal = -direction;
   sample.point.shading = Frame::from_normal(-direction);
+  return sample;
+}
+
+/// How densely rays from infinitely far away are drawn: the scene's sphere shows the same disk to
+/// all directions, over which they are spread evenly [1/m^2].
+inline float distant_position_pdf(const EmitterSite& site) {
+  return 1 / (kPi * square(site.scene_radius));
+}
+
+/// A ray from infinitely far away that crosses the scene's sphere, where it comes from `towards`,
+/// drawn with density `pdf` [1/sr] (1 for a single direction), of `radiance` (irradiance).
+inline EmissionSample distant_emission(const EmitterSite& site, Vec3 towards, Rgb radiance,
+                                       float pdf, Vec2 u_position) {
+  EmissionSample sample{.direction = -towards, .kind = VertexKind::environment};
+  const Vec2 on_disk = site.scene_radius * warp::disk_from_square(u_position);
+  const Frame frame = Frame::from_normal(towards);
+  sample.point.position =
+      site.scene_center + frame.to_world({on_disk.x, on_disk.y, 1.01f * site.scene_radius});
+  sample.point.normal = -towards;
+  sample.point.shading = Frame::from_normal(-towards);
+  if (!(pdf > 0) || is_black(radiance)) return sample;
+  sample.pdf = {distant_position_pdf(site), pdf};
+  sample.weight = radiance / (sample.pdf.position * pdf);
   return sample;
 }
 

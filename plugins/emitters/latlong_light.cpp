@@ -36,6 +36,17 @@ class LatLongLight final : public Light {
     return scale_ * image_.evaluate(LatLong::of(axes_.to_local(direction)));
   }
 
+  EmissionSample sample_emission(Vec2 u_position, Vec2 u_direction) const override {
+    const std::optional<Vec3> local = distribution_.sample(u_direction);
+    if (!local) return {.kind = VertexKind::environment};
+    const Vec3 towards = axes_.to_world(*local);
+    return distant_emission(site_, towards, environment_radiance(towards), pdf_direction(towards),
+                            u_position);
+  }
+  EmissionDensity pdf_emission(const SurfacePoint&, Vec3 direction) const override {
+    return {distant_position_pdf(site_), pdf_direction(-direction)};
+  }
+
   float power() const override {
     return power_into_scene(site_, scale_ * distribution_.integral());
   }

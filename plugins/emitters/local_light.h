@@ -25,4 +25,17 @@ LightSample local_sample(Point3 position, Point3 from, const Intensity& intensit
   return sample;
 }
 
+/// A ray that leaves a light without extent at `position` into `direction`, drawn with density
+/// `pdf` [1/sr], of `intensity` [W/sr].
+inline EmissionSample local_emission(Point3 position, Vec3 direction, float pdf, Rgb intensity) {
+  EmissionSample sample{.direction = direction, .kind = VertexKind::light};
+  sample.point.position = position;
+  sample.point.normal = direction;
+  sample.point.shading = Frame::from_normal(direction);
+  if (is_black(intensity)) return sample;
+  sample.pdf = {1, pdf};
+  sample.weight = intensity / pdf;
+  return sample;
+}
+
 }  // namespace pharos

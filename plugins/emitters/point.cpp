@@ -6,6 +6,8 @@
 
 #include "point.h"
 
+#include <pharos/core/warp.h>
+
 #include "local_light.h"
 
 namespace pharos {
@@ -17,6 +19,14 @@ class PointLight final : public Light {
 
   LightSample sample(Point3 from, Vec2) const override {
     return local_sample(position_, from, [this](Vec3) { return intensity_; });
+  }
+
+  EmissionSample sample_emission(Vec2, Vec2 u_direction) const override {
+    return local_emission(position_, warp::sphere_from_square(u_direction), warp::sphere_pdf(),
+                          intensity_);
+  }
+  EmissionDensity pdf_emission(const SurfacePoint&, Vec3) const override {
+    return {1, warp::sphere_pdf()};
   }
 
   float power() const override { return 4 * kPi * mean(intensity_); }

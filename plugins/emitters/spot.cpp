@@ -21,6 +21,7 @@
 #include <fmt/core.h>
 
 #include <pharos/core/error.h>
+#include <pharos/core/warp.h>
 
 #include "local_light.h"
 
@@ -35,11 +36,22 @@ class SpotLight final : public Light {
         axis_(normalize(settings.to_world.vector({0, 0, 1}))),
         falloff_(settings.falloff),
         beam_(radians(settings.beam_width)),
-        cutoff_(radians(settings.cutoff_angle)) {}
+        cutoff_(radians(settings.cutoff_angle)),
+        one_minus_cutoff_(2 * square(std::sin(0.5f * cutoff_))) {}
 
   LightSample sample(Point3 from, Vec2) const override {
     return local_sample(position_, from,
                         [this](Vec3 direction) { return share(direction) * intensity_; });
+  }
+
+  EmissionSample sample_emission(Vec2, Vec2 u_direction) const override {
+    const Vec3 local = warp::cone_from_square(u_direction, one_minus_cutoff_);
+    const Vec3 direction = Frame::from_normal(axis_).to_world(local);
+    return local_emission(position_, direction, warp::cone_pdf(one_minus_cutoff_),
+                          share(direction) * intensity_);
+  }
+  EmissionDensity pdf_emission(const SurfacePoint&, Vec3 direction) const override {
+    return {1, share(direction) > 0 ? warp::cone_pdf(one_minus_cutoff_) : 0};
   }
 
   float power() const override {
@@ -81,7 +93,8 @@ class SpotLight final : public Light {
   Point3 position_;
   Vec3 axis_;
   SpotFalloff falloff_;
-  float beam_, cutoff_;  ///< [radians]
+  float beam_, cutoff_;     ///< [radians]
+  float one_minus_cutoff_;  ///< 1 - cos of the latter
 };
 
 }  // namespace

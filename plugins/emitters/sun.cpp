@@ -59,6 +59,15 @@ class SunLight final : public Light {
     return pdf_direction(direction) * irradiance_;
   }
 
+  EmissionSample sample_emission(Vec2 u_position, Vec2 u_direction) const override {
+    const Vec3 towards = frame_.to_world(warp::cone_from_square(u_direction, one_minus_cos_));
+    return distant_emission(site_, towards, environment_radiance(towards), pdf_direction(towards),
+                            u_position);
+  }
+  EmissionDensity pdf_emission(const SurfacePoint&, Vec3 direction) const override {
+    return {distant_position_pdf(site_), pdf_direction(-direction)};
+  }
+
   float power() const override { return power_into_scene(site_, mean(irradiance_)); }
 
  private:

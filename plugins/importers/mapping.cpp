@@ -39,7 +39,7 @@ void set_if_any(ConfigNode& scene, const char* key, ConfigNode part) {
   scene.set(key, std::move(part), scene.where());
 }
 
-ConfigNode assembled(SceneMap& map, ConfigNode shapes, ConfigNode emitters, ConfigNode sensor,
+ConfigNode assembled(SceneMap& map, ConfigNode shapes, ConfigNode emitters, Camera& camera,
                      const Location& where) {
   ConfigNode scene = ConfigNode::mapping(where);
   set_if_any(scene, "textures", std::move(map.textures().entries));
@@ -48,7 +48,8 @@ ConfigNode assembled(SceneMap& map, ConfigNode shapes, ConfigNode emitters, Conf
   set_if_any(scene, "groups", std::move(map.groups().entries));
   set_if_any(scene, "shapes", std::move(shapes));
   set_if_any(scene, "emitters", std::move(emitters));
-  set_if_any(scene, "sensor", std::move(sensor));
+  set_if_any(scene, "sensor", std::move(camera.sensor));
+  if (!camera.medium.is_null()) scene.set("medium", std::move(camera.medium), where);
   return scene;
 }
 
@@ -78,10 +79,8 @@ Import map_document(const Document& document) {
   part.finish();
 
   ConfigNode config = ConfigNode::mapping(root.where);
-  config.set(
-      "scene",
-      assembled(map, std::move(shapes), std::move(emitters), std::move(camera.sensor), root.where),
-      root.where);
+  config.set("scene", assembled(map, std::move(shapes), std::move(emitters), camera, root.where),
+             root.where);
   if (!camera.film.film.is_null()) config.set("film", std::move(camera.film.film), root.where);
   if (!camera.sampler.is_null()) config.set("sampler", std::move(camera.sampler), root.where);
   config.set("integrator", std::move(method), root.where);

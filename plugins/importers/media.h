@@ -4,8 +4,8 @@
 
 namespace pharos::mitsuba {
 
-/// The node that stands for a medium; none while Pharos has nothing for it, which a note tells. The
-/// medium's parameters are read and checked all the same.
+/// The name among `media` of what stands for a medium; none for kinds that Pharos has nothing for,
+/// which a note tells. Their parameters are read and checked all the same.
 std::optional<ConfigNode> map_medium(SceneMap& scene, const Object& medium);
 
 }  // namespace pharos::mitsuba

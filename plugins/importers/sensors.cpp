@@ -7,6 +7,8 @@
 
 #include <pharos/config/values.h>
 
+#include "media.h"
+
 namespace pharos::mitsuba {
 namespace {
 
@@ -187,6 +189,9 @@ Camera map_sensor(SceneMap& scene, const Object& sensor) {
   camera.sensor = map_part(scene, sensor, UvSense::same, "sensor", [&](Part& part) {
     camera.film = map_film(scene, part.child("film"), part.where());
     map_sampler(scene, part.child("sampler"), camera, part.where());
+    if (const Object* medium = part.child("medium")) {
+      if (std::optional<ConfigNode> name = map_medium(scene, *medium)) camera.medium = *name;
+    }
     ConfigNode node = mapper(part, camera.film);
     note_the_rest(part);
     return node;

@@ -8,6 +8,7 @@ namespace pharos::mitsuba {
 /// What stands for a sensor and what it holds.
 struct Camera {
   ConfigNode sensor;
+  ConfigNode medium;  ///< around it; null: none
   FilmParts film;
   ConfigNode sampler;
   ConfigNode budget;

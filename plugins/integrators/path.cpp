@@ -17,6 +17,7 @@
 #include "path_probe.h"
 #include "path_text.h"
 #include "path_walk.h"
+#include "unit_paths.h"
 
 namespace pharos {
 namespace {
@@ -58,31 +59,21 @@ class PreparedPath final : public PreparedIntegrator {
   template <class Recorder>
   void render_unit(const WorkUnit& unit, const IterationContext& context, Arena& arena,
                    Recorder& recorder, WorkResult& result) const {
-    for (int y = unit.pixels.y0; y < unit.pixels.y1; ++y) {
-      for (int x = unit.pixels.x0; x < unit.pixels.x1; ++x) {
-        PathKey key{.seed = context.seed,
-                    .iteration = unit.iteration,
-                    .index = static_cast<std::uint64_t>(y) * target_.width + x};
-        for (std::uint32_t i = 0; i < unit.sample_count; ++i) {
-          key.sample = unit.first_sample + i;
-          const SampleStream stream(context.sampler, key);
-          PathWalk walk(shared_, context, stream, arena, result.counters, recorder);
-          const PathSample sample = walk.run(settings_.max_depth);
-          if (planted(PlantedFault::zero_samples_dropped) && is_black(sample.radiance)) continue;
-          deposit(sample, key, result);
-        }
-      }
-    }
-    result.film.count_paths(static_cast<std::uint64_t>(unit.pixels.area()) * unit.sample_count);
+    for_each_path(unit, context, target_.width, result,
+                  [&](const PathKey& key, const SampleStream& stream) {
+                    PathWalk walk(shared_, context, stream, arena, result.counters, recorder);
+                    const PathSample sample = walk.run(settings_.max_depth);
+                    const bool dropped =
+                        planted(PlantedFault::zero_samples_dropped) && is_black(sample.radiance);
+                    if (!dropped) deposit(sample, key, result);
+                  });
   }
 
   /// Puts a path's value on the film. NaN and infinity are counted and count as zero.
   static void deposit(PathSample sample, const PathKey& key, WorkResult& result) {
     if (!is_finite(sample.radiance)) {
-      ++result.counters.invalid_paths;
-      if (!result.first_invalid) result.first_invalid = key;
+      reject(key, result);
       sample.radiance = {};
-      if (result.log.size() > 0) result.log.blacken_last_path();
     }
     if (sample.splat) {
       result.film.add_splat(sample.film, sample.radiance);

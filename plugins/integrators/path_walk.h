@@ -7,6 +7,7 @@
 
 #include <pharos/core/arena.h>
 #include <pharos/rendering/scatter_step.h>
+#include <pharos/rendering/segment.h>
 
 #include "path_recorder.h"
 #include "path_settings.h"
@@ -40,6 +41,7 @@ class PathWalk {
         stream_(stream),
         arena_(arena),
         counters_(counters),
+        tracer_(scene_, counters),
         recorder_(recorder) {}
 
   /// Runs to the end. `max_depth` bounds the number of segments.
@@ -165,31 +167,21 @@ class PathWalk {
   bool advance(const ScatterStep& step) {
     const Arrival& from = arrivals_[current_];
     Arrival& to = arrivals_[1 - current_];
-    const bool leaves_surface = from.kind == VertexKind::surface;
-    Ray ray{leaves_surface ? from.surface.origin_towards(step.direction) : from.surface.position,
-            step.direction};
-    to.medium = leaves_surface ? scene_.medium_after(from.surface, step.direction, from.medium)
-                               : from.medium;
-    ++counters_.rays;
-    ray.t_max = scene_.intersect(ray, to.surface);
-    to.kind = std::isinf(ray.t_max) ? VertexKind::environment : VertexKind::surface;
-
-    ResolvedVertex resolved{.direction = step.direction, .event = step.event};
-    Rgb transmittance(1);
-    if (to.medium != nullptr) {
-      if (!travel(step, ray, to, resolved, transmittance)) return false;
-    } else if (step.reach == Proposal::Reach::distance) {
-      return false;
-    }
-    if (!contains(step.targets, to.kind)) return false;
-    resolved.kind = to.kind;
-    resolved.distance = ray.t_max;
-    if (to.kind == VertexKind::environment) {
-      to.surface = {};
-      to.surface.position = scene_.environment_point(ray.origin, ray.direction);
-    }
-    resolved.position = to.surface.position;
-    weight_step(step, resolved, transmittance);
+    const Ray ray{origin_towards(step.direction), step.direction};
+    std::optional<Segment> segment =
+        tracer_.trace(ray, medium_towards(step.direction), step, throughput_ * step.value,
+                      {stream_, bounce_}, to.surface);
+    if (!segment || !contains(step.targets, segment->kind)) return false;
+    if (planted(PlantedFault::distance_density_forgotten)) segment->passage.medium_density = 1;
+    to.kind = segment->kind;
+    to.medium = segment->medium;
+    const ResolvedVertex resolved{.direction = step.direction,
+                                  .distance = segment->length,
+                                  .position = to.surface.position,
+                                  .kind = to.kind,
+                                  .event = step.event,
+                                  .medium_density = segment->passage.medium_density};
+    weight_step(step, resolved, segment->passage.transmittance);
 
     from_position_ = from.surface.position;
     if (vertices_are_asked_for()) {
@@ -199,40 +191,24 @@ class PathWalk {
     towards_previous_ = -step.direction;
     current_ = 1 - current_;
     if (++bounce_ == 1) first_throughput_ = max_component(throughput_);
-    note_arrival(ray);
+    note_arrival(segment->length);
     return !is_black(throughput_);
   }
 
-  /// Where in a medium a step ends. Shortens `ray` to the vertex; false when the vertex that was
-  /// proposed cannot be reached.
-  bool travel(const ScatterStep& step, Ray& ray, Arrival& to, ResolvedVertex& resolved,
-              Rgb& transmittance) const {
-    const Medium& medium = *to.medium;
-    DistanceSample stop{.t = step.distance, .scattered = step.reach == Proposal::Reach::distance};
-    if (step.reach == Proposal::Reach::medium) {
-      stop = medium.sample(ray, stream_.get_1d({Purpose::distance_choice, bounce_}),
-                           stream_.get_1d({Purpose::distance, bounce_}));
-    } else if (stop.scattered && stop.t >= ray.t_max) {
-      return false;
-    }
-    if (stop.scattered) {
-      resolved.medium_density = medium.scatter_pdf(ray, stop.t);
-      ray.t_max = stop.t;
-      to.kind = VertexKind::volume;
-      to.surface = {};
-      to.surface.position = ray.at(stop.t);
-    } else {
-      resolved.medium_density = medium.pass_probability(ray, ray.t_max);
-    }
-    if (planted(PlantedFault::distance_density_forgotten)) resolved.medium_density = 1;
-    transmittance = medium.transmittance(ray, ray.t_max);
-    return true;
+  /// Where a ray begins that leaves the current vertex, and the medium that it is in.
+  Point3 origin_towards(Vec3 direction) const {
+    const bool on_surface = arrival().kind == VertexKind::surface;
+    return on_surface ? arrival().surface.origin_towards(direction) : position();
+  }
+  const Medium* medium_towards(Vec3 direction) const {
+    const bool on_surface = arrival().kind == VertexKind::surface;
+    return on_surface ? scene_.medium_after(arrival().surface, direction, arrival().medium)
+                      : arrival().medium;
   }
 
   void weight_step(const ScatterStep& step, const ResolvedVertex& resolved, Rgb transmittance) {
     density_ = step_density(guidance_, resolved, step.unguided_pdf);
-    const bool plain =
-        guidance_.distribution == nullptr && arrivals_[1 - current_].medium == nullptr;
+    const bool plain = guidance_.distribution == nullptr && !scene_.has_media();
     const Rgb weight = plain                ? step.unguided_weight
                        : density_.total > 0 ? step.value * transmittance / density_.total
                                             : Rgb();
@@ -241,7 +217,8 @@ class PathWalk {
     recorder_.step(step, density_, guidance_, weight, resolved, transmittance);
   }
 
-  void note_arrival(const Ray& ray) {
+  /// `distance` is that of the segment that led here.
+  void note_arrival(float distance) {
     const Arrival& here = arrival();
     if (vertices_are_asked_for()) {
       const bool on_surface = here.kind == VertexKind::surface;
@@ -253,7 +230,7 @@ class PathWalk {
     if (bounce_ == 1 && here.kind == VertexKind::surface) {
       result_.features = {.albedo = scene_.bsdf(here.surface).albedo(here.surface),
                           .normal = here.surface.shading.n,
-                          .depth = ray.t_max};
+                          .depth = distance};
     }
     recorder_.arrival(current_vertex_, throughput_);
   }
@@ -303,26 +280,18 @@ class PathWalk {
     const ScatterValue scatter = scattering_->evaluate(light.direction);
     Rgb value = scatter.value * light.radiance / light.pdf;
     if (is_black(value)) return;
-    const Arrival& here = arrival();
-    const bool on_surface = here.kind == VertexKind::surface;
-    Ray shadow{on_surface ? here.surface.origin_towards(light.direction) : position(),
-               light.direction, light.distance};
+    Ray shadow{origin_towards(light.direction), light.direction, light.distance};
     if (std::isfinite(light.distance)) aim_at(light, shadow);
-    ++counters_.rays;
-    if (scene_.occluded(shadow)) return;
-
-    ResolvedVertex resolved{.direction = light.direction,
-                            .distance = light.distance,
-                            .position = light.point.position,
-                            .kind = light.kind,
-                            .event = scattering_->smooth_event(light.direction)};
-    const Medium* medium =
-        on_surface ? scene_.medium_after(here.surface, light.direction, here.medium) : here.medium;
-    if (medium != nullptr) {
-      const Ray whole{position(), light.direction, light.distance};
-      value *= medium->transmittance(whole, light.distance);
-      resolved.medium_density = medium->pass_probability(whole, light.distance);
-    }
+    const std::optional<Passage> passage =
+        pass(shadow, medium_towards(light.direction), throughput_ * scatter.value);
+    if (!passage) return;
+    value *= passage->transmittance;
+    const ResolvedVertex resolved{.direction = light.direction,
+                                  .distance = light.distance,
+                                  .position = light.point.position,
+                                  .kind = light.kind,
+                                  .event = scattering_->smooth_event(light.direction),
+                                  .medium_density = passage->medium_density};
     // No direction meets a light without extent: its density is for the record alone.
     const bool wants_density = Recorder::kRecords || !light.discrete;
     const StepDensity density =
@@ -331,6 +300,11 @@ class PathWalk {
         light.discrete ? 1.0f : light_sample_weight(settings_.mis, light.pdf, density.total);
     radiance_ += weight * throughput_ * value;
     recorder_.light(light, resolved.event, density, weight, weight * value, throughput_);
+  }
+
+  std::optional<Passage> pass(const Ray& shadow, const Medium* medium, Rgb throughput) const {
+    if (planted(PlantedFault::boundaries_cast_shadows) && scene_.occluded(shadow)) return {};
+    return tracer_.pass(shadow, medium, throughput);
   }
 
   /// Ends a shadow ray just before the light's surface, by as much as surfaces' positions are
@@ -405,6 +379,7 @@ class PathWalk {
   const SampleStream& stream_;
   Arena& arena_;
   RenderCounters& counters_;
+  SegmentTracer tracer_;
   Recorder& recorder_;
 
   PathSample result_;

@@ -17,16 +17,18 @@ enum class PlantedFault {
   light_choice_forgotten,      ///< next event estimation omits the probability of its light
   roulette_unweighted,         ///< survivors of roulette do not stand for the others
   distance_density_forgotten,  ///< steps in media omit the density of their distance
+  boundaries_cast_shadows,     ///< no light sample gets through the boundary of a medium
 };
 template <>
 struct EnumNames<PlantedFault> {
-  static constexpr std::array<std::pair<std::string_view, PlantedFault>, 6> names{
+  static constexpr std::array<std::pair<std::string_view, PlantedFault>, 7> names{
       {{"none", PlantedFault::none},
        {"mis_without_guide", PlantedFault::mis_without_guide},
        {"zero_samples_dropped", PlantedFault::zero_samples_dropped},
        {"light_choice_forgotten", PlantedFault::light_choice_forgotten},
        {"roulette_unweighted", PlantedFault::roulette_unweighted},
-       {"distance_density_forgotten", PlantedFault::distance_density_forgotten}}};
+       {"distance_density_forgotten", PlantedFault::distance_density_forgotten},
+       {"boundaries_cast_shadows", PlantedFault::boundaries_cast_shadows}}};
 };
 
 #ifdef PHAROS_PLANT_FAULTS

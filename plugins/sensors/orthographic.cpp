@@ -36,6 +36,18 @@ class PreparedOrthographic : public PreparedSensor {
   std::optional<SensorResponse> response(const LensPoint&, Vec3) const override {
     return std::nullopt;
   }
+  /// Rays are spread evenly over the film, and run straight on from there.
+  std::optional<SensorConnection> connect(Point3 from, Vec2) const override {
+    const Vec3 local = to_world_.inverse_point(from);
+    const std::optional<Vec2> film = window_.film({local.x, local.y});
+    if (!film || !(local.z > 0)) return std::nullopt;
+    const Vec3 x = to_world_.vector({1, 0, 0}), y = to_world_.vector({0, 1, 0});
+    SensorConnection way{.lens = center_, .direction = -center_.normal, .film = *film};
+    way.lens.position = to_world_.point({local.x, local.y, 0});
+    way.distance = length(from - way.lens.position);
+    way.pdf = 1 / (window_.area() * abs_dot(cross(x, y), center_.normal));
+    return way;
+  }
 
  private:
   Transform to_world_;

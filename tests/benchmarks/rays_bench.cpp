@@ -75,6 +75,37 @@ sampler: independent
 integrator: { type: path, max_depth: 10, roulette: off }
 )";
 
+/// A box of fog around a ball, under a lamp.
+const std::string kFog = R"(
+scene:
+  media:
+    fog: { type: homogeneous, scattering: [0.5, 0.4, 0.3], absorption: 0.05, phase: { type: henyey_greenstein, g: 0.5 } }
+  shapes:
+    - { type: quad, material: { type: diffuse, reflectance: 0.6 }, to_world: [ { scale: 4 }, { rotate: { axis: [1, 0, 0], degrees: -90 } } ] }
+    - { type: quad, material: { type: diffuse, reflectance: 0 }, emitter: { type: area, radiance: 30 }, to_world: [ { scale: 0.5 }, { rotate: { axis: [1, 0, 0], degrees: 90 } }, { translate: [0, 3.5, 0] } ] }
+    - { type: box, material: pass_through, interior: fog, to_world: [ { scale: 1.2 }, { translate: [0, 1.21, 0] } ] }
+    - { type: sphere, center: [0, 0.6, 0], radius: 0.4 }
+  sensor: { type: perspective, fov: 40, to_world: { look_at: { origin: [0, 1.6, 5], target: [0, 0.8, 0], up: [0, 1, 0] } } }
+)";
+
+/// Paths from the lights a second.
+Measurement light_paths(const std::string& scene, int repeats) {
+  const std::string config = scene + R"(
+film: { width: 256, height: 256, filter: box }
+budget: { spp: 16 }
+sampler: independent
+integrator: { type: light, max_depth: 10 }
+)";
+  RenderJob job(testing::config_from(config).config);
+  Measurement paths{"light.paths_per_s", "1/s", {}};
+  job.run();  // warm-up
+  for (int i = 0; i < repeats; ++i) {
+    const RenderResult result = job.run();
+    paths.runs.push_back(static_cast<double>(result.counters.paths) / result.times.rendering);
+  }
+  return paths;
+}
+
 }  // namespace
 
 std::vector<Measurement> bench_rays(int repeats) {
@@ -84,6 +115,8 @@ std::vector<Measurement> bench_rays(int repeats) {
   for (Measurement& m : bench_scene("spheres-300k", field.entry() + kPath, repeats)) {
     all.push_back(m);
   }
+  for (Measurement& m : bench_scene("fog", kFog + kPath, repeats)) all.push_back(m);
+  all.push_back(light_paths(scene_entry("cornell-box"), repeats));
   return all;
 }
 

@@ -28,12 +28,14 @@ class GreyMedium final : public Medium {
   };
   explicit GreyMedium(Settings settings) : sigma_(settings.scattering) {}
 
-  DistanceSample sample(const Ray& ray, float, float u) const override {
+  DistanceSample sample(const Ray& ray, Rgb, float, float u) const override {
     const float t = -std::log1p(-u) / sigma_;
     return {t, t < ray.t_max};
   }
-  float scatter_pdf(const Ray&, float t) const override { return sigma_ * std::exp(-sigma_ * t); }
-  float pass_probability(const Ray&, float t) const override { return std::exp(-sigma_ * t); }
+  float scatter_pdf(const Ray&, Rgb, float t) const override {
+    return sigma_ * std::exp(-sigma_ * t);
+  }
+  float pass_probability(const Ray&, Rgb, float t) const override { return std::exp(-sigma_ * t); }
   Rgb transmittance(const Ray&, float t) const override { return Rgb(std::exp(-sigma_ * t)); }
   Rgb scattering(Point3) const override { return Rgb(sigma_); }
   const PhaseFunction& phase_function() const override { return phase_; }

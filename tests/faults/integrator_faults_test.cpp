@@ -40,6 +40,18 @@ scene:
 film: { width: 32, height: 32, filter: box }
 )";
 
+/// A ball of fog that only scatters, under a white sky, cannot be seen.
+const std::string kFogBallScene = R"(
+scene:
+  media:
+    fog: { type: stub_grey, scattering: 0.3 }
+  shapes:
+    - { type: sphere, radius: 1, material: pass_through, interior: fog }
+  emitters: [ { type: constant, radiance: 1 } ]
+  sensor: { type: perspective, fov: 40, to_world: { translate: [0.2, 0.1, -2.5] } }
+film: { width: 32, height: 32, filter: box }
+)";
+
 std::vector<Furnace> furnaces() {
   const std::string guiding =
       "max_depth: 4, guiding: { learner: stub_direction, guider: stub_direction, "
@@ -49,7 +61,8 @@ std::vector<Furnace> furnaces() {
       {"guided", kDiffuseScene, guiding, kDiffuseFurnace},
       {"half covered", kCoveredScene, "max_depth: 2", 0.25},
       {"roulette", kRouletteScene, "max_depth: 200, roulette: throughput, roulette_depth: 2", 5},
-      {"glass in fog", kGlassInFogScene, "max_depth: 100", kGlassInFogFurnace}};
+      {"glass in fog", kGlassInFogScene, "max_depth: 100", kGlassInFogFurnace},
+      {"ball of fog", kFogBallScene, "max_depth: 100", 1}};
 }
 
 /// Whether a furnace's test is red under a fault.
@@ -77,25 +90,28 @@ constexpr bool green = false;
 
 }  // namespace
 
-//                                       unguided guided covered roulette  fog
+//                                       unguided guided covered roulette  fog  ball of fog
 
 TEST_CASE("no fault") {
-  check_row("none", {green, green, green, green, green});
+  check_row("none", {green, green, green, green, green, green});
 }
 TEST_CASE("fault: emission is weighted without the guide's density") {
-  check_row("mis_without_guide", {green, red, green, green, green});
+  check_row("mis_without_guide", {green, red, green, green, green, green});
 }
 TEST_CASE("fault: samples of value zero are dropped") {
-  check_row("zero_samples_dropped", {green, green, red, green, green});
+  check_row("zero_samples_dropped", {green, green, red, green, green, green});
 }
 TEST_CASE("fault: the probability of the light is forgotten") {
-  check_row("light_choice_forgotten", {red, red, green, green, green});
+  check_row("light_choice_forgotten", {red, red, green, green, green, green});
 }
 TEST_CASE("fault: survivors of roulette are not weighted") {
-  check_row("roulette_unweighted", {green, green, green, red, green});
+  check_row("roulette_unweighted", {green, green, green, red, green, green});
 }
 TEST_CASE("fault: the density of distances is forgotten") {
-  check_row("distance_density_forgotten", {green, green, green, green, red});
+  check_row("distance_density_forgotten", {green, green, green, green, red, red});
+}
+TEST_CASE("fault: light samples do not get through boundaries of media") {
+  check_row("boundaries_cast_shadows", {green, green, green, green, green, red});
 }
 
 }  // namespace pharos::testing

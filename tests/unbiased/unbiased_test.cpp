@@ -118,6 +118,19 @@ std::vector<Method> lobe_methods() {
           lobes(single, "cosine", few, "combine")};
 }
 
+/// Every kind of guide, which in media leaves distances to these.
+std::vector<Method> media_methods() {
+  return {focal(0.5f, "line", "discard"),
+          focal(0.5f, "roughness_gated", "combine"),
+          gaussians("p0", 0.5f, "kdtree", "discard"),
+          gaussians("p1", 0.5f, "single", "combine"),
+          gaussians("projected", 0.5f, "kdtree", "combine"),
+          sd_tree("radiance", "fixed", "spatial_filter: nearest, directional_filter: nearest",
+                  "discard"),
+          lobes("spatial: kdtree, cell_samples: 8192", "cosine", "fixed", "discard"),
+          lobes("spatial: single", "bsdf", "fixed", "combine")};
+}
+
 LoadedConfig load(const std::filesystem::path& config, const std::vector<std::string>& guiding,
                   std::vector<std::string> overrides = {}) {
   for (const std::string& setting : guiding) {
@@ -195,8 +208,9 @@ TEST_CASE("unbiased: every proof variant has a case below") {
     if (entry.path().extension() == ".yaml") found.push_back(entry.path().stem().string());
   }
   std::sort(found.begin(), found.end());
-  CHECK(found == std::vector<std::string>{"camera-obscura", "dining-room", "disco-ball", "hall",
-                                          "living-room", "standing-light", "strip-lights"});
+  CHECK(found == std::vector<std::string>{"camera-obscura", "dining-room", "disco-ball", "fog-box",
+                                          "hall", "haze", "living-room", "standing-light",
+                                          "strip-lights", "volume-caustics"});
 }
 
 TEST_CASE("long: unbiased in the proof variant camera-obscura") {
@@ -250,6 +264,16 @@ TEST_CASE("long: parallax-aware mixtures are unbiased in the proof variant livin
 }
 TEST_CASE("long: parallax-aware mixtures are unbiased in the proof variant strip-lights") {
   compare_proof("strip-lights", lobe_methods());
+}
+
+TEST_CASE("long: unbiased in media, in the proof variant fog-box") {
+  compare_proof("fog-box", media_methods());
+}
+TEST_CASE("long: unbiased in media, in the proof variant haze") {
+  compare_proof("haze", media_methods());
+}
+TEST_CASE("long: unbiased in media, in the proof variant volume-caustics") {
+  compare_proof("volume-caustics", media_methods());
 }
 
 // (Not the smallest pinhole: with so few samples most renders have yet to find it.)

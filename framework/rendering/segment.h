@@ -1,0 +1,84 @@
+#pragma once
+
+#include <optional>
+
+#include <pharos/rendering/integrator.h>
+#include <pharos/rendering/scatter_step.h>
+#include <pharos/scene/scene.h>
+
+namespace pharos {
+
+/// What light meets on a straight way through media.
+struct Passage {
+  Rgb transmittance{1};     ///< what is left of it [1]
+  float medium_density = 1; /**< the probability [1] with which the media's own sampling gets to the
+                                 end; for a volume vertex the density [1/m] of stopping there */
+};
+
+/// The straight way from one vertex to the next.
+struct Segment {
+  VertexKind kind = VertexKind::surface;  ///< of its end: surface, volume or environment
+  float length = 0;                       ///< infinite to the environment [scene units]
+  const Medium* medium = nullptr;         ///< at its end; null: empty space
+  Passage passage;
+};
+
+/// Follows rays through media and the boundaries between them: surfaces of objects that do nothing
+/// but let light pass (Scene::is_boundary()) are no vertices, they only change the medium.
+class SegmentTracer {
+ public:
+  SegmentTracer(const Scene& scene, RenderCounters& counters)
+      : scene_(scene), counters_(counters) {}
+
+  /// Goes from a vertex at `ray.origin`, in `medium`, as far as `step` says, and fills `end`: the
+  /// whole point on a surface, else its position. `throughput` is the path's, with what the step
+  /// scatters. Empty when a proposed vertex cannot be reached.
+  std::optional<Segment> trace(const Ray& ray, const Medium* medium, const ScatterStep& step,
+                               Rgb throughput, const VertexStream& numbers,
+                               SurfacePoint& end) const {
+    if (!scene_.has_media() && !scene_.has_boundaries()) return trace_in_vacuum(ray, step, end);
+    return trace_through(ray, medium, step, throughput, numbers, end);
+  }
+
+  /// What a shadow ray meets up to `ray.t_max`, for a path of this throughput, as above; empty when
+  /// a surface is in the way.
+  std::optional<Passage> pass(const Ray& ray, const Medium* medium, Rgb throughput) const {
+    if (scene_.has_boundaries()) return pass_through(ray, medium, throughput);
+    ++counters_.rays;
+    if (scene_.occluded(ray)) return std::nullopt;
+    Passage passage;
+    if (medium != nullptr) add_leg(*medium, ray, throughput, passage);
+    return passage;
+  }
+
+ private:
+  std::optional<Segment> trace_in_vacuum(const Ray& ray, const ScatterStep& step,
+                                         SurfacePoint& end) const {
+    if (step.reach == Proposal::Reach::distance) return std::nullopt;
+    ++counters_.rays;
+    Segment segment{.length = scene_.intersect(ray, end)};
+    if (std::isinf(segment.length)) arrive_at_environment(ray, segment, end);
+    return segment;
+  }
+
+  std::optional<Segment> trace_through(Ray ray, const Medium* medium, const ScatterStep& step,
+                                       Rgb throughput, const VertexStream& numbers,
+                                       SurfacePoint& end) const;
+  std::optional<Passage> pass_through(Ray ray, const Medium* medium, Rgb throughput) const;
+
+  static void add_leg(const Medium& medium, const Ray& ray, Rgb throughput, Passage& passage) {
+    const Rgb shares = channel_shares(throughput * passage.transmittance);
+    passage.medium_density *= medium.pass_probability(ray, shares, ray.t_max);
+    passage.transmittance *= medium.transmittance(ray, ray.t_max);
+  }
+  void arrive_at_environment(const Ray& ray, Segment& segment, SurfacePoint& end) const {
+    segment.kind = VertexKind::environment;
+    end = {};
+    end.position = scene_.environment_point(ray.origin, ray.direction);
+  }
+
+  const Scene& scene_;
+  RenderCounters& counters_;
+};
+
+}  // namespace pharos

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <pharos/config/schema.h>
+#include <pharos/rendering/integrator.h>
+
+namespace pharos {
+
+/// The plugin `light`; see light.cpp.
+class LightIntegrator final : public Integrator {
+ public:
+  struct Settings {
+    std::uint16_t max_depth = 12;
+    static void describe(Schema<Settings>& s);
+  };
+  explicit LightIntegrator(const Settings& settings) : settings_(settings) {}
+
+  IntegratorTraits traits() const override { return {}; }
+  std::unique_ptr<const PreparedIntegrator> prepare(const RenderTarget& target) const override;
+
+ private:
+  Settings settings_;
+};
+
+}  // namespace pharos

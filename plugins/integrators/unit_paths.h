@@ -1,0 +1,33 @@
+#pragma once
+
+#include <pharos/rendering/integrator.h>
+
+namespace pharos {
+
+/// Calls `trace(key, stream)` for every path of a work unit, in a fixed order, and counts them on
+/// the film.
+template <class Trace>
+void for_each_path(const WorkUnit& unit, const IterationContext& context, int film_width,
+                   WorkResult& result, Trace&& trace) {
+  for (int y = unit.pixels.y0; y < unit.pixels.y1; ++y) {
+    for (int x = unit.pixels.x0; x < unit.pixels.x1; ++x) {
+      PathKey key{.seed = context.seed,
+                  .iteration = unit.iteration,
+                  .index = static_cast<std::uint64_t>(y) * film_width + x};
+      for (std::uint32_t i = 0; i < unit.sample_count; ++i) {
+        key.sample = unit.first_sample + i;
+        trace(key, SampleStream(context.sampler, key));
+      }
+    }
+  }
+  result.film.count_paths(static_cast<std::uint64_t>(unit.pixels.area()) * unit.sample_count);
+}
+
+/// Takes note of a path of NaN or infinite value, which counts as black.
+inline void reject(const PathKey& key, WorkResult& result) {
+  ++result.counters.invalid_paths;
+  if (!result.first_invalid) result.first_invalid = key;
+  if (result.log.size() > 0) result.log.blacken_last_path();
+}
+
+}  // namespace pharos

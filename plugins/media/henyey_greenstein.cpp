@@ -1,0 +1,46 @@
+// henyey_greenstein: mostly forwards (g > 0) or backwards (g < 0), by Henyey and Greenstein 1941
+// ("Diffuse radiation in the galaxy", eq. 2). With the angle t between the directions of flight
+// before and after:
+//
+//     p(t) = (1 - g^2) / (4 pi (1 + g^2 - 2 g cos t)^(3/2))  [1/sr]
+//
+// Its mean cosine is g: 0 is isotropic, haze has about 0.98.
+//
+//     phase: { type: henyey_greenstein, g: 0.8 }
+
+#include "henyey_greenstein.h"
+
+#include <cmath>
+
+#include "about_axis.h"
+
+namespace pharos {
+
+void HenyeyGreensteinPhase::Settings::describe(Schema<Settings>& s) {
+  s.field("g", &Settings::g, "Mean cosine between flight before and after; 0: isotropic")
+      .at_least(-0.9999f)
+      .at_most(0.9999f);
+  s.example("{ g: 0.6 }");
+  s.example("{ g: -0.4 }");
+  s.example("{ g: 0.98 }");
+}
+
+float HenyeyGreensteinPhase::evaluate(Vec3 wo, Vec3 wi) const {
+  // 1 + g^2 - 2 |g| cos by the chord of the angle to the lobe's axis, which keeps small angles'
+  // digits: its square is 2 - 2 cos.
+  const float g = std::abs(g_);
+  const Vec3 chord = g_ > 0 ? wi + wo : wi - wo;
+  const float base = square(1 - g) + g * length_squared(chord);
+  return (1 - square(g)) / (4 * kPi * base * std::sqrt(base));
+}
+
+Vec3 HenyeyGreensteinPhase::sample(Vec3 wo, Vec2 u) const {
+  // The inverse of the distribution of cos, (1 + g^2 - s^2) / (2 g) with s = (1 - g^2) / (1 + g - 2
+  // g u), as 1 - cos without differences of close numbers, which also holds for g = 0.
+  const float g = std::abs(g_);
+  const float divisor = 1 + g - 2 * g * u.x;
+  const float one_minus_cos = (1 - g) * u.x / divisor * ((1 - square(g)) / divisor + 1 - g);
+  return about_axis(g_ > 0 ? -wo : wo, one_minus_cos, u.y);
+}
+
+}  // namespace pharos

@@ -1,0 +1,70 @@
+// homogeneous: a medium that is the same everywhere, such as fog, smoke or coloured water. Per
+// scene unit of a ray a share `scattering` of the light is scattered and a share `absorption` lost,
+// each with its colour and times `scale`; after a distance t exp(-(scattering + absorption) t) is
+// left.
+//
+// Distances are drawn for one channel, chosen in proportion to what the path carries in each, and
+// weighted by the mean density over all of them (multiple importance sampling, balance heuristic).
+// So scattering alone leaves the sum of a path's channels as it is, however differently they are
+// scattered. Media that only absorb let every ray pass.
+//
+//     media:
+//       haze: { type: homogeneous, scattering: 0.2, absorption: [0, 0.01, 0.02],
+//               phase: { type: henyey_greenstein, g: 0.8 } }
+
+#include "homogeneous.h"
+
+#include <cmath>
+
+namespace pharos {
+namespace {
+
+/// exp(-coefficient t), 1 for a coefficient of 0 even at infinity.
+float left_after(float coefficient, float t) {
+  return coefficient > 0 ? std::exp(-coefficient * t) : 1.0f;
+}
+
+}  // namespace
+
+void HomogeneousMedium::Settings::describe(Schema<Settings>& s) {
+  s.field("scattering", &Settings::scattering, "Scattering coefficient").unit("1/m").at_least(0);
+  s.field("absorption", &Settings::absorption, "Absorption coefficient").unit("1/m").at_least(0);
+  s.field("scale", &Settings::scale, "Factor on both coefficients").at_least(0);
+  s.field("phase", &Settings::phase, "Into which directions it scatters").otherwise("isotropic");
+  s.example("{ scattering: 0.7, phase: { type: henyey_greenstein, g: 0.5 } }");
+  s.example("{ scattering: [2, 0.5, 0], absorption: [0, 0.5, 3], scale: 0.5 }");
+  s.example("{ scattering: 0, absorption: [0.1, 1, 2] }");
+}
+
+HomogeneousMedium::HomogeneousMedium(const Settings& settings)
+    : scattering_(settings.scale * settings.scattering),
+      extinction_(settings.scale * (settings.scattering + settings.absorption)),
+      phase_(settings.phase) {}
+
+DistanceSample HomogeneousMedium::sample(const Ray& ray, Rgb shares, float u_channel,
+                                         float u_distance) const {
+  if (!scatters()) return {};
+  const int channel = u_channel < shares.r ? 0 : u_channel < shares.r + shares.g ? 1 : 2;
+  if (extinction_[channel] == 0) return {};
+  const float t = -std::log1p(-u_distance) / extinction_[channel];
+  return {t, t < ray.t_max};
+}
+
+float HomogeneousMedium::scatter_pdf(const Ray&, Rgb shares, float t) const {
+  if (!scatters()) return 0;
+  float sum = 0;
+  for (int c = 0; c < 3; ++c) sum += shares[c] * extinction_[c] * left_after(extinction_[c], t);
+  return sum;
+}
+
+float HomogeneousMedium::pass_probability(const Ray& ray, Rgb shares, float t) const {
+  if (!scatters()) return 1;
+  const Rgb left = shares * transmittance(ray, t);
+  return left.r + left.g + left.b;
+}
+
+Rgb HomogeneousMedium::transmittance(const Ray&, float t) const {
+  return {left_after(extinction_.r, t), left_after(extinction_.g, t), left_after(extinction_.b, t)};
+}
+
+}  // namespace pharos

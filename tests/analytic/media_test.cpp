@@ -1,0 +1,156 @@
+// Media whose light is known in closed form: what gets through, what is scattered once, and white
+// furnaces, in which fog that only scatters cannot be seen.
+
+#include <cmath>
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <pharos/statistics/quadrature.h>
+
+#include "analytic.h"
+
+namespace pharos::testing {
+namespace {
+
+constexpr double kPi64 = 3.14159265358979323846;
+
+double mean_of(double r, double g, double b) {
+  return (r + g + b) / 3;
+}
+
+/// A camera at the origin that looks along +z through a needle's eye.
+const std::string kNeedle =
+    "  sensor: { type: perspective, fov: 0.01, to_world: { look_at: { origin: [0, 0, 0], target: "
+    "[0, 0, 1], up: [0, 1, 0] } } }\n";
+
+TEST_CASE("media: what gets through two nested boxes of other media") {
+  // A slab from z = 1 to 2, and in it another one from 1.25 to 1.5.
+  const auto scene = [](const char* scattering, const char* absorption) {
+    return fmt::format(
+        R"(scene:
+  media:
+    outer: {{ type: homogeneous, scattering: [0.3, 1, 2], absorption: 0 }}
+    inner: {{ type: homogeneous, scattering: {}, absorption: {} }}
+  shapes:
+    - {{ type: box, material: pass_through, interior: outer, to_world: [ {{ scale: [1, 1, 0.5] }}, {{ translate: [0, 0, 1.5] }} ] }}
+    - {{ type: box, material: pass_through, interior: inner, exterior: outer, to_world: [ {{ scale: [1, 1, 0.125] }}, {{ translate: [0, 0, 1.375] }} ] }}
+    - {{ type: quad, material: {{ type: diffuse, reflectance: 0 }}, emitter: {{ type: area, radiance: 2 }}, to_world: [ {{ rotate: {{ axis: [1, 0, 0], degrees: 180 }} }}, {{ translate: [0, 0, 3] }} ] }}
+{})",
+        scattering, absorption, kNeedle);
+  };
+  const auto left = [](double outer, double inner) {
+    return 2 * std::exp(-0.75 * outer - 0.25 * inner);
+  };
+  const double expected = mean_of(left(0.3, 4), left(1, 0), left(2, 1));
+  for (const auto& [scattering, absorption] :
+       {std::pair{"[4, 0, 1]", "0"}, {"[1, 0, 0.5]", "[3, 0, 0.5]"}, {"0", "[4, 0, 1]"}}) {
+    CAPTURE(scattering);
+    check_value(scene(scattering, absorption) + kFilm +
+                    "integrator: { type: path, max_depth: 1 }\nsampler: independent\n",
+                expected);
+  }
+}
+
+/// A spot of a floor, seen from above at the given height, and everything between in a box of a
+/// medium that only absorbs.
+std::string spot_in_box(const std::string& lights) {
+  return R"(scene:
+  media:
+    smoke: { type: homogeneous, scattering: 0, absorption: [0.2, 0.5, 1] }
+  shapes:
+    - { type: quad, material: { type: diffuse, reflectance: 0.5 }, to_world: { translate: [0.3, 0.2, 0] } }
+    - { type: sphere, radius: 2, material: pass_through, interior: smoke }
+)" + lights +
+         R"(
+  sensor: { type: perspective, fov: 0.01, to_world: { look_at: { origin: [-0.6, 0, 0.8], target: [0, 0, 0], up: [0, 0, 1] } } }
+  medium: smoke
+)";
+}
+
+TEST_CASE("media: lights are seen through boundaries, by samples and by chance alike") {
+  // From the floor's spot all ways out of the ball are 2 long, the one to the camera 1.
+  const auto left = [](double sigma) { return std::exp(-3 * sigma); };
+  const double share = 0.5 * mean_of(left(0.2), left(0.5), left(1));
+  for (const Strategy& strategy : kStrategies) {
+    CAPTURE(strategy.name);
+    check_value(spot_in_box("  emitters: [ { type: constant, radiance: 1 } ]") + kFilm +
+                    fmt::format("integrator: {{ type: path, max_depth: 2, {} }}\n"
+                                "sampler: independent\n",
+                                strategy.settings),
+                share);
+  }
+  // A lamp 3 above, beyond the boundary.
+  check_value(spot_in_box("  emitters: [ { type: point, intensity: 9, position: [0, 0, 3] } ]") +
+                  kFilm + "integrator: { type: path, max_depth: 2 }\nsampler: independent\n",
+              share / kPi64);
+}
+
+TEST_CASE("media: light that is scattered once") {
+  // A lamp 1 beside the middle of the line of sight, in fog that goes on for ever.
+  struct Fog {
+    const char* phase;
+    double g;
+  };
+  for (const auto& [phase, g] : {Fog{"isotropic", 0},
+                                 {"{ type: henyey_greenstein, g: 0.7 }", 0.7},
+                                 {"{ type: henyey_greenstein, g: -0.4 }", -0.4}}) {
+    CAPTURE(phase);
+    const auto seen = [g = g](double scattering, double absorption) {
+      const auto at = [&](double t, double) {
+        const double away = std::hypot(t - 1, 1.0), sigma = scattering + absorption;
+        // Light flies from the lamp to the line, then to the camera, along -z.
+        const double cosine = (t - 1) / away * -1;
+        const double p = (1 - g * g) / (4 * kPi64 * std::pow(1 + g * g - 2 * g * cosine, 1.5));
+        return scattering * p * std::exp(-sigma * (t + away)) / (away * away);
+      };
+      return statistics::integrate(at, {0, 60, 0, 1}, {.tolerance = 1e-9}).value;
+    };
+    const double expected = mean_of(seen(0.5, 0.1), seen(0.2, 0), seen(1, 0.5));
+    const std::string scene = fmt::format(
+        R"(scene:
+  media:
+    fog: {{ type: homogeneous, scattering: [0.5, 0.2, 1], absorption: [0.1, 0, 0.5], phase: {} }}
+  emitters: [ {{ type: point, intensity: 1, position: [1, 0, 1] }} ]
+{}  medium: fog
+)",
+        phase, kNeedle);
+    for (const std::string sampler : kSamplers) {
+      check_value(
+          scene + kFilm + "integrator: { type: path, max_depth: 2 }\nsampler: " + sampler + "\n",
+          expected);
+    }
+  }
+}
+
+TEST_CASE("media: a white furnace shows no fog that only scatters") {
+  for (const char* phase :
+       {"isotropic", "rayleigh", "{ type: henyey_greenstein, g: 0.8 }",
+        "{ type: henyey_greenstein, g: -0.6 }", "{ type: henyey_greenstein, g: 0.98 }"}) {
+    CAPTURE(phase);
+    for (const bool inside : {true, false}) {
+      CAPTURE(inside);
+      const std::string scene = fmt::format(
+          R"(scene:
+  media:
+    fog: {{ type: homogeneous, scattering: [0.5, 1, 3], phase: {} }}
+  shapes:
+    - {{ type: sphere, radius: 1, material: pass_through, interior: fog }}
+    - {{ type: sphere, center: [0, 0, 0.6], radius: 0.2, material: {{ type: dielectric, ior: 1.5 }}, exterior: fog }}
+  emitters: [ {{ type: constant, radiance: 1 }} ]
+  sensor: {{ type: perspective, fov: 30, to_world: {{ look_at: {{ origin: [0, 0, {}], target: [0, 0, 1], up: [0, 1, 0] }} }} }}
+{})",
+          phase, inside ? "-0.3" : "-4", inside ? "  medium: fog\n" : "");
+      for (const char* nee : {"true", "false"}) {
+        check_value(scene + kFilm +
+                        fmt::format("integrator: {{ type: path, max_depth: 200, "
+                                    "next_event_estimation: {} }}\nsampler: independent\n",
+                                    nee),
+                    1);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace pharos::testing
