@@ -171,6 +171,14 @@ std::vector<Measurement> bench_baselines(int repeats) {
                 "pavmm.query_product_ns");
   meter.answers(lobes(32), plain, "pavmm.pdf_ns.k32", "pavmm.sample_ns.k32", "pavmm.query_ns.k32");
   meter.updates("pavmm", "vmf_mixtures");
+  if (registry.find(Learner::contract_name, "open_pgl") != nullptr) {
+    // No look-ups of neighbours, as ours make none; its cells are not told.
+    const std::string field = "{ type: open_pgl, neighbours: false }";
+    meter.answers(field, "{ type: open_pgl, cosine: false }", "open_pgl.pdf_ns",
+                  "open_pgl.sample_ns", "open_pgl.query_ns");
+    meter.answers(field, "open_pgl", "", "", "open_pgl.query_cosine_ns");
+    meter.updates("open_pgl", field);
+  }
   return meter.all();
 }
 

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <pharos/core/bounds.h>
+
+#include "learner.h"
+#include "pgl_field.h"
+#include "sample.h"
+
+namespace pharos::pgl {
+
+/// A field that learns during one render. The models it gives away are copies, made by way of the
+/// library's files, as fields change in place.
+class PglState final : public LearningState {
+ public:
+  PglState(const PglSettings& settings, const Bounds3& region);
+
+  void absorb(const PathLog& log) override;
+  std::shared_ptr<const GuidingModel> update(std::uint32_t iteration, bool last) override;
+  void save(std::ostream& out) const override;
+  void load(std::istream& in) override;
+  void merge(const LearningState& other) override;
+
+ private:
+  /// Lets the field learn from the samples that wait: at the end of an iteration, or when they are
+  /// many.
+  void learn();
+
+  PglSettings settings_;
+  SampleRule rule_;
+  std::unique_ptr<openpgl::cpp::Field> field_;
+  std::uint64_t lessons_ = 0;    ///< calls of learn() with samples
+  bool learned_early_ = false;   ///< from samples of this iteration, before its end
+  std::vector<Sample> samples_;  ///< that wait
+  PathScratch scratch_;
+};
+
+}  // namespace pharos::pgl

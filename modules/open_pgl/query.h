@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+
+#include "pgl_field.h"
+
+namespace pharos::pgl {
+
+/// What the library is asked at a vertex.
+struct Query {
+  Point3 position;
+  bool in_volume = false;
+  Vec3 cosine_about;  ///< unit normal of the cosine in the product; zero: no product
+
+  bool operator==(const Query&) const = default;
+};
+
+/// The library's query objects of one thread. They are large and live on the heap, so that there is
+/// one of each kind, which answers the query it took last.
+class Workplace {
+ public:
+  explicit Workplace(const openpgl::cpp::Field& field)
+      : field_(field), surface_(&field), volume_(&field) {}
+  Workplace(const Workplace&) = delete;
+  Workplace& operator=(const Workplace&) = delete;
+
+  /// Makes the distribution of a query, if it is not at hand. False where the field knows nothing.
+  bool take(const Query& query);
+  /// A direction of the query taken last, and densities [1/sr].
+  Vec3 sample(Vec2 u) const;
+  float pdf(Vec3 direction) const;
+
+ private:
+  const openpgl::cpp::Field& field_;
+  openpgl::cpp::SurfaceSamplingDistribution surface_;
+  openpgl::cpp::VolumeSamplingDistribution volume_;
+  Query taken_;
+  bool holds_ = false;  ///< the distribution of `taken_`
+};
+
+}  // namespace pharos::pgl

@@ -1,0 +1,83 @@
+#include "../query.h"
+
+#include <cmath>
+
+#include <doctest/doctest.h>
+
+#include "../pgl_model.h"
+#include "test_paths.h"
+
+namespace pharos::pgl {
+namespace {
+
+using namespace testing;
+
+const Query kPlain{.position = {0.5f, -0.4f, 0}};
+const Query kCosine{.position = {0.5f, -0.4f, 0}, .cosine_about = {1, 0, 0}};
+const Query kElsewhere{.position = {-0.7f, 0.6f, 0}};
+const Query kOutside{.position = {50, 0, 0}};
+const Query kVolume{.position = {0.5f, -0.4f, 0}, .in_volume = true};
+
+std::shared_ptr<const PglModel> model(const PglSettings& settings = {}) {
+  return std::dynamic_pointer_cast<const PglModel>(trained(settings));
+}
+
+float fresh_pdf(const PglModel& model, const Query& query, Vec3 w) {
+  Workplace workplace(model.field());
+  REQUIRE(workplace.take(query));
+  return workplace.pdf(w);
+}
+
+TEST_CASE("an answer does not depend on what was asked before it") {
+  const auto learned = model();
+  const Vec3 w = normalize(Vec3{0.3f, -0.2f, 1});
+  Workplace workplace(learned->field());
+  for (const Query& query : {kPlain, kCosine, kElsewhere, kPlain, kPlain, kElsewhere, kCosine}) {
+    REQUIRE(workplace.take(query));
+    CHECK(workplace.pdf(w) == fresh_pdf(*learned, query, w));
+    CHECK_FALSE(workplace.take(kOutside));
+  }
+  CHECK(fresh_pdf(*learned, kPlain, w) != fresh_pdf(*learned, kCosine, w));
+}
+
+TEST_CASE("surfaces tell nothing about volumes") {
+  Workplace workplace(model()->field());
+  CHECK_FALSE(workplace.take(kVolume));
+}
+
+TEST_CASE("densities integrate to one over the sphere, with and without the cosine") {
+  for (const Directions directions :
+       {Directions::parallax_vmm, Directions::vmm, Directions::quadtree}) {
+    const auto learned = model({.directions = directions});
+    for (const Query& query : {kPlain, kCosine, kElsewhere}) {
+      Workplace workplace(learned->field());
+      REQUIRE(workplace.take(query));
+      constexpr int kSide = 512;
+      double sum = 0;
+      for (int i = 0; i < kSide * kSide; ++i) {
+        const Vec2 u{(i % kSide + 0.5f) / kSide, (i / kSide + 0.5f) / kSide};
+        sum += workplace.pdf(warp::sphere_from_square(u)) / warp::sphere_pdf();
+      }
+      CHECK(sum / (kSide * kSide) == doctest::Approx(1).epsilon(0.005));
+    }
+  }
+}
+
+TEST_CASE("directions are drawn with the density: the same mean direction") {
+  const auto learned = model();
+  Workplace workplace(learned->field());
+  REQUIRE(workplace.take(kPlain));
+  constexpr int kDraws = 100'000;
+  RandomStream random(3);
+  Vec3 drawn, expected;
+  for (int i = 0; i < kDraws; ++i) {
+    drawn = drawn + workplace.sample(random.next_2d());
+    const Vec3 w = warp::sphere_from_square(random.next_2d());
+    expected = expected + (workplace.pdf(w) / warp::sphere_pdf()) * w;
+  }
+  CHECK(length(drawn - expected) / kDraws < 0.02);
+  CHECK(length(drawn) / kDraws > 0.1);
+}
+
+}  // namespace
+}  // namespace pharos::pgl

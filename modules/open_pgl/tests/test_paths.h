@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <sstream>
+#include <string>
+
+#include <pharos/core/random.h>
+#include <pharos/core/warp.h>
+
+#include "../learner.h"
+
+namespace pharos::pgl::testing {
+
+inline constexpr Bounds3 kRegion{{-2, -2, -1}, {2, 2, 3}};
+inline constexpr Point3 kLamp{0, 0, 2};
+
+/// Paths of one guidable step each, from random points of a floor to a lamp above it (every third
+/// one), or in vain to the walls.
+inline PathLog lamp_paths(int count, std::uint64_t seed) {
+  PathLog log;
+  RandomStream random(seed);
+  for (int i = 0; i < count; ++i) {
+    const Vec2 u = random.next_2d();
+    const Point3 from{2 * u.x - 1, 2 * u.y - 1, 0};
+    const bool hits = i % 3 == 0;
+    Vec3 aside = warp::sphere_from_square(random.next_2d());
+    aside.z = std::abs(aside.z);
+    const Point3 to = hits ? kLamp + 0.1f * aside : from + 2 * aside;
+    log.begin_path({}, Transport::radiance);
+    log.add(RecordedVertex{.throughput = Rgb(1)});
+    log.add(RecordedVertex{.position = from,
+                           .event = Event::smooth_reflect,
+                           .parent = 0,
+                           .local_weight = Rgb(1),
+                           .direction = normalize(to - from),
+                           .unguided_pdf = hits ? 20.0f : 0.1f,
+                           .guidable = true});
+    log.add(RecordedVertex{.position = to, .parent = 1, .emission = Rgb(hits ? 5.0f : 0.0f)});
+  }
+  return log;
+}
+
+inline std::shared_ptr<const GuidingModel> trained(LearningState& state, int iterations = 3) {
+  std::shared_ptr<const GuidingModel> model;
+  for (int i = 0; i < iterations; ++i) {
+    state.absorb(lamp_paths(5000, static_cast<std::uint64_t>(i)));
+    model = state.update(static_cast<std::uint32_t>(i), i + 1 == iterations);
+  }
+  return model;
+}
+
+inline std::shared_ptr<const GuidingModel> trained(const PglSettings& settings) {
+  return trained(*PglLearner(settings).begin({.region = kRegion}));
+}
+
+template <class Savable>
+std::string saved(const Savable& what) {
+  std::ostringstream out;
+  what.save(out);
+  return out.str();
+}
+
+}  // namespace pharos::pgl::testing
