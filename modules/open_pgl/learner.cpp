@@ -16,7 +16,7 @@ void PglSettings::describe(Schema<PglSettings>& s) {
   s.field("neighbours", &S::neighbours,
           "Sometimes take a neighbouring cell instead of a vertex's own, by its position");
   s.field("batch_samples", &S::batch_samples,
-          "Samples that wait at most (37 bytes each): when there are more, they are learned from "
+          "Samples that wait at most (40 bytes each): when there are more, they are learned from "
           "before the iteration ends")
       .at_least(1024);
   s.field("least_pdf", &S::least_pdf, "Counts in place of smaller densities of samples")

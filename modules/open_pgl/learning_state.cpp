@@ -60,7 +60,7 @@ void add(const Sample& sample, openpgl::cpp::SampleStorage& storage) {
 }  // namespace
 
 PglState::PglState(const PglSettings& settings, const Bounds3& region)
-    : settings_(settings), field_(new_field(settings, region)) {
+    : settings_(settings), region_(region), field_(new_field(settings, region)) {
   rule_ = {.least_pdf = settings.least_pdf, .glossy = settings.glossy};
   if (region.diagonal() > 0) rule_.most_distance = 1e3f * region.diagonal();
 }
@@ -103,15 +103,14 @@ void PglState::load(std::istream& in) {
   expect_heading(in, kHeading, kVersion);
   const auto lessons = load_number<std::uint64_t>(in);
   const bool learned_early = load_number<std::uint8_t>(in) != 0;
-  std::unique_ptr<openpgl::cpp::Field> field;
-  if (lessons > 0) field = field_of(load_bytes(in));
+  auto field = lessons > 0 ? field_of(load_bytes(in)) : new_field(settings_, region_);
   std::vector<Sample> samples;
   for (auto count = load_number<std::uint64_t>(in); count > 0; --count) {
     samples.push_back(load_sample(in));
   }
   lessons_ = lessons;
   learned_early_ = learned_early;
-  if (field) field_ = std::move(field);
+  field_ = std::move(field);
   samples_ = std::move(samples);
 }
 

@@ -30,6 +30,7 @@ class PglState final : public LearningState {
   void learn();
 
   PglSettings settings_;
+  Bounds3 region_;
   SampleRule rule_;
   std::unique_ptr<openpgl::cpp::Field> field_;
   std::uint64_t lessons_ = 0;    ///< calls of learn() with samples

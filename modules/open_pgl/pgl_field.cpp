@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <system_error>
 #include <unistd.h>
 #include <xxhash.h>
 
@@ -51,12 +52,23 @@ std::string bytes_of(const openpgl::cpp::Field& field) {
   const TemporaryFile file;
   if (!field.Store(file.path())) throw RunError("Open PGL could not store its field");
   std::ifstream in(file.path(), std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
+  std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  // The library does not say when its disk is full, and trusts what it loads.
+  std::error_code ignored;
+  const auto space =
+      std::filesystem::space(std::filesystem::path(file.path()).parent_path(), ignored);
+  if (!in || bytes.empty() || space.available == 0) {
+    throw RunError("Open PGL could not store its field whole");
+  }
+  return bytes;
 }
 
 std::unique_ptr<openpgl::cpp::Field> field_of(const std::string& bytes) {
   const TemporaryFile file;
-  std::ofstream(file.path(), std::ios::binary) << bytes;
+  std::ofstream out(file.path(), std::ios::binary);
+  out << bytes;
+  out.close();
+  if (!out) throw RunError("no temporary file can be written for Open PGL");
   try {
     return std::make_unique<openpgl::cpp::Field>(&device(), file.path());
   } catch (const std::exception& e) {

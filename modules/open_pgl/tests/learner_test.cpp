@@ -8,6 +8,7 @@
 
 #include <pharos/core/error.h>
 
+#include "../pgl_field.h"
 #include "../sample.h"
 #include "test_paths.h"
 
@@ -42,11 +43,12 @@ TEST_CASE("without samples there is no model") {
   CHECK(state->update(1, false) != nullptr);
 }
 
-TEST_CASE("the same bits for any number of threads") {
+TEST_CASE("the same answers, to the bit, for any number of threads") {
+  device();  // with all of them
   std::string expected;
   for (const std::size_t threads : {1u, 2u, 3u, 7u}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    const std::string bits = saved(*trained(PglSettings{}));
+    const std::string bits = answers(*trained(PglSettings{}));
     if (expected.empty()) expected = bits;
     CHECK(bits == expected);
   }
@@ -62,7 +64,7 @@ TEST_CASE("saved learning goes on as if it had not been interrupted") {
     whole->save(file);
     const auto resumed = learner.begin({.region = kRegion});
     resumed->load(file);
-    CHECK(saved(*trained(*whole, 2)) == saved(*trained(*resumed, 2)));
+    CHECK(answers(*trained(*whole, 2)) == answers(*trained(*resumed, 2)));
   }
 }
 
@@ -75,7 +77,7 @@ TEST_CASE("merged states know what both absorbed; those of other iterations are 
   part->absorb(lamp_paths(3000, 1));
   other->absorb(lamp_paths(3000, 2));
   part->merge(*other);
-  CHECK(saved(*whole->update(0, false)) == saved(*part->update(0, false)));
+  CHECK(answers(*whole->update(0, false)) == answers(*part->update(0, false)));
   CHECK_THROWS_AS(part->merge(*other), InputError);
 }
 

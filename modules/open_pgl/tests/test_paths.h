@@ -55,6 +55,19 @@ inline std::shared_ptr<const GuidingModel> trained(const PglSettings& settings) 
   return trained(*PglLearner(settings).begin({.region = kRegion}));
 }
 
+/// What a model says of directions at a few places: the bits of a field's file would tell its times
+/// as well.
+inline std::string answers(const GuidingModel& model) {
+  std::ostringstream out;
+  RandomStream random(11);
+  for (int i = 0; i < 200; ++i) {
+    const Vec2 u = random.next_2d();
+    const Point3 at{2 * u.x - 1, 2 * u.y - 1, 0};
+    out << std::hexfloat << model.density(at, warp::sphere_from_square(random.next_2d())) << ' ';
+  }
+  return out.str();
+}
+
 template <class Savable>
 std::string saved(const Savable& what) {
   std::ostringstream out;

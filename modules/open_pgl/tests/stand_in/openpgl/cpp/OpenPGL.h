@@ -4,11 +4,13 @@
 // the module uses, with a model of its own, so that the module is compiled and tested everywhere.
 // It keeps the library's ways that a user must know: queries fail outside the bounds and where
 // nothing was learned, and keep what they held; random numbers of queries are rescaled in place;
-// fields change in place and are copied by way of files only; one NaN spoils a field.
+// fields change in place and are copied by way of files only (it writes no times into them); one
+// NaN spoils a field.
 //
 // The model: the bounds' eight octants, each with a density (1 + a . w) / (4 pi) of directions w,
 // where a is the weighted mean of the directions seen there.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
