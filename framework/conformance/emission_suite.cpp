@@ -92,6 +92,12 @@ void check_emitted(const Site& site, std::uint64_t seed, Check& check) {
     if (!(e.pdf.direction > 0)) continue;
     check.expect(std::abs(length(e.direction) - 1) < 1e-3f,
                  [&] { return site.name + ": a ray's direction is not unit"; });
+    const bool comes_from_afar = e.kind == VertexKind::environment;
+    check.expect(comes_from_afar == !std::isfinite(site.lit.distance) || !site.is_lit(),
+                 [&] { return site.name + ": a ray's kind is not that of the light"; });
+    check.expect(
+        !comes_from_afar || dot(site.center - e.point.position, e.direction) >= 0.99f * site.radius,
+        [&] { return site.name + ": a ray from afar begins within the scene"; });
     const EmissionDensity pdf = site.light->pdf_emission(e.point, e.direction);
     check.expect_mostly(close(pdf.position, e.pdf.position, kTolerance) &&
                             close(pdf.direction, e.pdf.direction, kTolerance),

@@ -114,6 +114,26 @@ void check_connection(const PreparedSensor& sensor, Suite& suite) {
   }
 }
 
+/// Whatever the sensor sees lies on the ray of the film position that it names, before the lens.
+void check_seen(const PreparedSensor& sensor, Suite& suite) {
+  Check& check = suite.check("seen");
+  RandomStream random(suite.seed(), 4);
+  for (int i = 0; i < 4000; ++i) {
+    const Vec2 u_lens = random.next_2d();
+    const Point3 lens = sensor.sample_lens(u_lens).position;
+    const Point3 at = lens + 4 * random.next_1d() * warp::sphere_from_square(random.next_2d());
+    const auto way = sensor.connect(at, u_lens);
+    if (!way) continue;
+    const Ray ray = sensor.ray(way->lens, way->film);
+    const float t = dot(at - ray.origin, ray.direction);
+    check.expect_mostly(t > 0 && length(ray.at(t) - at) < 1e-3f * (t + 1), [&] {
+      return fmt::format("a point beside the ray of film ({}, {}), or behind it", way->film.x,
+                         way->film.y);
+    });
+  }
+  check.not_applicable("no point near the lens is seen");
+}
+
 /// Lens positions in the plane of the lens, scaled to [0,1)^2 by their extent.
 class LensPlane {
  public:
@@ -214,6 +234,7 @@ void check_sensor(const Sensor& sensor, Suite& suite) {
   check_inverse(*prepared, one_direction, suite);
   check_density(*prepared, one_direction, suite);
   check_connection(*prepared, suite);
+  check_seen(*prepared, suite);
   check_lens(*prepared, suite);
   check_determinism(*prepared, suite);
 }

@@ -36,9 +36,9 @@ std::optional<Segment> SegmentTracer::trace_through(Ray ray, const Medium* mediu
       const DistanceSample stop =
           stop_on_leg(*medium, ray, shares, step, segment.length, leg, numbers);
       if (stop.scattered) {
-        ray.t_max = stop.t;
         segment.passage.transmittance *= medium->transmittance(ray, stop.t);
         segment.passage.medium_density *= medium->scatter_pdf(ray, shares, stop.t);
+        ray.t_max = stop.t;
         segment.kind = VertexKind::volume;
         end = {};
         end.position = ray.at(stop.t);

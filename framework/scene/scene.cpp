@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <pharos/core/error.h>
@@ -96,19 +97,20 @@ void Scene::place_lights() {
 }
 
 const Medium* Scene::medium_at(Point3 point) const {
-  if (!has_media_ || sensor_ == nullptr) return medium_.get();
   const Medium* medium = medium_.get();
+  if (!has_media_ || sensor_ == nullptr) return medium;
   const Vec3 way = point - sensor_->position();
-  float left = length(way);
-  Ray ray{sensor_->position(), left > 0 ? way / left : Vec3{0, 0, 1}};
-  while (left > 0) {
+  Ray ray{sensor_->position(), normalize(way), length(way)};
+  while (ray.t_max > 0) {
     SurfacePoint at;
-    ray.t_max = left;
-    const float t = intersect(ray, at);
-    if (std::isinf(t)) break;
+    if (std::isinf(intersect(ray, at))) break;
     medium = medium_after(at, ray.direction, medium);
-    left -= t;
+    // Aimed anew: what is left may be less than a surface's error.
     ray.origin = at.origin_towards(ray.direction);
+    const Vec3 rest = point - ray.origin;
+    if (!(dot(rest, ray.direction) > 0)) break;
+    ray.t_max = length(rest);
+    ray.direction = rest / ray.t_max;
   }
   return medium;
 }

@@ -1,12 +1,14 @@
 // Parts of scenes: a planted fault turns exactly the checks red that are there to find it.
 
 #include <cmath>
+#include <cstdlib>
 
 #include <doctest/doctest.h>
 
 #include <pharos/core/warp.h>
 #include <pharos/rendering/filter.h>
 #include <pharos/scene/emitter.h>
+#include <pharos/scene/medium.h>
 #include <pharos/scene/sensor.h>
 #include <pharos/scene/texture.h>
 
@@ -193,7 +195,7 @@ class FaultyLens final : public Sensor {
 
 TEST_CASE("conformance: faults of a sensor") {
   CHECK(red_with<FaultyLens>(SensorFault::none) == "");
-  CHECK(red_with<FaultyLens>(SensorFault::inverse) == "connection inverse");
+  CHECK(red_with<FaultyLens>(SensorFault::inverse) == "connection inverse seen");
   CHECK(red_with<FaultyLens>(SensorFault::lens) == "lens");
   CHECK(red_with<FaultyLens>(SensorFault::rim) == "lens");
   CHECK(red_with<FaultyLens>(SensorFault::silent).find("inverse") != std::string::npos);
@@ -296,5 +298,86 @@ TEST_CASE("conformance: faults of a shape") {
   CHECK(red_with<FaultySquare>(ShapeFault::solid_angle) == "solid_angle");
   CHECK(red_with<FaultySquare>(ShapeFault::bounds) == "bounds");
 }
+// --- media ---------------------------------------------------------------------------------------
+
+enum class PhaseFault { none, pdf, one_way, mean_cosine, length };
+
+/// Isotropic.
+class FaultyPhase final : public PhaseFunction {
+ public:
+  using Settings = FaultSettings<PhaseFault>;
+  explicit FaultyPhase(const Settings&) : fault_(Settings::planted) {}
+  float evaluate(Vec3, Vec3 wi) const override {
+    if (fault_ == PhaseFault::one_way) return warp::sphere_pdf() * (1 + 0.3f * wi.z);
+    return (fault_ == PhaseFault::pdf ? 1.03f : 1) * warp::sphere_pdf();
+  }
+  Vec3 sample(Vec3, Vec2 u) const override {
+    const Vec3 direction = warp::sphere_from_square(u);
+    return fault_ == PhaseFault::length ? 1.01f * direction : direction;
+  }
+  float mean_cosine() const override { return fault_ == PhaseFault::mean_cosine ? 0.1f : 0; }
+
+ private:
+  PhaseFault fault_;
+};
+
+TEST_CASE("conformance: faults of a phase function") {
+  CHECK(red_with<FaultyPhase>(PhaseFault::none) == "");
+  CHECK(red_with<FaultyPhase>(PhaseFault::pdf) == "integral");
+  CHECK(red_with<FaultyPhase>(PhaseFault::one_way) == "chi_square reciprocity");
+  CHECK(red_with<FaultyPhase>(PhaseFault::mean_cosine) == "mean_cosine");
+  CHECK(red_with<FaultyPhase>(PhaseFault::length) == "finite");
+}
+
+enum class MediumFault { none, scatter_pdf, shares, transmittance, never, beyond };
+
+/// Two channels scatter, one more than the other, and none in the third.
+class FaultyMedium final : public Medium {
+ public:
+  using Settings = FaultSettings<MediumFault>;
+  explicit FaultyMedium(const Settings&) : fault_(Settings::planted) {}
+
+  DistanceSample sample(const Ray& ray, Rgb shares, float u_channel, float u) const override {
+    if (fault_ == MediumFault::never) return {};
+    if (fault_ == MediumFault::shares) shares = Rgb(1.0f / 3);
+    const int channel = u_channel < shares.r ? 0 : u_channel < shares.r + shares.g ? 1 : 2;
+    if (kSigma[channel] == 0) return {};
+    const float t = -std::log1p(-u) / kSigma[channel];
+    return {t, t < ray.t_max || fault_ == MediumFault::beyond};
+  }
+  float scatter_pdf(const Ray&, Rgb shares, float t) const override {
+    float sum = 0;
+    for (int c = 0; c < 3; ++c) sum += shares[c] * kSigma[c] * left(c, t);
+    return fault_ == MediumFault::never ? 0
+                                        : (fault_ == MediumFault::scatter_pdf ? 1.03f : 1) * sum;
+  }
+  float pass_probability(const Ray&, Rgb shares, float t) const override {
+    if (fault_ == MediumFault::never) return 1;
+    return shares.r * left(0, t) + shares.g * left(1, t) + shares.b * left(2, t);
+  }
+  Rgb transmittance(const Ray&, float t) const override {
+    const float factor = fault_ == MediumFault::transmittance ? 0.97f : 1;
+    return factor * Rgb(left(0, t), left(1, t), left(2, t));
+  }
+  Rgb scattering(Point3) const override { return kSigma; }
+  const PhaseFunction& phase_function() const override { std::abort(); }
+
+ private:
+  static constexpr Rgb kSigma{1, 3, 0};
+  static float left(int channel, float t) {
+    return kSigma[channel] > 0 ? std::exp(-kSigma[channel] * t) : 1.0f;
+  }
+  MediumFault fault_;
+};
+
+TEST_CASE("conformance: faults of a medium") {
+  CHECK(red_with<FaultyMedium>(MediumFault::none) == "");
+  CHECK(red_with<FaultyMedium>(MediumFault::scatter_pdf) == "integral");
+  CHECK(red_with<FaultyMedium>(MediumFault::shares) == "chi_square");
+  CHECK(red_with<FaultyMedium>(MediumFault::transmittance) == "transmittance");
+  CHECK(red_with<FaultyMedium>(MediumFault::never) == "support");
+  CHECK(red_with<FaultyMedium>(MediumFault::beyond) == "chi_square finite");
+}
+
 }  // namespace
 }  // namespace pharos

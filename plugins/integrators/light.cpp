@@ -1,9 +1,10 @@
 // light: light tracing. Paths start at the lights, each chosen by its power, and whatever they meet
 // is seen from the lens, as a splat: caustics that no path from the sensor finds are found, what is
-// behind mirrors and glass is not. The first vertex on the light is seen as well; environments are
-// seen by sensors that see more than one direction.
+// behind mirrors, glass, masks and the like is not. The first vertex on the light is seen as well;
+// environments are seen by sensors that see more than one direction.
 //
-// One path starts for each sample of a pixel, whatever pixels it then lands in.
+// One path starts for each sample of a pixel, whatever pixels it then lands in. There are no layers
+// of first hits (albedo, normal, depth), and no paths through the middles of pixels alone.
 //
 //     integrator: { type: light, max_depth: 12 }
 
@@ -12,6 +13,8 @@
 #include <vector>
 
 #include <fmt/format.h>
+
+#include <pharos/core/error.h>
 
 #include "light_walk.h"
 #include "unit_paths.h"
@@ -22,6 +25,7 @@ namespace {
 /// What a path contributes, until it is known to be finite.
 class Splats {
  public:
+  explicit Splats(std::size_t most) { all_.reserve(most); }
   void arrive(VertexKind, Point3, Rgb) {}
   void contribute(Vec2 film, Rgb contribution) { all_.push_back({film, contribution}); }
 
@@ -78,7 +82,7 @@ class PreparedLight final : public PreparedIntegrator {
 
   void render(const WorkUnit& unit, const IterationContext& context,
               WorkResult& result) const override {
-    Splats splats;
+    Splats splats(shared_.max_depth);
     for_each_path(unit, context, target_.width, result,
                   [&](const PathKey& key, const SampleStream& stream) {
                     LightWalk(shared_, stream, result.counters, splats).run();
@@ -110,6 +114,7 @@ void LightIntegrator::Settings::describe(Schema<Settings>& s) {
 
 std::unique_ptr<const PreparedIntegrator> LightIntegrator::prepare(
     const RenderTarget& target) const {
+  if (!target.jitter) throw InputError("the integrator 'light' needs a film with 'jitter: true'");
   return std::make_unique<PreparedLight>(settings_.max_depth, target);
 }
 

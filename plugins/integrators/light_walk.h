@@ -56,7 +56,7 @@ class LightWalk {
     const float chosen = shared_.lights.probability(index);
     const EmissionSample emission = light.sample_emission(
         stream_.get_2d({Purpose::light_position}), stream_.get_2d({Purpose::bsdf_direction}));
-    if (!(emission.pdf.direction > 0)) return std::nullopt;
+    if (!(emission.pdf.direction > 0) || !(chosen > 0)) return std::nullopt;
     listener_.arrive(emission.kind, emission.point.position, Rgb(1));
     if (emission.kind == VertexKind::environment) {
       show_environment(light, emission, chosen);
@@ -79,10 +79,11 @@ class LightWalk {
     origin_ = emission.kind == VertexKind::surface
                   ? emission.point.origin_towards(emission.direction)
                   : emission.point.position;
-    medium_ = scene_.medium_at(origin_);
+    medium_ = emission.kind == VertexKind::surface ? medium_before(emission, emission.direction)
+                                                   : scene_.medium_at(origin_);
     // What fills all of space lets nothing through from infinitely far away.
     if (emission.kind == VertexKind::environment && medium_ != nullptr) {
-      throughput_ *= medium_->transmittance({origin_, emission.direction}, kInfinity);
+      throughput_ *= medium_->transmittance({origin_, -emission.direction}, kInfinity);
     }
   }
 
@@ -93,9 +94,16 @@ class LightWalk {
     const float cosine = dot(way->direction, emission.point.normal);
     if (!(cosine > 0)) return;
     const Rgb radiance = light.radiance(emission.point, way->direction);
-    const Point3 origin = emission.point.origin_towards(way->direction);
-    see(*way, origin, scene_.medium_at(origin),
+    see(*way, emission.point.origin_towards(way->direction),
+        medium_before(emission, way->direction),
         cosine / (emission.pdf.position * chosen) * radiance);
+  }
+
+  /// The medium that rays are in which leave a shining surface.
+  const Medium* medium_before(const EmissionSample& emission, Vec3 direction) const {
+    if (!scene_.has_media()) return nullptr;
+    const Medium* around = scene_.medium_at(emission.point.origin_towards(direction));
+    return scene_.medium_after(emission.point, direction, around);
   }
 
   /// The environment as it is seen from the lens, if there is a film position that sees it there.
@@ -158,6 +166,7 @@ class LightWalk {
     if (!segment) return false;
     const Passage& passage = segment->passage;
     throughput_ *= step.unguided_weight;
+    if (!(passage.medium_density > 0)) return false;
     if (scene_.has_media()) throughput_ *= passage.transmittance / passage.medium_density;
     kind_ = segment->kind;
     medium_ = segment->medium;

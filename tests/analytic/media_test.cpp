@@ -52,6 +52,20 @@ TEST_CASE("media: what gets through two nested boxes of other media") {
   }
 }
 
+TEST_CASE("media: every channel has its own coefficients") {
+  const RenderResult result = render(R"(scene:
+  media:
+    glass: { type: homogeneous, scattering: 0, absorption: [0.1, 1, 2] }
+  shapes:
+    - { type: box, material: pass_through, interior: glass, to_world: { translate: [0, 0, 3] } }
+  emitters: [ { type: constant, radiance: 1 } ]
+)" + kNeedle + kFilm + "integrator: { type: path, max_depth: 1 }\nbudget: { spp: 1 }\n");
+  for (const auto& [channel, sigma] : {std::pair{"R", 0.1}, {"G", 1.0}, {"B", 2.0}}) {
+    const float value = result.image.pixel(4, 4)[result.image.channel_index(channel)];
+    CHECK(value == doctest::Approx(std::exp(-2 * sigma)).epsilon(1e-4));
+  }
+}
+
 /// A spot of a floor, seen from above at the given height, and everything between in a box of a
 /// medium that only absorbs.
 std::string spot_in_box(const std::string& lights) {

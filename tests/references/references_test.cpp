@@ -78,10 +78,6 @@ TEST_CASE("reference: thin-lens") {
   compare("thin-lens", {}, 0.15);
 }
 
-TEST_CASE("reference: fog") {
-  compare("fog");
-}
-
 TEST_CASE("reference: environment-map") {
   compare("environment-map", {"scene.emitters.0.file=" PHAROS_REFERENCES "/environment.exr"});
 }

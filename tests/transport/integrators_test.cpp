@@ -1,6 +1,6 @@
-// Path tracing against light tracing in one room of everything: matt and glossy surfaces, smooth
-// shading normals, rough glass, in empty space and in fog, under every kind of light, seen by every
-// kind of sensor (a covering array of pairs). By the protocol of statistics/image_agreement.h.
+// Path tracing against light tracing in one room: matt and glossy surfaces, smooth shading normals,
+// rough glass, in empty space and in a box of fog, under every kind of light and through every kind
+// of sensor, in pairs. By the protocol of statistics/image_agreement.h.
 
 #include <map>
 #include <string>
@@ -25,6 +25,10 @@ const std::map<std::string, LightParts> kLights{
      {.shape = "{ type: quad, material: black, emitter: { type: area, radiance: [6, 5, 4] }, "
                "to_world: [ { scale: 0.4 }, { rotate: { axis: [1, 0, 0], degrees: 90 } }, "
                "{ translate: [0.3, 1.9, 0.4] } ] }"}},
+    {"lamp",  // inside the box of fog
+     {.shape =
+          "{ type: sphere, center: [0, 1.1, 0.3], radius: 0.25, material: black, exterior: fog, "
+          "emitter: { type: area, radiance: [7, 6, 5] } }"}},
     {"directional_area",
      {.shape = "{ type: sphere, center: [-0.6, 1.6, 0.6], radius: 0.25, material: black, emitter: "
                "{ type: directional_area, radiance: 12, lobe: cosine_power, exponent: 3 } }"}},
@@ -57,8 +61,12 @@ const std::map<std::string, std::string> kSensors{
      "type: orthographic, width: 2.6, to_world: { look_at: { origin: [0.2, 1.6, 3.5], target: "
      "[0, 0.5, 0], up: [0, 1, 0] } }"}};
 
-/// A vase and a ball of glass on a floor before a wall; with fog, in a box of it.
-std::string scene(const std::string& light, const std::string& sensor, bool foggy) {
+enum class Fog { none, box };
+
+/// A vase and a ball of glass on a floor before a wall, in a box of fog or without. (Not a sensor
+/// in fog: light that scatters close to the lens comes in rare bright splats, too few for a test.)
+std::string scene(const std::string& light, const std::string& sensor, Fog fog) {
+  const bool foggy = fog != Fog::none;
   const auto& [shape, emitter] = kLights.at(light);
   std::string text = R"(scene:
   materials:
@@ -76,15 +84,14 @@ std::string scene(const std::string& light, const std::string& sensor, bool fogg
   text +=
       std::string("    - { type: sphere, center: [0.45, 0.4, 0.2], radius: 0.3, material: glass") +
       (foggy ? ", exterior: fog }\n" : " }\n");
-  if (foggy) {
+  if (fog == Fog::box) {
     text +=
         "    - { type: box, material: pass_through, interior: fog, to_world: [ { scale: [0.9, 0.7, "
         "0.6] }, { translate: [0, 0.71, 0.1] } ] }\n";
   }
   if (!shape.empty()) text += "    - " + shape + "\n";
   if (!emitter.empty()) text += "  emitters: [ " + emitter + " ]\n";
-  return text + "  sensor: { " + kSensors.at(sensor) + " }\n" +
-         "film: { width: 24, height: 24, filter: box }\nsampler: independent\n";
+  return text + "  sensor: { " + kSensors.at(sensor) + " }\n" + "sampler: independent\n";
 }
 
 LoadedConfig load(const std::string& scene, const std::string& integrator, int spp) {
@@ -94,39 +101,49 @@ LoadedConfig load(const std::string& scene, const std::string& integrator, int s
 
 struct Case {
   const char *light, *sensor;
-  bool foggy;
+  Fog fog = Fog::none;
   int spp = 64;
+  const char* crop = "";
 };
 
 void check(const Case& c) {
   constexpr int kRenders = 24;
-  const std::string text = scene(c.light, c.sensor, c.foggy);
-  const std::string name = fmt::format("{}, {}{}", c.light, c.sensor, c.foggy ? ", in fog" : "");
+  const std::string text =
+      scene(c.light, c.sensor, c.fog) +
+      fmt::format("film: {{ width: 24, height: 24, filter: box{} }}\n", c.crop);
+  const std::string name = fmt::format("{}, {}{}{}", c.light, c.sensor,
+                                       c.fog == Fog::none  ? ""
+                                       : c.fog == Fog::box ? ", box of fog"
+                                                           : ", in fog",
+                                       c.crop);
   CAPTURE(name);
   const Renders path = render_seeds(load(text, "type: path, max_depth: 4", c.spp), kRenders, 1);
   const Renders light =
       render_seeds(load(text, "type: light, max_depth: 4", c.spp), kRenders, 1001);
-  const statistics::AgreementOptions options{.image_bias = 0.03, .region_bias = 0.3};
+  const statistics::AgreementOptions options{.image_bias = 0.03};
   const auto result = statistics::compare_images(path.side(), light.side(), options);
   print_agreement(name, c.spp, result);
   check_agreement(result);
 }
 
 TEST_CASE("path tracing and light tracing show the same") {
-  for (const Case& c : {Case{"area", "perspective", false},
-                        {"area", "orthographic", true},
-                        {"directional_area", "thin_lens", false},
-                        {"von_mises_fisher", "perspective", true},
-                        {"point", "thin_lens", true},
-                        {"point", "orthographic", false},
-                        {"spot", "perspective", false},
-                        {"spot", "orthographic", true},
-                        {"directional", "thin_lens", false},
-                        {"directional", "perspective", true},
-                        {"constant", "perspective", true, 256},
-                        {"constant", "thin_lens", false, 256},
-                        {"sky", "perspective", false},
-                        {"sun", "perspective", false}}) {
+  constexpr const char* kCrop = ", crop: { x: 4, y: 8, width: 16, height: 16 }";
+  for (const Case& c : {Case{"area", "perspective"},
+                        {"area", "orthographic", Fog::box},
+                        {"lamp", "perspective", Fog::box, 192},
+                        {"directional_area", "thin_lens"},
+                        {"area", "orthographic", Fog::none, 64, kCrop},
+                        {"von_mises_fisher", "perspective", Fog::box},
+                        {"point", "thin_lens", Fog::box},
+                        {"point", "orthographic"},
+                        {"spot", "perspective", Fog::none, 64, kCrop},
+                        {"spot", "orthographic", Fog::box},
+                        {"directional", "thin_lens"},
+                        {"directional", "perspective", Fog::box},
+                        {"constant", "perspective", Fog::box, 256},
+                        {"constant", "thin_lens", Fog::none, 256},
+                        {"sky", "perspective"},
+                        {"sun", "thin_lens", Fog::box}}) {
     check(c);
   }
 }

@@ -44,7 +44,9 @@ TEST_CASE("henyey_greenstein's draws have the mean cosine g and know both ends")
     CHECK(std::abs(sum / kDraws - g) < 0.005);
     const float forwards = g >= 0 ? 1.0f : -1.0f;
     if (g != 0) CHECK(phase.sample(kBack, {0, 0.3f}).z == doctest::Approx(forwards));
-    CHECK(length(phase.sample(kBack, {0.9999999f, 0.3f})) == doctest::Approx(1));
+    const Vec3 last = phase.sample(kBack, {0.9999999f, 0.3f});
+    CHECK(length(last) == doctest::Approx(1));
+    if (g != 0) CHECK(last.z == doctest::Approx(-forwards).epsilon(0.01));
   }
 }
 
