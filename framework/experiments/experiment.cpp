@@ -179,7 +179,8 @@ class Runner {
   std::string key_of(const Run& run) const {
     std::string key =
         fmt::format("{} {} {}", run.cell->key, results_.references[run.cell->scene].key, run.seed);
-    if (results_.config.budget.seconds) {
+    const ExperimentScene& scene = results_.config.scenes[run.cell->scene];
+    if (results_.config.budget_of(scene).seconds) {
       key += fmt::format(" {} {}", thread_count(), processor_name());
     }
     return content_key(key);

@@ -32,24 +32,23 @@ void check_reference(const ReferenceSettings& reference, const ConfigNode* node)
   }
 }
 
+void check_budget(const Budget& budget, const ConfigNode& node) {
+  if (budget.spp.has_value() == budget.seconds.has_value()) {
+    node.fail("expected either 'spp' or 'seconds'");
+  }
+}
+
 /// What no single parameter can check.
 void check_together(const ExperimentConfig& config, const ConfigNode& root) {
   names_of(config.scenes, root, "scenes");
   const std::vector<std::string> methods = names_of(config.methods, root, "methods");
-  if (config.budget.spp.has_value() == config.budget.seconds.has_value()) {
-    root.find("budget")->fail("expected either 'spp' or 'seconds'");
-  }
+  check_budget(config.budget, *root.find("budget"));
   if (!config.baseline.empty()) check_baseline(config.baseline, methods, "method", root);
   check_reference(config.reference, root.find("reference"));
   for (std::size_t i = 0; i < config.scenes.size(); ++i) {
     const ConfigNode& node = root.find("scenes")->items()[i];
     check_reference(config.scenes[i].reference, node.find("reference"));
-    const Budget& budget = config.budget_of(config.scenes[i]);
-    if (budget.spp.has_value() != config.budget.spp.has_value() ||
-        budget.seconds.has_value() != config.budget.seconds.has_value()) {
-      node.find("budget")->fail(fmt::format("expected '{}' alone, as in the experiment's budget",
-                                            config.budget.spp ? "spp" : "seconds"));
-    }
+    if (config.scenes[i].budget) check_budget(*config.scenes[i].budget, *node.find("budget"));
     if (!config.scenes[i].reference.given() && !config.reference.given()) {
       node.fail(
           "there is no reference: state 'reference' here or for all scenes, with 'image' or "
@@ -79,7 +78,7 @@ void ExperimentScene::describe(Schema<ExperimentScene>& s) {
   s.field("config", &ExperimentScene::config, "Render config").required();
   s.field("settings", &ExperimentScene::settings, "Laid over it");
   s.field("reference", &ExperimentScene::reference, "Instead of the experiment's");
-  s.field("budget", &ExperimentScene::budget, "Instead of the experiment's, of the same kind");
+  s.field("budget", &ExperimentScene::budget, "Instead of the experiment's");
 }
 
 void ExperimentMethod::describe(Schema<ExperimentMethod>& s) {

@@ -33,7 +33,7 @@ struct ExperimentScene {
   std::filesystem::path config;
   ConfigNode settings = ConfigNode::mapping();
   ReferenceSettings reference;   ///< instead of the experiment's
-  std::optional<Budget> budget;  ///< instead of the experiment's, of the same kind
+  std::optional<Budget> budget;  ///< instead of the experiment's
 
   static void describe(Schema<ExperimentScene>& schema);
 };

@@ -1,4 +1,5 @@
 #include <ctime>
+#include <map>
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -18,13 +19,17 @@ std::string budget_text(const Budget& budget) {
                     : fmt::format("{:g} s", *budget.seconds);
 }
 
-/// The experiment's budget, and those of scenes that have their own.
+/// The experiment's budget, and the scenes that have their own, by budget.
 std::string budgets_text(const ExperimentConfig& config) {
-  std::string text = budget_text(config.budget);
+  std::map<std::string, std::string> others;
   for (const ExperimentScene& scene : config.scenes) {
-    if (scene.budget) text += fmt::format(", {}: {}", scene.name, budget_text(*scene.budget));
+    if (!scene.budget) continue;
+    std::string& names = others[budget_text(*scene.budget)];
+    names += (names.empty() ? "" : ", ") + scene.name;
   }
-  return text + ", training included";
+  std::string text = budget_text(config.budget) + ", training included";
+  for (const auto& [budget, names] : others) text += fmt::format("; {} in {}", budget, names);
+  return text;
 }
 
 std::vector<std::pair<std::string, std::string>> facts_of(const ExperimentResults& results) {
