@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -40,19 +41,29 @@ Ref<C> build(const Registry& registry, const ConfigNode& node) {
 }
 
 LocalScattering scattering_at(const Scene& scene, const SurfacePoint& point, const Medium* medium,
-                              bool in_medium, Vec3 towards_previous) {
-  if (!in_medium) {
-    return {point, scene.bsdf(point), towards_previous, Transport::radiance};
-  }
+                              bool in_medium, Vec3 towards_previous, Transport transport) {
+  if (!in_medium) return {point, scene.bsdf(point), towards_previous, transport};
   return {medium->phase_function(), medium->scattering(point.position), towards_previous,
-          Transport::radiance};
+          transport};
+}
+
+/// Names of integrators, the default one first.
+std::vector<std::string> integrator_names(const Registry& registry) {
+  std::vector<std::string> names = registry.names(Integrator::contract_name);
+  try {
+    const auto first = build<Integrator>(registry, ConfigNode::scalar("default"))->plugin_name();
+    std::stable_partition(names.begin(), names.end(),
+                          [&](const std::string& name) { return name == first; });
+  } catch (const InputError&) {  // there is none
+  }
+  return names;
 }
 
 /// One path through a scene, as far as two vertices.
 class Walk {
  public:
-  Walk(const Scene& scene, std::uint64_t seed, std::uint64_t path)
-      : scene_(scene), random_(seed, path), medium_(scene.sensor_medium()) {}
+  Walk(const Scene& scene, std::uint64_t seed, std::uint64_t path, Transport transport)
+      : scene_(scene), random_(seed, path), transport_(transport), medium_(scene.sensor_medium()) {}
 
   /// The next vertex; null where the path ends.
   std::unique_ptr<const StageVertex> next() {
@@ -64,7 +75,7 @@ class Walk {
       const auto s = last_->scattering().sample(u_choice, random_.next_2d());
       if (!s) return nullptr;
       previous = last_->query().current;
-      previous.event = s->event;
+      if (transport_ == Transport::radiance) previous.event = s->event;
       ray = {last_on_surface_ ? point_.origin_towards(s->direction) : point_.position,
              s->direction};
     }
@@ -80,8 +91,10 @@ class Walk {
     }
     point_ = hit;
     last_on_surface_ = !in_medium;
+    // Where paths are made from both ends, nobody knows the number.
+    const std::uint16_t bounce = transport_ == Transport::radiance ? ++bounce_ : 0;
     auto vertex = std::make_unique<const StageVertex>(scene_, previous, hit, medium_, in_medium,
-                                                      -ray.direction, ++bounce_);
+                                                      -ray.direction, bounce, transport_);
     last_ = vertex.get();
     return vertex;
   }
@@ -89,6 +102,7 @@ class Walk {
  private:
   const Scene& scene_;
   RandomStream random_;
+  Transport transport_;
   const Medium* medium_;
   const StageVertex* last_ = nullptr;
   SurfacePoint point_;
@@ -115,19 +129,20 @@ SceneParts room_parts(Room room, bool foggy) {
   return parts;
 }
 
-Ref<Integrator> integrator_for(const GuidedPair& pair, std::string& why_not) {
+std::vector<Ref<Integrator>> integrators_for(const GuidedPair& pair, std::string& why_not) {
   why_not = "no integrator is loaded";
-  for (const std::string& name : pair.registry.names(Integrator::contract_name)) {
+  std::vector<Ref<Integrator>> all;
+  for (const std::string& name : integrator_names(pair.registry)) {
     try {
       auto integrator = build<Integrator>(pair.registry, guided_node(name, pair));
       if (!integrator->traits().guided || integrator->guiding() == nullptr) continue;
       check_compatible(*integrator, *pinhole(kSensor));
-      return integrator;
+      all.push_back(std::move(integrator));
     } catch (const InputError& e) {
       why_not = e.what();
     }
   }
-  return nullptr;
+  return all;
 }
 
 Ref<Integrator> unguided(const GuidedPair& pair, const Integrator& guided) {
@@ -150,12 +165,12 @@ RenderResult render_room(const GuidedPair& pair, const Ref<Integrator>& integrat
 
 StageVertex::StageVertex(const Scene& scene, const GuidingVertex& previous,
                          const SurfacePoint& point, const Medium* medium, bool in_medium,
-                         Vec3 towards_previous, std::uint16_t bounce)
+                         Vec3 towards_previous, std::uint16_t bounce, Transport transport)
     : scene_(scene),
       previous_(previous),
       point_(point),
       medium_(medium),
-      scattering_(scattering_at(scene, point_, medium, in_medium, towards_previous)),
+      scattering_(scattering_at(scene, point_, medium, in_medium, towards_previous, transport)),
       query_{.previous = &previous_,
              .current = {.position = point.position,
                          .normal = in_medium ? Vec3{} : point.normal,
@@ -163,6 +178,7 @@ StageVertex::StageVertex(const Scene& scene, const GuidingVertex& previous,
                          .kind = in_medium ? VertexKind::volume : VertexKind::surface,
                          .roughness = scattering_.roughness()},
              .towards_previous = towards_previous,
+             .transport = transport,
              .bounce = bounce,
              .scattering = scattering_,
              .medium = medium} {}
@@ -191,7 +207,8 @@ ResolvedVertex StageVertex::surface_along(Vec3 direction, Event event) const {
 
 std::string StageVertex::text() const {
   const Point3 p = query_.current.position;
-  return fmt::format("bounce {} {} at ({:.3g}, {:.3g}, {:.3g})", query_.bounce,
+  const char* whose = query_.transport == Transport::radiance ? "" : "light path, ";
+  return fmt::format("{}bounce {} {} at ({:.3g}, {:.3g}, {:.3g})", whose, query_.bounce,
                      !scattering_.is_surface()       ? "in fog"
                      : scattering_.purely_discrete() ? "on the half mirror"
                                                      : "on a matt surface",
@@ -199,12 +216,13 @@ std::string StageVertex::text() const {
 }
 
 std::vector<std::unique_ptr<const StageVertex>> stage_vertices(const Scene& scene,
-                                                               std::uint64_t seed) {
+                                                               std::uint64_t seed,
+                                                               Transport transport) {
   constexpr int kOfEachKind = 2;
   int found[2][3] = {};  // by bounce and by what they lie on
   std::vector<std::unique_ptr<const StageVertex>> all;
   for (std::uint64_t path = 0; path < 400; ++path) {
-    Walk walk(scene, seed, path);
+    Walk walk(scene, seed, path, transport);
     std::vector<std::unique_ptr<const StageVertex>> vertices;
     for (int bounce = 0; bounce < 2; ++bounce) {
       auto vertex = walk.next();

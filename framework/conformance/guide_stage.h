@@ -30,9 +30,9 @@ struct GuidedPair {
   const Learner& the_learner() const { return static_cast<const Learner&>(*learner.component); }
 };
 
-/// An integrator of the registry that asks this pair; null, with the reason in `why_not`, when
-/// there is none.
-Ref<Integrator> integrator_for(const GuidedPair& pair, std::string& why_not);
+/// The integrators of the registry that ask this pair, the default one first; none, with the reason
+/// in `why_not`, when there is none.
+std::vector<Ref<Integrator>> integrators_for(const GuidedPair& pair, std::string& why_not);
 /// The same integrator without guiding.
 Ref<Integrator> unguided(const GuidedPair& pair, const Integrator& guided);
 
@@ -44,7 +44,8 @@ RenderResult render_room(const GuidedPair& pair, const Ref<Integrator>& integrat
 class StageVertex {
  public:
   StageVertex(const Scene& scene, const GuidingVertex& previous, const SurfacePoint& point,
-              const Medium* medium, bool in_medium, Vec3 towards_previous, std::uint16_t bounce);
+              const Medium* medium, bool in_medium, Vec3 towards_previous, std::uint16_t bounce,
+              Transport transport = Transport::radiance);
   StageVertex(const StageVertex&) = delete;
   StageVertex& operator=(const StageVertex&) = delete;
 
@@ -69,7 +70,8 @@ class StageVertex {
 };
 
 /// The first and second vertices of a few paths, some of them on the half mirror, and in fog.
-std::vector<std::unique_ptr<const StageVertex>> stage_vertices(const Scene& scene,
-                                                               std::uint64_t seed);
+/// Guides are asked there as they are for paths of this transport.
+std::vector<std::unique_ptr<const StageVertex>> stage_vertices(
+    const Scene& scene, std::uint64_t seed, Transport transport = Transport::radiance);
 
 }  // namespace pharos::conformance

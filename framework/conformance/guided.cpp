@@ -14,7 +14,8 @@ GuidingFrame frame_of(const Guider& guider, const std::shared_ptr<const GuidingM
   const GuiderTraits traits = guider.traits();
   return GuidingFrame({{.guider = guider.bind(model),
                         .steers_distance = traits.steers_distance,
-                        .steers_events = traits.steers_events}},
+                        .steers_events = traits.steers_events,
+                        .guides_light_paths = traits.guides_light_paths}},
                       std::make_shared<const HalfUnguided>());
 }
 

@@ -102,9 +102,9 @@ void test_outcomes(const Guided& guide, std::uint64_t seed, Check& chi_square, C
 
 /// Returns at how many vertices the guide has an answer.
 int check_densities(const GuidingFrame& frame, const Scene& scene, std::uint64_t seed,
-                    Check& chi_square, Check& integral) {
+                    Transport transport, Check& chi_square, Check& integral) {
   int answers = 0;
-  for (const auto& vertex : stage_vertices(scene, seed)) {
+  for (const auto& vertex : stage_vertices(scene, seed, transport)) {
     const Guided guide(frame, *vertex);
     if (guide.declines()) continue;
     ++answers;
@@ -238,8 +238,8 @@ void check_guider(const Registry& registry, const Subject& guider, const Subject
   Check& save_load = suite.check("save_load");
   Check& furnace = suite.check("furnace");
   std::string why_not;
-  const Ref<Integrator> integrator = integrator_for(pair, why_not);
-  if (integrator == nullptr) {
+  const std::vector<Ref<Integrator>> integrators = integrators_for(pair, why_not);
+  if (integrators.empty()) {
     why_not = "no integrator can follow: " + why_not;
     for (Check* c : {&answers, &chi_square, &integral, &determinism, &save_load, &furnace}) {
       c->not_applicable(why_not);
@@ -249,16 +249,25 @@ void check_guider(const Registry& registry, const Subject& guider, const Subject
   for (Check* c : {&chi_square, &integral, &determinism, &save_load}) {
     c->not_applicable("the guide knows nothing at any vertex");
   }
+  const bool guides_light_paths = pair.the_guider().traits().guides_light_paths;
   int answered = 0;
   for (const bool foggy : {false, true}) {
-    check_furnace(pair, integrator, foggy, suite.seed(), furnace);
+    check_furnace(pair, integrators.front(), foggy, suite.seed(), furnace);
+    for (std::size_t i = 1; guides_light_paths && i < integrators.size(); ++i) {
+      check_furnace(pair, integrators[i], foggy, suite.seed(), furnace);
+    }
     const auto model =
-        render_room(pair, integrator, Room::lamp, foggy, kTrainingSamples, suite.seed()).model;
+        render_room(pair, integrators.front(), Room::lamp, foggy, kTrainingSamples, suite.seed())
+            .model;
     answers.expect(model != nullptr, [] { return "there is no model after training"; });
     if (model == nullptr) continue;
     const Scene scene(room_parts(Room::lamp, foggy));
     const GuidingFrame frame = frame_of(pair.the_guider(), model);
-    answered += check_densities(frame, scene, suite.seed(), chi_square, integral);
+    answered +=
+        check_densities(frame, scene, suite.seed(), Transport::radiance, chi_square, integral);
+    if (guides_light_paths) {
+      check_densities(frame, scene, suite.seed(), Transport::importance, chi_square, integral);
+    }
     if (!foggy) answered += check_camera(frame, scene, suite.seed(), chi_square, integral) ? 1 : 0;
     expect_alike(frame, frame_of(pair.the_guider(), model), scene, suite.seed(),
                  "asked again, the guide answers otherwise", determinism);
@@ -272,11 +281,12 @@ void check_learner(const Registry& registry, const Subject& learner, const Subje
   const GuidedPair pair{registry, guider, learner};
   Check& check = suite.check("determinism");
   std::string why_not;
-  const Ref<Integrator> integrator = integrator_for(pair, why_not);
-  if (integrator == nullptr) return check.not_applicable("no integrator can follow: " + why_not);
+  const std::vector<Ref<Integrator>> integrators = integrators_for(pair, why_not);
+  if (integrators.empty()) return check.not_applicable("no integrator can follow: " + why_not);
   const auto trained = [&] {
     const auto model =
-        render_room(pair, integrator, Room::lamp, false, kTrainingSamples, suite.seed()).model;
+        render_room(pair, integrators.front(), Room::lamp, false, kTrainingSamples, suite.seed())
+            .model;
     check.expect(model != nullptr, [] { return "there is no model after training"; });
     std::ostringstream file;
     if (model != nullptr) model->save(file);

@@ -40,6 +40,14 @@ constexpr float disk_pdf() {
   return 1 / kPi;
 }
 
+/// The unit direction at an angle of 1 - cos = `one_minus_cos`, in [0, 2], to +z, turned around it
+/// by `turn` of a full turn.
+inline Vec3 about_z(float one_minus_cos, float turn) {
+  const float sine = safe_sqrt(one_minus_cos * (2 - one_minus_cos));
+  const float phi = 2 * kPi * turn;
+  return {sine * std::cos(phi), sine * std::sin(phi), 1 - one_minus_cos};
+}
+
 /// Cosine-weighted direction about +z. Density cosine_hemisphere_pdf [1/sr].
 inline Vec3 cosine_hemisphere_from_square(Vec2 u) {
   const ConcentricPoint p = concentric_from_square(u);

@@ -31,17 +31,20 @@ struct GuidingQuery {
   GuidingVertex current;
   Vec3 towards_previous;  ///< unit
   Transport transport = Transport::radiance;
-  std::uint16_t bounce = 1;  ///< number of the current vertex; the first after the lens is 1
+  /// Number of the current vertex; the first after the lens is 1. 0: not known, nor is the event at
+  /// `previous`, where paths are made from both ends.
+  std::uint16_t bounce = 1;
   const LocalScattering& scattering;  ///< BSDF or phase function here
   const Medium* medium = nullptr;     ///< that the path came through; null: empty space
 };
 
 /// What a guider offers and needs; checked before rendering starts.
 struct GuiderTraits {
-  std::string model;             ///< neutral name of the model contract it binds to
-  bool steers_distance = false;  ///< decides how far paths go in media
-  bool steers_events = false;    ///< proposes discrete events
-  bool guides_camera = false;    ///< offers the first vertex
+  std::string model;                ///< neutral name of the model contract it binds to
+  bool steers_distance = false;     ///< decides how far paths go in media
+  bool steers_events = false;       ///< proposes discrete events
+  bool guides_camera = false;       ///< offers the first vertex
+  bool guides_light_paths = false;  ///< is asked along paths from lights too
 };
 
 /// Proposes the first vertex, and so chooses the pixel.

@@ -74,6 +74,7 @@ class GuidingFrame {
     float weight = 1;
     bool steers_distance = false;
     bool steers_events = false;
+    bool guides_light_paths = false;
     std::uint32_t first_region = 0;  ///< regions of all methods are numbered through
   };
 

@@ -81,7 +81,8 @@ Guidance combine(const std::vector<GuidingFrame::Method>& methods, const MixingF
 Guidance GuidingFrame::query(const GuidingQuery& query, Arena& arena) const {
   const bool purely_discrete = query.scattering.purely_discrete();
   return combine(methods_, *fractions_, arena, [&](const Method& method) {
-    const bool declines = purely_discrete && !method.steers_events;
+    const bool declines = (purely_discrete && !method.steers_events) ||
+                          (query.transport == Transport::importance && !method.guides_light_paths);
     return declines ? nullptr : method.guider->query(query, arena);
   });
 }

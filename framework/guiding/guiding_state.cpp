@@ -98,6 +98,7 @@ void GuidingState::rebuild_frame() {
                      .weight = method.settings.weight,
                      .steers_distance = traits.steers_distance,
                      .steers_events = traits.steers_events,
+                     .guides_light_paths = traits.guides_light_paths,
                      .first_region = first_region});
     first_region += method.region_count();
     anything_known |= method.bound != nullptr;

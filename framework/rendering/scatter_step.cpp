@@ -4,11 +4,11 @@ namespace pharos {
 namespace {
 
 /// What the scattering makes of a guide's proposal.
-std::optional<ScatterStep> accept(const LocalScattering& scattering, const Proposal& proposal) {
-  ScatterStep step{.direction = proposal.direction,
-                   .reach = proposal.reach,
-                   .distance = proposal.distance,
-                   .targets = proposal.targets};
+bool accept(const LocalScattering& scattering, const Proposal& proposal, ScatterStep& step) {
+  step = {.direction = proposal.direction,
+          .reach = proposal.reach,
+          .distance = proposal.distance,
+          .targets = proposal.targets};
   if (is_empty(proposal.events & EventMask::smooth)) {
     for (const DiscreteOutcome& outcome : scattering.discrete()) {
       if (!contains(proposal.events, outcome.event)) continue;
@@ -16,27 +16,25 @@ std::optional<ScatterStep> accept(const LocalScattering& scattering, const Propo
       step.event = outcome.event;
       step.value = outcome.value;
       step.unguided_pdf = outcome.probability;
-      return step;
+      return true;
     }
-    return std::nullopt;
+    return false;
   }
   step.event = scattering.smooth_event(proposal.direction);
-  if (!contains(proposal.events, step.event)) return std::nullopt;
+  if (!contains(proposal.events, step.event)) return false;
   const ScatterValue value = scattering.evaluate(proposal.direction);
-  if (is_black(value.value)) return std::nullopt;
+  if (is_black(value.value)) return false;
   step.value = value.value;
   step.unguided_pdf = value.pdf;
-  return step;
+  return true;
 }
 
 }  // namespace
 
-std::optional<ScatterStep> sample_guided_step(const LocalScattering& scattering,
-                                              const GuidingDistribution& guide,
-                                              const VertexStream& stream) {
+bool sample_guided_step(const LocalScattering& scattering, const GuidingDistribution& guide,
+                        const VertexStream& stream, ScatterStep& step) {
   const std::optional<Proposal> proposal = guide.propose(stream);
-  if (!proposal) return std::nullopt;
-  return accept(scattering, *proposal);
+  return proposal && accept(scattering, *proposal, step);
 }
 
 }  // namespace pharos

@@ -22,12 +22,10 @@ DistanceSample stop_on_leg(const Medium& medium, const Ray& ray, Rgb shares,
 
 }  // namespace
 
-std::optional<Segment> SegmentTracer::trace_through(Ray ray, const Medium* medium,
-                                                    const ScatterStep& step, Rgb throughput,
-                                                    const VertexStream& numbers,
-                                                    SurfacePoint& end) const {
+bool SegmentTracer::trace_through(Ray ray, const Medium* medium, const ScatterStep& step,
+                                  Rgb throughput, const VertexStream& numbers, Segment& segment,
+                                  SurfacePoint& end) const {
   const Ray whole = ray;
-  Segment segment;
   for (std::uint16_t leg = 0;; ++leg) {
     ++counters_.rays;
     ray.t_max = scene_.intersect(ray, end);
@@ -48,11 +46,9 @@ std::optional<Segment> SegmentTracer::trace_through(Ray ray, const Medium* mediu
     }
     segment.length += ray.t_max;
     segment.medium = medium;
-    if (segment.kind == VertexKind::volume) return segment;
+    if (segment.kind == VertexKind::volume) return true;
     // Nothing to scatter at where the proposed vertex would be.
-    if (step.reach == Proposal::Reach::distance && step.distance <= segment.length) {
-      return std::nullopt;
-    }
+    if (step.reach == Proposal::Reach::distance && step.distance <= segment.length) return false;
     if (std::isinf(ray.t_max)) {
       arrive_at_environment(whole, segment, end);
       break;
@@ -62,13 +58,11 @@ std::optional<Segment> SegmentTracer::trace_through(Ray ray, const Medium* mediu
     ray.origin = end.origin_towards(ray.direction);
     ray.t_max = kInfinity;
   }
-  if (step.reach == Proposal::Reach::distance) return std::nullopt;
-  return segment;
+  return step.reach != Proposal::Reach::distance;
 }
 
-std::optional<Passage> SegmentTracer::pass_through(Ray ray, const Medium* medium,
-                                                   Rgb throughput) const {
-  Passage passage;
+bool SegmentTracer::pass_through(Ray ray, const Medium* medium, Rgb throughput,
+                                 Passage& passage) const {
   const Point3 goal = ray.at(ray.t_max);
   const bool is_near = std::isfinite(ray.t_max);
   for (;;) {
@@ -76,17 +70,17 @@ std::optional<Passage> SegmentTracer::pass_through(Ray ray, const Medium* medium
     ++counters_.rays;
     const float t = scene_.intersect(ray, at);
     const bool arrives = std::isinf(t);
-    if (!arrives && !scene_.is_boundary(at)) return std::nullopt;
+    if (!arrives && !scene_.is_boundary(at)) return false;
     if (!arrives) ray.t_max = t;
     if (medium != nullptr) add_leg(*medium, ray, throughput, passage);
-    if (arrives) return passage;
+    if (arrives) return true;
     medium = scene_.medium_after(at, ray.direction, medium);
     ray.origin = at.origin_towards(ray.direction);
     // Aimed anew, so that the ray does not reach beyond its goal, which may lie before a surface by
     // no more than the boundary's own error.
     const Vec3 rest = goal - ray.origin;
     ray.t_max = is_near ? length(rest) : kInfinity;
-    if (is_near && !(dot(rest, ray.direction) > 0)) return passage;
+    if (is_near && !(dot(rest, ray.direction) > 0)) return true;
     if (is_near) ray.direction = rest / ray.t_max;
   }
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <optional>
+#include <cmath>
 
 #include <pharos/rendering/integrator.h>
 #include <pharos/rendering/scatter_step.h>
@@ -30,41 +30,35 @@ class SegmentTracer {
   SegmentTracer(const Scene& scene, RenderCounters& counters)
       : scene_(scene), counters_(counters) {}
 
-  /// Goes from a vertex at `ray.origin`, in `medium`, as far as `step` says, and fills `end`: the
-  /// whole point on a surface, else its position. `throughput` is the path's, with what the step
-  /// scatters. Empty when a proposed vertex cannot be reached.
-  std::optional<Segment> trace(const Ray& ray, const Medium* medium, const ScatterStep& step,
-                               Rgb throughput, const VertexStream& numbers,
-                               SurfacePoint& end) const {
-    if (!scene_.has_media() && !scene_.has_boundaries()) return trace_in_vacuum(ray, step, end);
-    return trace_through(ray, medium, step, throughput, numbers, end);
+  /// Goes from a vertex at `ray.origin`, in `medium`, as far as `step` says; fills `segment`, which
+  /// is new, and `end`: the whole point on a surface, else its position. `throughput` is the
+  /// path's, with what the step scatters. False when a proposed vertex cannot be reached.
+  bool trace(const Ray& ray, const Medium* medium, const ScatterStep& step, Rgb throughput,
+             const VertexStream& numbers, Segment& segment, SurfacePoint& end) const {
+    if (scene_.has_media() || scene_.has_boundaries()) {
+      return trace_through(ray, medium, step, throughput, numbers, segment, end);
+    }
+    if (step.reach == Proposal::Reach::distance) return false;
+    ++counters_.rays;
+    segment.length = scene_.intersect(ray, end);
+    if (std::isinf(segment.length)) arrive_at_environment(ray, segment, end);
+    return true;
   }
 
-  /// What a shadow ray meets up to `ray.t_max`, for a path of this throughput, as above; empty when
-  /// a surface is in the way.
-  std::optional<Passage> pass(const Ray& ray, const Medium* medium, Rgb throughput) const {
-    if (scene_.has_boundaries()) return pass_through(ray, medium, throughput);
+  /// Fills `passage`, which is new, with what a shadow ray meets up to `ray.t_max`, for a path of
+  /// this throughput, as above; false when a surface is in the way.
+  bool pass(const Ray& ray, const Medium* medium, Rgb throughput, Passage& passage) const {
+    if (scene_.has_boundaries()) return pass_through(ray, medium, throughput, passage);
     ++counters_.rays;
-    if (scene_.occluded(ray)) return std::nullopt;
-    Passage passage;
+    if (scene_.occluded(ray)) return false;
     if (medium != nullptr) add_leg(*medium, ray, throughput, passage);
-    return passage;
+    return true;
   }
 
  private:
-  std::optional<Segment> trace_in_vacuum(const Ray& ray, const ScatterStep& step,
-                                         SurfacePoint& end) const {
-    if (step.reach == Proposal::Reach::distance) return std::nullopt;
-    ++counters_.rays;
-    Segment segment{.length = scene_.intersect(ray, end)};
-    if (std::isinf(segment.length)) arrive_at_environment(ray, segment, end);
-    return segment;
-  }
-
-  std::optional<Segment> trace_through(Ray ray, const Medium* medium, const ScatterStep& step,
-                                       Rgb throughput, const VertexStream& numbers,
-                                       SurfacePoint& end) const;
-  std::optional<Passage> pass_through(Ray ray, const Medium* medium, Rgb throughput) const;
+  bool trace_through(Ray ray, const Medium* medium, const ScatterStep& step, Rgb throughput,
+                     const VertexStream& numbers, Segment& segment, SurfacePoint& end) const;
+  bool pass_through(Ray ray, const Medium* medium, Rgb throughput, Passage& passage) const;
 
   static void add_leg(const Medium& medium, const Ray& ray, Rgb throughput, Passage& passage) {
     const Rgb shares = channel_shares(throughput * passage.transmittance);

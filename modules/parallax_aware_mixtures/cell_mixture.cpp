@@ -320,7 +320,7 @@ void CellMixture::save(std::ostream& out) const {
     for (const double v : a.spread.reshaped()) save_number(out, v);
   }
   save_number(out, static_cast<std::uint32_t>(first_.size()));
-  for (const Sample& sample : first_) save_sample(sample, out);
+  for (const Sample& sample : first_) sample.save(out);
 }
 
 CellMixture CellMixture::load(std::istream& in) {
@@ -350,7 +350,7 @@ CellMixture CellMixture::load(std::istream& in) {
            a.inverse <= kLargestInverse * a.certainty);
   }
   for (auto count = load_number<std::uint32_t>(in); count > 0; --count) {
-    cell.first_.push_back(load_sample(in));
+    cell.first_.push_back(Sample::load(in));
   }
   return cell;
 }

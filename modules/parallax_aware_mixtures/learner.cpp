@@ -3,7 +3,7 @@
 #include <pharos/core/error.h>
 #include <pharos/guiding/kd_tree.h>
 
-#include "learning_state.h"
+#include "learning.h"
 #include "vmf_model.h"
 
 namespace pharos::vmf {
@@ -87,8 +87,8 @@ LearnerTraits VmfLearner::traits() const {
           .model_version = VmfModel::kVersion};
 }
 
-std::unique_ptr<LearningState> VmfLearner::begin(const LearningContext& context) const {
-  return std::make_unique<VmfState>(settings_, context);
+std::unique_ptr<LearningState> VmfLearner::begin(const LearningContext&) const {
+  return std::make_unique<CellLearning<VmfLearning>>(VmfLearning(settings_));
 }
 
 std::shared_ptr<const GuidingModel> VmfLearner::load_model(std::istream& in) const {

@@ -1,20 +1,8 @@
 #pragma once
 
-#include <array>
-#include <string_view>
-#include <utility>
+#include <pharos/guiding/cell_learning.h>
 
-#include <pharos/config/schema.h>
-#include <pharos/guiding/learner.h>
-
-namespace pharos {
-namespace vmf {
-
-/// What the mixtures are kept for.
-enum class SpatialCells {
-  kdtree,  ///< one mixture for each cell of a tree that grows
-  single   ///< one mixture for the whole scene
-};
+namespace pharos::vmf {
 
 /// Parameters of the method; docs and sources are in the README.
 struct VmfSettings {
@@ -57,12 +45,4 @@ class VmfLearner final : public Learner {
   Settings settings_;
 };
 
-}  // namespace vmf
-
-template <>
-struct EnumNames<vmf::SpatialCells> {
-  static constexpr std::array<std::pair<std::string_view, vmf::SpatialCells>, 2> names{
-      {{"kdtree", vmf::SpatialCells::kdtree}, {"single", vmf::SpatialCells::single}}};
-};
-
-}  // namespace pharos
+}  // namespace pharos::vmf

@@ -26,13 +26,13 @@ void extract_samples(const PathView& path, const SampleRule& rule, PathScratch& 
   });
 }
 
-void save_sample(const Sample& sample, std::ostream& out) {
-  for (int axis = 0; axis < 3; ++axis) save_number(out, sample.origin[axis]);
-  for (int axis = 0; axis < 3; ++axis) save_number(out, sample.direction[axis]);
-  for (const float v : {sample.inverse_distance, sample.weight, sample.pdf}) save_number(out, v);
+void Sample::save(std::ostream& out) const {
+  for (int axis = 0; axis < 3; ++axis) save_number(out, origin[axis]);
+  for (int axis = 0; axis < 3; ++axis) save_number(out, direction[axis]);
+  for (const float v : {inverse_distance, weight, pdf}) save_number(out, v);
 }
 
-Sample load_sample(std::istream& in) {
+Sample Sample::load(std::istream& in) {
   Sample sample;
   for (int axis = 0; axis < 3; ++axis) sample.origin[axis] = load_finite<float>(in);
   for (int axis = 0; axis < 3; ++axis) sample.direction[axis] = load_finite<float>(in);

@@ -15,6 +15,10 @@ struct Sample {
   float inverse_distance = 0;  ///< of where the light comes from [1/scene unit]; 0: infinitely far
   float weight = 0;            ///< L / p, mean of the channels; 0 where nothing came
   float pdf = 0;               ///< of the direction, > 0 [1/sr]
+
+  void save(std::ostream& out) const;
+  /// Throws InputError for what save() does not write.
+  static Sample load(std::istream& in);
 };
 
 /// What extract_samples() needs to know.
@@ -34,9 +38,5 @@ struct PathScratch {
 /// section 5.1).
 void extract_samples(const PathView& path, const SampleRule& rule, PathScratch& scratch,
                      std::vector<Sample>& samples);
-
-void save_sample(const Sample& sample, std::ostream& out);
-/// Throws InputError for what save_sample() does not write.
-Sample load_sample(std::istream& in);
 
 }  // namespace pharos::vmf

@@ -4,7 +4,7 @@
 #include <pharos/guiding/spatial_mixture.h>
 
 #include "gaussian_model.h"
-#include "learning_state.h"
+#include "learning.h"
 
 namespace pharos::gaussians {
 
@@ -91,7 +91,7 @@ LearnerTraits GaussianLearner::traits() const {
 }
 
 std::unique_ptr<LearningState> GaussianLearner::begin(const LearningContext& context) const {
-  return std::make_unique<GaussianState>(settings_, context);
+  return std::make_unique<CellLearning<GaussianLearning>>(GaussianLearning(settings_, context));
 }
 
 std::shared_ptr<const GuidingModel> GaussianLearner::load_model(std::istream& in) const {

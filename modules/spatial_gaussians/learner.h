@@ -1,20 +1,8 @@
 #pragma once
 
-#include <array>
-#include <string_view>
-#include <utility>
+#include <pharos/guiding/cell_learning.h>
 
-#include <pharos/config/schema.h>
-#include <pharos/guiding/learner.h>
-
-namespace pharos {
-namespace gaussians {
-
-/// What the mixtures are kept for.
-enum class SpatialCells {
-  kdtree,  ///< one mixture for each cell of a tree that grows
-  single   ///< one mixture for the whole scene
-};
+namespace pharos::gaussians {
 
 /// Parameters of the method. The paper states none; docs and sources are in the README.
 struct GaussianSettings {
@@ -56,12 +44,4 @@ class GaussianLearner final : public Learner {
   Settings settings_;
 };
 
-}  // namespace gaussians
-
-template <>
-struct EnumNames<gaussians::SpatialCells> {
-  static constexpr std::array<std::pair<std::string_view, gaussians::SpatialCells>, 2> names{
-      {{"kdtree", gaussians::SpatialCells::kdtree}, {"single", gaussians::SpatialCells::single}}};
-};
-
-}  // namespace pharos
+}  // namespace pharos::gaussians

@@ -24,15 +24,15 @@ void extract_samples(const PathView& path, const SampleRule& rule, std::vector<R
   });
 }
 
-void save_sample(const Sample& sample, std::ostream& out) {
-  for (const Point3 p : {sample.origin, sample.target}) {
+void Sample::save(std::ostream& out) const {
+  for (const Point3 p : {origin, target}) {
     for (int axis = 0; axis < 3; ++axis) save_number(out, p[axis]);
   }
-  save_number(out, sample.weight);
-  save_number(out, sample.pdf);
+  save_number(out, weight);
+  save_number(out, pdf);
 }
 
-Sample load_sample(std::istream& in) {
+Sample Sample::load(std::istream& in) {
   Sample sample;
   for (Point3* p : {&sample.origin, &sample.target}) {
     for (int axis = 0; axis < 3; ++axis) (*p)[axis] = load_finite<float>(in);

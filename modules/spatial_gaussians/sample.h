@@ -15,6 +15,10 @@ struct Sample {
   float weight = 0;  ///< L / p: radiance that came along the step over its density (in a medium
                      ///< with that of its length), mean of the channels; 0 where nothing came
   float pdf = 0;     ///< of the direction, > 0 [1/sr]
+
+  void save(std::ostream& out) const;
+  /// Throws InputError for what save() does not write.
+  static Sample load(std::istream& in);
 };
 
 /// What extract_samples() needs to know.
@@ -26,9 +30,5 @@ struct SampleRule {
 /// Appends the guidable steps of a path from the sensor.
 void extract_samples(const PathView& path, const SampleRule& rule, std::vector<Rgb>& incident,
                      std::vector<Sample>& samples);
-
-void save_sample(const Sample& sample, std::ostream& out);
-/// Throws InputError for what save_sample() does not write.
-Sample load_sample(std::istream& in);
 
 }  // namespace pharos::gaussians

@@ -18,6 +18,7 @@
 #include "directional_area.h"
 
 #include <pharos/core/error.h>
+#include <pharos/core/warp.h>
 
 #include "area_light.h"
 
@@ -27,13 +28,6 @@ namespace {
 /// The largest exponent or concentration for which cosines in single precision are good enough.
 constexpr float kNarrowest = 1e5f;
 
-/// The direction at an angle of 1 - cos = `one_minus_cos` to +z, turned by `turn` of a full turn.
-Vec3 about_normal(float one_minus_cos, float turn) {
-  const float sine = safe_sqrt(one_minus_cos * (2 - one_minus_cos));
-  const float phi = 2 * kPi * turn;
-  return {sine * std::cos(phi), sine * std::sin(phi), 1 - one_minus_cos};
-}
-
 struct CosinePowerLobe {
   float exponent;
 
@@ -41,7 +35,7 @@ struct CosinePowerLobe {
   float projected_solid_angle() const { return 2 * kPi / (exponent + 2); }
   /// By the inverse of the distribution of the cosine, cosine^(exponent + 2).
   Vec3 sample(Vec2 u) const {
-    return about_normal(-std::expm1(std::log(1 - u.x) / (exponent + 2)), u.y);
+    return warp::about_z(-std::expm1(std::log(1 - u.x) / (exponent + 2)), u.y);
   }
   float pdf(float cosine) const {
     return (exponent + 2) / (2 * kPi) * std::pow(cosine, exponent + 1);
@@ -63,7 +57,7 @@ struct VonMisesFisherLobe {
   Vec3 sample(Vec2 u) const {
     const float k = concentration;
     const float one_minus_cos = k < kUniform ? u.x : -std::log1p(u.x * std::expm1(-k)) / k;
-    return about_normal(one_minus_cos, u.y);
+    return warp::about_z(one_minus_cos, u.y);
   }
   float pdf(float cosine) const {
     const float k = concentration;

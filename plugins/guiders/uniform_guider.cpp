@@ -47,7 +47,7 @@ class BoundUniformGuider final : public BoundGuider {
 }  // namespace
 
 GuiderTraits UniformGuider::traits() const {
-  return {.model = UniformModel::kName};
+  return {.model = UniformModel::kName, .guides_light_paths = true};
 }
 
 std::unique_ptr<const BoundGuider> UniformGuider::bind(

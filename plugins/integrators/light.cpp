@@ -10,68 +10,13 @@
 
 #include "light.h"
 
-#include <vector>
-
-#include <fmt/format.h>
-
 #include <pharos/core/error.h>
 
 #include "light_walk.h"
-#include "unit_paths.h"
+#include "splats.h"
 
 namespace pharos {
 namespace {
-
-/// What a path contributes, until it is known to be finite.
-class Splats {
- public:
-  explicit Splats(std::size_t most) { all_.reserve(most); }
-  void arrive(VertexKind, Point3, Rgb) {}
-  void contribute(Vec2 film, Rgb contribution) { all_.push_back({film, contribution}); }
-
-  /// Puts them on the film; nothing of a path of NaN or infinity.
-  void deposit(const PathKey& key, WorkResult& result) {
-    bool finite = true;
-    for (const auto& [film, contribution] : all_) finite = finite && is_finite(contribution);
-    if (!finite) reject(key, result);
-    for (const auto& [film, contribution] : all_) {
-      if (finite && !is_black(contribution)) result.film.add_splat(film, contribution);
-    }
-    all_.clear();
-  }
-
- private:
-  struct Splat {
-    Vec2 film;
-    Rgb contribution;
-  };
-  std::vector<Splat> all_;
-};
-
-/// Tells of a path.
-class Teller {
- public:
-  void arrive(VertexKind kind, Point3 at, Rgb throughput) {
-    const char* what = kind == VertexKind::volume        ? "volume"
-                       : kind == VertexKind::environment ? "environment"
-                       : kind == VertexKind::light       ? "light"
-                                                         : "surface";
-    text_ += fmt::format(
-        "{:3} {:<11} at ({:.6g}, {:.6g}, {:.6g})  throughput ({:.6g}, {:.6g}, {:.6g})\n", number_++,
-        what, at.x, at.y, at.z, throughput.r, throughput.g, throughput.b);
-  }
-  void contribute(Vec2 film, Rgb c) {
-    total_ += c;
-    text_ += fmt::format("      seen at film ({:.4f}, {:.4f}) px: ({:.6g}, {:.6g}, {:.6g})\n",
-                         film.x, film.y, c.r, c.g, c.b);
-  }
-  PathTrace trace() const { return {total_, text_}; }
-
- private:
-  std::string text_;
-  int number_ = 0;
-  Rgb total_;
-};
 
 class PreparedLight final : public PreparedIntegrator {
  public:
@@ -83,18 +28,20 @@ class PreparedLight final : public PreparedIntegrator {
   void render(const WorkUnit& unit, const IterationContext& context,
               WorkResult& result) const override {
     Splats splats(shared_.max_depth);
+    Arena arena;
     for_each_path(unit, context, target_.width, result,
                   [&](const PathKey& key, const SampleStream& stream) {
-                    LightWalk(shared_, stream, result.counters, splats).run();
+                    LightWalk(shared_, context, stream, arena, result.counters, splats).run();
                     splats.deposit(key, result);
                   });
   }
 
   PathTrace replay(const PathKey& key, const IterationContext& context) const override {
-    Teller teller;
+    LightPathTeller teller;
     RenderCounters counters;
+    Arena arena;
     const SampleStream stream(context.sampler, key);
-    LightWalk(shared_, stream, counters, teller).run();
+    LightWalk(shared_, context, stream, arena, counters, teller).run();
     return teller.trace();
   }
 

@@ -1,18 +1,23 @@
 #pragma once
 
+#include <array>
 #include <optional>
+#include <utility>
 
-#include <pharos/rendering/light_selection.h>
-#include <pharos/rendering/scatter_step.h>
+#include <pharos/core/arena.h>
 #include <pharos/rendering/segment.h>
+
+#include "counterparts.h"
+#include "planted_fault.h"
 
 namespace pharos {
 
 /// What every light path of a render shares.
 struct LightScene {
   const RenderTarget& target;
-  const LightSelector& lights;  ///< of which one is chosen by its power
-  std::uint16_t max_depth;      ///< segments, that to the lens included
+  const LightSelector& lights;     ///< of which one is chosen by its power
+  std::uint16_t max_depth;         ///< segments, that to the lens included
+  std::uint16_t first_bounce = 0;  ///< number of the light's vertex in the stream's dimensions
 };
 
 /// One path from a light, vertex by vertex, each of which is seen by the sensor:
@@ -21,130 +26,153 @@ struct LightScene {
 ///
 /// `Listener` has `void contribute(Vec2 film, Rgb contribution)`, with positions in pixels and
 /// contributions as FilmTile::add_splat() wants them, and `void arrive(VertexKind, Point3, Rgb
-/// throughput)`.
-template <class Listener>
+/// throughput)`. `Counterparts` know what else could have made the path.
+template <class Listener, class Counterparts = NoCounterparts>
 class LightWalk {
  public:
-  LightWalk(const LightScene& shared, const SampleStream& stream, RenderCounters& counters,
-            Listener& listener)
+  LightWalk(const LightScene& shared, const IterationContext& context, const SampleStream& stream,
+            Arena& arena, RenderCounters& counters, Listener& listener,
+            Counterparts counterparts = {})
       : shared_(shared),
         scene_(shared.target.scene),
+        context_(context),
         stream_(stream),
+        arena_(arena),
         counters_(counters),
         tracer_(scene_, counters),
-        listener_(listener) {}
+        listener_(listener),
+        counterparts_(std::move(counterparts)) {}
 
   void run() {
     ++counters_.paths;
     if (scene_.lights().empty()) return;
-    std::optional<ScatterStep> step = emit();
-    while (step && advance(*step) && kind_ != VertexKind::environment) {
-      begin_scattering();
+    ScatterStep step;
+    bool goes = emit(step);
+    while (goes && advance(step)) {
+      scattering_.emplace(here().scattering(scene_, towards_previous_, Transport::importance));
       if (!scattering_->purely_discrete()) connect();
       if (bounce_ + 1 >= shared_.max_depth) break;
-      step = sample_unguided_step(*scattering_, {stream_, bounce_});
+      ask_guide();
+      goes = sample_step(*scattering_, guidance_, numbers(), step);
     }
   }
 
  private:
+  const PathVertex& here() const { return vertices_[current_]; }
+  VertexStream numbers() const {
+    return {stream_, static_cast<std::uint16_t>(shared_.first_bounce + bounce_)};
+  }
+
   // --- the light ------------------------------------------------------------------------------
 
-  /// Draws a ray that leaves a light, and shows the light itself to the sensor.
-  std::optional<ScatterStep> emit() {
-    const int index = shared_.lights.choose(0, stream_.get_1d({Purpose::light_choice}));
+  /// Draws a ray that leaves a light, and shows the light itself to the sensor. False when nothing
+  /// can come of it.
+  bool emit(ScatterStep& step) {
+    const int index = shared_.lights.choose(0, numbers().get_1d(Purpose::light_choice));
     const Light& light = *scene_.lights()[static_cast<std::size_t>(index)];
     const float chosen = shared_.lights.probability(index);
     const EmissionSample emission = light.sample_emission(
-        stream_.get_2d({Purpose::light_position}), stream_.get_2d({Purpose::bsdf_direction}));
-    if (!(emission.pdf.direction > 0) || !(chosen > 0)) return std::nullopt;
-    listener_.arrive(emission.kind, emission.point.position, Rgb(1));
+        numbers().get_2d(Purpose::light_position), numbers().get_2d(Purpose::bsdf_direction));
+    if (!(emission.pdf.direction > 0) || !(chosen > 0)) return false;
+    start(emission);
+    if constexpr (Counterparts::kExist) counterparts_.begin(light, index, emission);
     if (emission.kind == VertexKind::environment) {
       show_environment(light, emission, chosen);
     } else if (emission.kind == VertexKind::surface) {
       show_surface(light, emission, chosen);
     }
-    if (shared_.max_depth < 2) return std::nullopt;
-    leave(emission, chosen);
-    if (is_black(throughput_)) return std::nullopt;
-    return ScatterStep{.direction = emission.direction,
-                       .event = Event::smooth_reflect,
-                       .value = Rgb(1),
-                       .unguided_pdf = 1,
-                       .unguided_weight = Rgb(1)};
+    if (shared_.max_depth < 2) return false;
+    // What fills all of space has to be crossed from infinitely far away.
+    if (emission.kind == VertexKind::environment && here().medium != nullptr) {
+      before_scene_ =
+          here().medium->transmittance({here().position(), -emission.direction}, kInfinity);
+    }
+    throughput_ = before_scene_ * emission.weight / chosen;
+    if (is_black(throughput_)) return false;
+    step.direction = emission.direction;
+    step.event = Event::smooth_reflect;
+    step.value = step.unguided_weight = Rgb(1);
+    step.unguided_pdf = 1;
+    return true;
   }
 
-  void leave(const EmissionSample& emission, float chosen) {
-    throughput_ = emission.weight / chosen;
-    kind_ = emission.kind;
-    origin_ = emission.kind == VertexKind::surface
-                  ? emission.point.origin_towards(emission.direction)
-                  : emission.point.position;
-    medium_ = emission.kind == VertexKind::surface ? medium_before(emission, emission.direction)
-                                                   : scene_.medium_at(origin_);
-    // What fills all of space lets nothing through from infinitely far away.
-    if (emission.kind == VertexKind::environment && medium_ != nullptr) {
-      throughput_ *= medium_->transmittance({origin_, -emission.direction}, kInfinity);
-    }
+  void start(const EmissionSample& emission) {
+    PathVertex& light = vertices_[current_];
+    light.kind = emission.kind;
+    light.surface = emission.point;
+    light.medium =
+        scene_.has_media() ? scene_.medium_at(light.origin_towards(emission.direction)) : nullptr;
+    listener_.arrive(light.kind, light.position(), Rgb(1));
   }
 
   /// An area light as it is seen from the lens.
   void show_surface(const Light& light, const EmissionSample& emission, float chosen) {
-    const auto way = connection_from(emission.point.position);
+    const auto way = connection();
     if (!way) return;
-    const float cosine = dot(way->direction, emission.point.normal);
+    float cosine = dot(way->direction, emission.point.normal);
     if (!(cosine > 0)) return;
+    if (planted(PlantedFault::camera_cosine_forgotten)) cosine = 1;
     const Rgb radiance = light.radiance(emission.point, way->direction);
-    see(*way, emission.point.origin_towards(way->direction),
-        medium_before(emission, way->direction),
-        cosine / (emission.pdf.position * chosen) * radiance);
-  }
-
-  /// The medium that rays are in which leave a shining surface.
-  const Medium* medium_before(const EmissionSample& emission, Vec3 direction) const {
-    if (!scene_.has_media()) return nullptr;
-    const Medium* around = scene_.medium_at(emission.point.origin_towards(direction));
-    return scene_.medium_after(emission.point, direction, around);
+    Passage passage;
+    if (!look(*way, radiance, passage)) return;
+    const Rgb transmittance = passage.transmittance;
+    float weight = 1;
+    if constexpr (Counterparts::kExist) {
+      weight = counterparts_.of_light_seen(double{way->pdf} * cosine * mean(transmittance));
+    }
+    contribute(way->film, weight * way->pdf * cosine / (emission.pdf.position * chosen) *
+                              transmittance * radiance);
   }
 
   /// The environment as it is seen from the lens, if there is a film position that sees it there.
   void show_environment(const Light& light, const EmissionSample& emission, float chosen) {
     if (!light.is_environment()) return;
     const RenderTarget& target = shared_.target;
-    const LensPoint lens = target.sensor.sample_lens(stream_.get_2d({Purpose::lens}));
+    const LensPoint lens = target.sensor.sample_lens(numbers().get_2d(Purpose::lens));
     const Vec3 towards = -emission.direction;
     const std::optional<SensorResponse> seen = target.sensor.response(lens, towards);
     if (!seen) return;
-    const auto passage =
-        tracer_.pass({lens.position, towards, kInfinity}, scene_.sensor_medium(), Rgb(1));
-    if (!passage) return;
-    const Rgb radiance = light.environment_radiance(towards);
-    contribute(seen->film, seen->direction_pdf / (emission.pdf.direction * chosen) *
-                               passage->transmittance * radiance);
+    Passage passage;
+    const Ray ray{lens.position, towards, kInfinity};
+    if (!tracer_.pass(ray, scene_.sensor_medium(), Rgb(1), passage)) return;
+    const Rgb transmittance = passage.transmittance;
+    float weight = 1;
+    if constexpr (Counterparts::kExist) {
+      weight = counterparts_.of_light_seen(double{seen->direction_pdf} * mean(transmittance));
+    }
+    contribute(seen->film, weight * seen->direction_pdf / (emission.pdf.direction * chosen) *
+                               transmittance * light.environment_radiance(towards));
   }
 
   // --- the lens -------------------------------------------------------------------------------
 
-  std::optional<SensorConnection> connection_from(Point3 point) const {
-    return shared_.target.sensor.connect(point, stream_.get_2d({Purpose::lens, bounce_}));
+  std::optional<SensorConnection> connection() const {
+    return shared_.target.sensor.connect(here().position(), numbers().get_2d(Purpose::lens));
   }
 
   void connect() {
-    const auto way = connection_from(end_.position);
+    const auto way = connection();
     if (!way) return;
     const Rgb value = scattering_->evaluate(way->direction).value;
     if (is_black(value)) return;
-    see(*way, origin_towards(way->direction), medium_towards(way->direction), throughput_ * value);
+    Passage passage;
+    if (!look(*way, throughput_ * value, passage)) return;
+    const Rgb transmittance = passage.transmittance;
+    float weight = 1;
+    if constexpr (Counterparts::kExist) {
+      weight = counterparts_.of_connection(here(), *way, scattering_->smooth_event(way->direction),
+                                           transmittance);
+    }
+    contribute(way->film, weight * way->pdf * transmittance * throughput_ * value);
   }
 
-  /// Light of this strength that leaves for the lens: radiance times cosine over the densities of
-  /// all that led there.
-  void see(const SensorConnection& way, Point3 origin, const Medium* medium, Rgb strength) {
-    Ray ray{origin, way.direction, way.distance};
-    const Vec3 span = way.lens.position - origin;
-    ray.t_max = length(span);
-    if (ray.t_max > 0) ray.direction = span / ray.t_max;
-    const std::optional<Passage> passage = tracer_.pass(ray, medium, strength);
-    if (passage) contribute(way.film, way.pdf * passage->transmittance * strength);
+  /// Fills in what is between here and the lens, for light of this strength; false when something
+  /// hides it.
+  bool look(const SensorConnection& way, Rgb strength, Passage& passage) const {
+    const Ray ray =
+        ray_between(here().origin_towards(way.direction), way.lens.position, way.direction);
+    if (planted(PlantedFault::boundaries_cast_shadows) && scene_.occluded(ray)) return false;
+    return tracer_.pass(ray, here().medium_towards(scene_, way.direction), strength, passage);
   }
 
   void contribute(Vec2 film, Rgb value) {
@@ -157,60 +185,92 @@ class LightWalk {
 
   // --- from vertex to vertex ------------------------------------------------------------------
 
-  /// Traces a step to the next vertex and weights it. False when the path ends with value zero.
+  /// Traces a step to the next vertex and weights it. False when nothing can come of the path.
   bool advance(const ScatterStep& step) {
-    const Ray ray{origin_towards(step.direction), step.direction};
-    const Medium* medium = medium_towards(step.direction);
-    const auto segment =
-        tracer_.trace(ray, medium, step, throughput_ * step.value, {stream_, bounce_}, end_);
-    if (!segment) return false;
-    const Passage& passage = segment->passage;
-    throughput_ *= step.unguided_weight;
-    if (!(passage.medium_density > 0)) return false;
-    if (scene_.has_media()) throughput_ *= passage.transmittance / passage.medium_density;
-    kind_ = segment->kind;
-    medium_ = segment->medium;
-    origin_ = end_.position;
-    towards_previous_ = -step.direction;
-    ++bounce_;
-    listener_.arrive(kind_, end_.position, throughput_);
-    return !is_black(throughput_);
-  }
-
-  void begin_scattering() {
-    if (kind_ == VertexKind::surface) {
-      scattering_.emplace(end_, scene_.bsdf(end_), towards_previous_, Transport::importance);
-    } else {
-      scattering_.emplace(medium_->phase_function(), medium_->scattering(end_.position),
-                          towards_previous_, Transport::importance);
+    const PathVertex& from = here();
+    PathVertex& to = vertices_[1 - current_];
+    const Ray ray{from.origin_towards(step.direction), step.direction};
+    Segment segment;
+    const bool arrives = tracer_.trace(ray, from.medium_towards(scene_, step.direction), step,
+                                       throughput_ * step.value, numbers(), segment, to.surface);
+    if (!arrives || !contains(step.targets, segment.kind)) return false;
+    to.kind = segment.kind;
+    to.medium = segment.medium;
+    const Passage& passage = segment.passage;
+    weight_step(step, segment, to);
+    if (is_black(throughput_) || to.kind == VertexKind::environment) return false;
+    if constexpr (Counterparts::kExist) {
+      counterparts_.advance(
+          from, to, step, guidance_, segment.length,
+          bounce_ == 0 ? before_scene_ * passage.transmittance : passage.transmittance);
     }
+    towards_previous_ = -step.direction;
+    current_ = 1 - current_;
+    ++bounce_;
+    listener_.arrive(here().kind, here().position(), throughput_);
+    return true;
   }
 
-  /// Where a ray begins that leaves the current vertex, and the medium that it is in.
-  Point3 origin_towards(Vec3 direction) const {
-    return is_on_surface() ? end_.origin_towards(direction) : origin_;
+  void weight_step(const ScatterStep& step, const Segment& segment, const PathVertex& to) {
+    const Passage& passage = segment.passage;
+    if (guidance_.distribution == nullptr && !scene_.has_media()) {
+      throughput_ *= step.unguided_weight;
+      return;
+    }
+    const StepDensity density = step_density(guidance_,
+                                             {.direction = step.direction,
+                                              .distance = segment.length,
+                                              .position = to.position(),
+                                              .kind = to.kind,
+                                              .event = step.event,
+                                              .medium_density = passage.medium_density},
+                                             step.unguided_pdf);
+    throughput_ *= density.total > 0 ? step.value * passage.transmittance / density.total : Rgb();
   }
-  const Medium* medium_towards(Vec3 direction) const {
-    return is_on_surface() ? scene_.medium_after(end_, direction, medium_) : medium_;
+
+  // --- scattering -----------------------------------------------------------------------------
+
+  void ask_guide() {
+    guidance_ = {};
+    if (context_.guiding == nullptr) return;
+    arena_.reset();
+    const PathVertex& before = vertices_[1 - current_];
+    previous_ = before.described(before.roughness(scene_));
+    if (before.kind == VertexKind::environment) {
+      previous_.position = scene_.environment_point(here().position(), towards_previous_);
+    }
+    // The query must live as long as its distribution: both until the next vertex is weighted.
+    query_.emplace(GuidingQuery{.previous = &previous_,
+                                .current = here().described(scattering_->roughness()),
+                                .towards_previous = towards_previous_,
+                                .transport = Transport::importance,
+                                .bounce = 0,
+                                .scattering = *scattering_,
+                                .medium = here().medium});
+    guidance_ = context_.guiding->query(*query_, arena_);
   }
-  /// Rays leave a light's surface from `origin_`, in `medium_`.
-  bool is_on_surface() const { return bounce_ > 0 && kind_ == VertexKind::surface; }
 
   const LightScene& shared_;
   const Scene& scene_;
+  const IterationContext& context_;
   const SampleStream& stream_;
+  Arena& arena_;
   RenderCounters& counters_;
   SegmentTracer tracer_;
   Listener& listener_;
+  [[no_unique_address]] Counterparts counterparts_;
 
+  Rgb before_scene_{1};       ///< transmittance from infinitely far away to where paths begin
   Rgb throughput_{1};         ///< power that the path stands for [W], then times f/p
   std::uint16_t bounce_ = 0;  ///< number of the current vertex; 0 on the light
-  VertexKind kind_ = VertexKind::light;
-  SurfacePoint end_;  ///< the current vertex beyond the light; volume vertices: its position
-  Point3 origin_;     ///< where rays leave vertices that are on no surface
-  const Medium* medium_ = nullptr;  ///< that the path came through
+  // Two vertices in turn: the scattering at one stays valid until the next has been weighted.
+  std::array<PathVertex, 2> vertices_;
+  int current_ = 0;
   Vec3 towards_previous_;
   std::optional<LocalScattering> scattering_;
+  GuidingVertex previous_;
+  std::optional<GuidingQuery> query_;
+  Guidance guidance_;
 };
 
 }  // namespace pharos

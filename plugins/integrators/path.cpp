@@ -71,10 +71,7 @@ class PreparedPath final : public PreparedIntegrator {
 
   /// Puts a path's value on the film. NaN and infinity are counted and count as zero.
   static void deposit(PathSample sample, const PathKey& key, WorkResult& result) {
-    if (!is_finite(sample.radiance)) {
-      reject(key, result);
-      sample.radiance = {};
-    }
+    sample.radiance = checked(sample.radiance, key, result);
     if (sample.splat) {
       result.film.add_splat(sample.film, sample.radiance);
       result.film.add_features(sample.film, sample.features);

@@ -4,11 +4,12 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include <pharos/core/arena.h>
-#include <pharos/rendering/scatter_step.h>
 #include <pharos/rendering/segment.h>
 
+#include "counterparts.h"
 #include "path_recorder.h"
 #include "path_settings.h"
 #include "planted_fault.h"
@@ -28,12 +29,15 @@ struct PathSample {
 ///     first step from the lens -> [ advance -> emission -> next event -> step ] until it ends
 ///
 /// advance() traces a step, resolves the next vertex and only then weights the step, because the
-/// density of a guided step may depend on what was hit. `Recorder` listens (path_recorder.h).
-template <class Recorder>
+/// density of a guided step may depend on what was hit. `Recorder` listens (path_recorder.h); it is
+/// told weights between stepping and light sampling alone. `Counterparts` know what else could have
+/// made the path.
+template <class Recorder, class Counterparts = NoCounterparts>
 class PathWalk {
  public:
   PathWalk(const PathScene& shared, const IterationContext& context, const SampleStream& stream,
-           Arena& arena, RenderCounters& counters, Recorder& recorder)
+           Arena& arena, RenderCounters& counters, Recorder& recorder,
+           Counterparts counterparts = {})
       : shared_(shared),
         scene_(shared.target.scene),
         settings_(shared.settings),
@@ -42,18 +46,20 @@ class PathWalk {
         arena_(arena),
         counters_(counters),
         tracer_(scene_, counters),
-        recorder_(recorder) {}
+        recorder_(recorder),
+        counterparts_(std::move(counterparts)) {}
 
   /// Runs to the end. `max_depth` bounds the number of segments.
   PathSample run(std::uint16_t max_depth) {
     ++counters_.paths;
-    std::optional<ScatterStep> step = first_step();
-    while (step && advance(*step)) {
+    ScatterStep step;
+    bool goes = first_step(step);
+    while (goes && advance(step)) {
       add_emission();
       if (!goes_on(max_depth)) break;
       begin_scattering();
       if (samples_lights()) add_light_samples();
-      step = next_step();
+      goes = next_step(step);
     }
     result_.radiance = radiance_;
     return result_;
@@ -62,11 +68,12 @@ class PathWalk {
   /// Instead of run(): walks to the vertex of this number, so that sample_light() may be called.
   /// False when no light is sampled there.
   bool walk_to_lights(std::uint16_t bounce) {
-    std::optional<ScatterStep> step = first_step();
-    while (step && advance(*step) && goes_on(settings_.max_depth)) {
+    ScatterStep step;
+    bool goes = first_step(step);
+    while (goes && advance(step) && goes_on(settings_.max_depth)) {
       begin_scattering();
       if (bounce_ == bounce) return samples_lights();
-      step = next_step();
+      goes = next_step(step);
     }
     return false;
   }
@@ -77,26 +84,20 @@ class PathWalk {
                                ? stream_.get_1d({Purpose::light_choice, bounce_, branch})
                                : 0;
     const int index = shared_.lights.choose(branch, u_choice);
-    LightSample light = scene_.lights()[static_cast<std::size_t>(index)]->sample(position(), u);
+    const Light& emitter = *scene_.lights()[static_cast<std::size_t>(index)];
+    LightSample light = emitter.sample(position(), u);
     if (!planted(PlantedFault::light_choice_forgotten)) {
       light.pdf *= shared_.lights.probability(index);
     }
     if (light.kind == VertexKind::environment) {
       light.point.position = scene_.environment_point(position(), light.direction);
     }
-    if (light.pdf > 0) add_light_sample(light);
+    if (light.pdf > 0) add_light_sample(emitter, index, light);
   }
 
  private:
-  /// A vertex that the path has reached.
-  struct Arrival {
-    VertexKind kind = VertexKind::sensor;
-    SurfacePoint surface;            ///< `position` is valid for volume vertices too
-    const Medium* medium = nullptr;  ///< that the path came through
-  };
-
-  const Arrival& arrival() const { return arrivals_[current_]; }
-  Point3 position() const { return arrival().surface.position; }
+  const PathVertex& arrival() const { return arrivals_[current_]; }
+  Point3 position() const { return arrival().position(); }
   /// Whether the path may have a segment beyond the current vertex.
   bool goes_on(std::uint16_t max_depth) const {
     return arrival().kind != VertexKind::environment && bounce_ < max_depth;
@@ -107,7 +108,7 @@ class PathWalk {
 
   // --- the first vertex ----------------------------------------------------------------------
 
-  std::optional<ScatterStep> first_step() {
+  bool first_step(ScatterStep& step) {
     const RenderTarget& target = shared_.target;
     const auto pixel = static_cast<int>(stream_.key().index);
     const Vec2 in_pixel = target.jitter ? stream_.get_2d({Purpose::pixel}) : Vec2{0.5f, 0.5f};
@@ -117,26 +118,27 @@ class PathWalk {
     LensPoint lens = target.sensor.sample_lens(stream_.get_2d({Purpose::lens}));
     const Ray ray = target.sensor.ray(lens, {result_.film.x / size.x, result_.film.y / size.y});
     lens.position = ray.origin;
-    Arrival& start = arrivals_[current_];
+    PathVertex& start = arrivals_[current_];
     start.surface.position = lens.position;
     start.surface.normal = lens.normal;
     start.medium = scene_.sensor_medium();
-    current_vertex_.position = lens.position;
-    current_vertex_.normal = current_vertex_.shading_normal = lens.normal;
+    start.surface.shading.n = lens.normal;
+    current_vertex_ = start.described();
     towards_previous_ = lens.normal;
     recorder_.lens(lens, result_.film);
     arena_.reset();
 
-    ScatterStep step{.direction = ray.direction, .event = Event::smooth_reflect};
+    step.direction = ray.direction;
+    step.event = Event::smooth_reflect;
     step.value = step.unguided_weight = Rgb(1);
     step.unguided_pdf = 1;
-    if (context_.guiding == nullptr || !context_.guiding->guides_camera()) return step;
-    return guided_first_step(lens, step, size);
+    if (context_.guiding == nullptr || !context_.guiding->guides_camera()) return true;
+    return guide_first_step(lens, size, step);
   }
 
   /// Camera guiding: the mixture of uniform film positions and the guide's directions. A path of
   /// any pixel may then land in any other, so all contributions become splats.
-  std::optional<ScatterStep> guided_first_step(const LensPoint& lens, ScatterStep step, Vec2 size) {
+  bool guide_first_step(const LensPoint& lens, Vec2 size, ScatterStep& step) {
     const PreparedSensor& sensor = shared_.target.sensor;
     result_.splat = true;
     guidance_ = context_.guiding->query_camera(sensor, lens, arena_);
@@ -144,66 +146,63 @@ class PathWalk {
     if (guidance_.distribution != nullptr &&
         stream.get_1d(Purpose::mix_choice) >= guidance_.unguided_fraction) {
       const std::optional<Proposal> proposal = guidance_.distribution->propose(stream);
-      if (!proposal) return std::nullopt;
+      if (!proposal) return false;
       step.direction = proposal->direction;
       step.reach = proposal->reach;
       step.distance = proposal->distance;
       step.targets = proposal->targets;
     }
     const std::optional<SensorResponse> response = sensor.response(lens, step.direction);
-    if (!response) return std::nullopt;
+    if (!response) return false;
     result_.film = {response->film.x * size.x, response->film.y * size.y};
     recorder_.film(result_.film);
     step.unguided_pdf = response->direction_pdf;
     const auto pixels = static_cast<float>(shared_.target.window.area());
     step.value = Rgb(response->direction_pdf * pixels);
     step.unguided_weight = Rgb(pixels);
-    return step;
+    return true;
   }
 
   // --- from vertex to vertex ------------------------------------------------------------------
 
   /// Traces a step to the next vertex and weights it. False when the path ends with value zero.
   bool advance(const ScatterStep& step) {
-    const Arrival& from = arrivals_[current_];
-    Arrival& to = arrivals_[1 - current_];
-    const Ray ray{origin_towards(step.direction), step.direction};
-    std::optional<Segment> segment =
-        tracer_.trace(ray, medium_towards(step.direction), step, throughput_ * step.value,
-                      {stream_, bounce_}, to.surface);
-    if (!segment || !contains(step.targets, segment->kind)) return false;
-    if (planted(PlantedFault::distance_density_forgotten)) segment->passage.medium_density = 1;
-    to.kind = segment->kind;
-    to.medium = segment->medium;
+    const PathVertex& from = arrivals_[current_];
+    PathVertex& to = arrivals_[1 - current_];
+    const Ray ray{from.origin_towards(step.direction), step.direction};
+    Segment segment;
+    const bool arrives =
+        tracer_.trace(ray, from.medium_towards(scene_, step.direction), step,
+                      throughput_ * step.value, {stream_, bounce_}, segment, to.surface);
+    if (!arrives || !contains(step.targets, segment.kind)) return false;
+    Passage& passage = segment.passage;
+    if (planted(PlantedFault::distance_density_forgotten)) passage.medium_density = 1;
+    to.kind = segment.kind;
+    to.medium = segment.medium;
     const ResolvedVertex resolved{.direction = step.direction,
-                                  .distance = segment->length,
+                                  .distance = segment.length,
                                   .position = to.surface.position,
                                   .kind = to.kind,
                                   .event = step.event,
-                                  .medium_density = segment->passage.medium_density};
-    weight_step(step, resolved, segment->passage.transmittance);
+                                  .medium_density = passage.medium_density};
+    weight_step(step, resolved, passage.transmittance);
+    if (planted(PlantedFault::boundaries_count_as_origins)) {
+      density_.total /= passage.medium_density;
+    }
+    if constexpr (Counterparts::kExist) {
+      counterparts_.advance(from, to, step, guidance_, segment.length, passage.transmittance);
+    }
 
-    from_position_ = from.surface.position;
+    from_position_ = from.position();
     if (vertices_are_asked_for()) {
       previous_ = current_vertex_;
-      previous_.event = step.event;
+      if (!Counterparts::kExist) previous_.event = step.event;
     }
     towards_previous_ = -step.direction;
     current_ = 1 - current_;
     if (++bounce_ == 1) first_throughput_ = max_component(throughput_);
-    note_arrival(segment->length);
+    note_arrival(segment.length);
     return !is_black(throughput_);
-  }
-
-  /// Where a ray begins that leaves the current vertex, and the medium that it is in.
-  Point3 origin_towards(Vec3 direction) const {
-    const bool on_surface = arrival().kind == VertexKind::surface;
-    return on_surface ? arrival().surface.origin_towards(direction) : position();
-  }
-  const Medium* medium_towards(Vec3 direction) const {
-    const bool on_surface = arrival().kind == VertexKind::surface;
-    return on_surface ? scene_.medium_after(arrival().surface, direction, arrival().medium)
-                      : arrival().medium;
   }
 
   void weight_step(const ScatterStep& step, const ResolvedVertex& resolved, Rgb transmittance) {
@@ -219,14 +218,8 @@ class PathWalk {
 
   /// `distance` is that of the segment that led here.
   void note_arrival(float distance) {
-    const Arrival& here = arrival();
-    if (vertices_are_asked_for()) {
-      const bool on_surface = here.kind == VertexKind::surface;
-      current_vertex_ = {.position = here.surface.position,
-                         .normal = on_surface ? here.surface.normal : Vec3{},
-                         .shading_normal = on_surface ? here.surface.shading.n : Vec3{},
-                         .kind = here.kind};
-    }
+    const PathVertex& here = arrival();
+    if (vertices_are_asked_for()) current_vertex_ = here.described();
     if (bounce_ == 1 && here.kind == VertexKind::surface) {
       result_.features = {.albedo = scene_.bsdf(here.surface).albedo(here.surface),
                           .normal = here.surface.shading.n,
@@ -238,35 +231,44 @@ class PathWalk {
   // --- light ----------------------------------------------------------------------------------
 
   void add_emission() {
-    const Arrival& here = arrival();
+    const PathVertex& here = arrival();
     if (here.kind == VertexKind::surface) {
       const Light* light = scene_.light_at(here.surface);
       if (light == nullptr) return;
       const Rgb radiance = light->radiance(here.surface, towards_previous_);
       if (is_black(radiance)) return;
-      const auto pdf = [&] {
-        return shared_.lights.probability(scene_.light_index(here.surface)) *
-               light->pdf_point(from_position_, here.surface);
-      };
-      add_light(radiance, pdf);
+      add_light(*light, scene_.light_index(here.surface), radiance,
+                [&] { return light->pdf_point(step_origin(), here.surface); });
     } else if (here.kind == VertexKind::environment) {
       for (const int index : scene_.environment_lights()) {
         const Light& light = *scene_.lights()[static_cast<std::size_t>(index)];
-        const auto pdf = [&] {
-          return shared_.lights.probability(index) * light.pdf_direction(-towards_previous_);
-        };
-        add_light(light.environment_radiance(-towards_previous_), pdf);
+        add_light(light, index, light.environment_radiance(-towards_previous_),
+                  [&] { return light.pdf_direction(-towards_previous_); });
       }
     }
   }
 
-  /// Emission that the path ran into; `light_pdf()` is next event estimation's density of it.
+  /// Where the step began that light was run into by.
+  Point3 step_origin() const {
+    return planted(PlantedFault::boundaries_count_as_origins)
+               ? last_boundary(scene_, from_position_, arrival().surface)
+               : from_position_;
+  }
+
+  /// Emission that the path ran into; `light_pdf()` is next event estimation's density of it, but
+  /// for the choice of the light.
   template <class LightPdf>
-  void add_light(Rgb radiance, LightPdf&& light_pdf) {
+  void add_light(const Light& light, int index, Rgb radiance, LightPdf&& light_pdf) {
     const bool alone = arrived_discretely_ || !settings_.next_event_estimation;
     const float own = planted(PlantedFault::mis_without_guide) ? density_.unguided : density_.total;
-    const float weight = alone ? 1.0f : emission_weight(settings_.mis, own, light_pdf());
-    radiance_ += weight * throughput_ * radiance;
+    const float sampled = alone ? 0.0f : shared_.lights.probability(index) * light_pdf();
+    const float weight = alone ? 1.0f : emission_weight(settings_.mis, own, sampled);
+    float whole_weight = weight;
+    if constexpr (Counterparts::kExist) {
+      if (is_black(radiance)) return;
+      whole_weight = counterparts_.of_emission(light, index, arrival(), sampled);
+    }
+    radiance_ += whole_weight * throughput_ * radiance;
     recorder_.emission(radiance, weight);
   }
 
@@ -276,56 +278,56 @@ class PathWalk {
     }
   }
 
-  void add_light_sample(const LightSample& light) {
+  void add_light_sample(const Light& emitter, int index, const LightSample& light) {
     const ScatterValue scatter = scattering_->evaluate(light.direction);
     Rgb value = scatter.value * light.radiance / light.pdf;
     if (is_black(value)) return;
-    Ray shadow{origin_towards(light.direction), light.direction, light.distance};
-    if (std::isfinite(light.distance)) aim_at(light, shadow);
-    const std::optional<Passage> passage =
-        pass(shadow, medium_towards(light.direction), throughput_ * scatter.value);
-    if (!passage) return;
-    value *= passage->transmittance;
+    Ray shadow{arrival().origin_towards(light.direction), light.direction, light.distance};
+    // Ends just before the light's surface, by as much as positions are uncertain there.
+    if (std::isfinite(light.distance)) {
+      shadow =
+          ray_between(shadow.origin, light.point.origin_towards(-light.direction), light.direction);
+    }
+    Passage passage;
+    if (!pass(shadow, arrival().medium_towards(scene_, light.direction),
+              throughput_ * scatter.value, passage)) {
+      return;
+    }
+    value *= passage.transmittance;
     const ResolvedVertex resolved{.direction = light.direction,
                                   .distance = light.distance,
                                   .position = light.point.position,
                                   .kind = light.kind,
                                   .event = scattering_->smooth_event(light.direction),
-                                  .medium_density = passage->medium_density};
+                                  .medium_density = passage.medium_density};
     // No direction meets a light without extent: its density is for the record alone.
     const bool wants_density = Recorder::kRecords || !light.discrete;
     const StepDensity density =
         wants_density ? step_density(guidance_, resolved, scatter.pdf) : StepDensity{};
+    const bool in_empty_space = planted(PlantedFault::boundaries_count_as_origins);
+    const float step_pdf = in_empty_space ? density.total / passage.medium_density : density.total;
     const float weight =
-        light.discrete ? 1.0f : light_sample_weight(settings_.mis, light.pdf, density.total);
-    radiance_ += weight * throughput_ * value;
+        light.discrete ? 1.0f : light_sample_weight(settings_.mis, light.pdf, step_pdf);
+    float whole_weight = weight;
+    if constexpr (Counterparts::kExist) {
+      whole_weight =
+          counterparts_.of_light_sample(emitter, index, light, scatter.pdf, guidance_, arrival(),
+                                        resolved.event, passage.transmittance);
+    }
+    radiance_ += whole_weight * throughput_ * value;
     recorder_.light(light, resolved.event, density, weight, weight * value, throughput_);
   }
 
-  std::optional<Passage> pass(const Ray& shadow, const Medium* medium, Rgb throughput) const {
-    if (planted(PlantedFault::boundaries_cast_shadows) && scene_.occluded(shadow)) return {};
-    return tracer_.pass(shadow, medium, throughput);
-  }
-
-  /// Ends a shadow ray just before the light's surface, by as much as surfaces' positions are
-  /// uncertain there.
-  static void aim_at(const LightSample& light, Ray& shadow) {
-    const Vec3 span = light.point.origin_towards(-light.direction) - shadow.origin;
-    shadow.t_max = length(span);
-    if (shadow.t_max > 0) shadow.direction = span / shadow.t_max;
+  bool pass(const Ray& shadow, const Medium* medium, Rgb throughput, Passage& passage) const {
+    if (planted(PlantedFault::boundaries_cast_shadows) && scene_.occluded(shadow)) return false;
+    return tracer_.pass(shadow, medium, throughput, passage);
   }
 
   // --- scattering -----------------------------------------------------------------------------
 
   void begin_scattering() {
-    const Arrival& here = arrival();
-    if (here.kind == VertexKind::surface) {
-      scattering_.emplace(here.surface, scene_.bsdf(here.surface), towards_previous_,
-                          Transport::radiance);
-    } else {
-      scattering_.emplace(here.medium->phase_function(), here.medium->scattering(position()),
-                          towards_previous_, Transport::radiance);
-    }
+    const PathVertex& here = arrival();
+    scattering_.emplace(here.scattering(scene_, towards_previous_, Transport::radiance));
     guidance_ = {};
     if (!vertices_are_asked_for()) return;
     current_vertex_.roughness = scattering_->roughness();
@@ -336,7 +338,7 @@ class PathWalk {
                                   .current = current_vertex_,
                                   .towards_previous = towards_previous_,
                                   .transport = Transport::radiance,
-                                  .bounce = bounce_,
+                                  .bounce = Counterparts::kExist ? std::uint16_t{0} : bounce_,
                                   .scattering = *scattering_,
                                   .medium = here.medium});
       guidance_ = context_.guiding->query(*query_, arena_);
@@ -344,21 +346,20 @@ class PathWalk {
     recorder_.scattering(*scattering_, current_vertex_.roughness, guidance_);
   }
 
-  std::optional<ScatterStep> next_step() {
-    std::optional<ScatterStep> step =
-        sample_step(*scattering_, guidance_, VertexStream(stream_, bounce_));
-    if (!step || settings_.roulette == Roulette::off) return step;
+  bool next_step(ScatterStep& step) {
+    if (!sample_step(*scattering_, guidance_, VertexStream(stream_, bounce_), step)) return false;
+    if (settings_.roulette == Roulette::off) return true;
     const bool refracts =
-        step->event == Event::smooth_transmit || step->event == Event::discrete_transmit;
+        step.event == Event::smooth_transmit || step.event == Event::discrete_transmit;
     if (refracts) note_refraction();
-    if (bounce_ < settings_.roulette_depth) return step;
+    if (bounce_ < settings_.roulette_depth) return true;
     const float value = max_component(throughput_) * solid_angle_scale_ / first_throughput_;
     const float survival = std::min(settings_.roulette_limit, value);
-    if (stream_.get_1d({Purpose::roulette, bounce_}) >= survival) return std::nullopt;
-    if (planted(PlantedFault::roulette_unweighted)) return step;
-    step->value *= 1 / survival;
-    step->unguided_weight *= 1 / survival;
-    return step;
+    if (stream_.get_1d({Purpose::roulette, bounce_}) >= survival) return false;
+    if (planted(PlantedFault::roulette_unweighted)) return true;
+    step.value *= 1 / survival;
+    step.unguided_weight *= 1 / survival;
+    return true;
   }
 
   /// Radiance is compressed into smaller solid angles inside glass; roulette must not take that for
@@ -381,6 +382,7 @@ class PathWalk {
   RenderCounters& counters_;
   SegmentTracer tracer_;
   Recorder& recorder_;
+  [[no_unique_address]] Counterparts counterparts_;
 
   PathSample result_;
   Rgb radiance_;
@@ -389,7 +391,7 @@ class PathWalk {
   float solid_angle_scale_ = 1;  ///< undoes the compression of radiance by refraction so far
   std::uint16_t bounce_ = 0;     ///< number of the current vertex; 0 on the lens
   // Two arrivals in turn: the scattering at one stays valid until the next has been weighted.
-  std::array<Arrival, 2> arrivals_;
+  std::array<PathVertex, 2> arrivals_;
   int current_ = 0;
   Vec3 towards_previous_;
   Point3 from_position_;  ///< of the previous vertex

@@ -27,7 +27,14 @@ void for_each_path(const WorkUnit& unit, const IterationContext& context, int fi
 inline void reject(const PathKey& key, WorkResult& result) {
   ++result.counters.invalid_paths;
   if (!result.first_invalid) result.first_invalid = key;
+}
+
+/// `radiance` if it is finite; else black, and the path is taken note of, in its record too.
+inline Rgb checked(Rgb radiance, const PathKey& key, WorkResult& result) {
+  if (is_finite(radiance)) return radiance;
+  reject(key, result);
   if (result.log.size() > 0) result.log.blacken_last_path();
+  return {};
 }
 
 }  // namespace pharos

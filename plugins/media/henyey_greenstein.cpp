@@ -12,7 +12,7 @@
 
 #include <cmath>
 
-#include "about_axis.h"
+#include <pharos/core/warp.h>
 
 namespace pharos {
 
@@ -40,7 +40,7 @@ Vec3 HenyeyGreensteinPhase::sample(Vec3 wo, Vec2 u) const {
   const float g = std::abs(g_);
   const float divisor = 1 + g - 2 * g * u.x;
   const float one_minus_cos = (1 - g) * u.x / divisor * ((1 - square(g)) / divisor + 1 - g);
-  return about_axis(g_ > 0 ? -wo : wo, one_minus_cos, u.y);
+  return Frame::from_normal(g_ > 0 ? -wo : wo).to_world(warp::about_z(one_minus_cos, u.y));
 }
 
 }  // namespace pharos

@@ -12,7 +12,7 @@
 
 #include <cmath>
 
-#include "about_axis.h"
+#include <pharos/core/warp.h>
 
 namespace pharos {
 
@@ -26,7 +26,7 @@ Vec3 RayleighPhase::sample(Vec3 wo, Vec2 u) const {
   const float half = 2 * (2 * u.x - 1);
   const float root = std::cbrt(std::abs(half) + std::sqrt(square(half) + 1));
   const float cosine = std::copysign(root - 1 / root, half);
-  return about_axis(-wo, 1 - cosine, u.y);
+  return Frame::from_normal(-wo).to_world(warp::about_z(1 - cosine, u.y));
 }
 
 }  // namespace pharos

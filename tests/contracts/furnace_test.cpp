@@ -26,6 +26,30 @@ TEST_CASE("furnace: unguided") {
   CHECK(std::abs(fog_t("")) < kLimit);
 }
 
+/// The same by paths from both ends.
+std::string from_both_ends(std::string config) {
+  const std::string path = "type: path\n";
+  return config.replace(config.find(path), path.size(), "type: bidirectional\n");
+}
+
+TEST_CASE("furnace: paths from both ends, unguided and guided in both directions") {
+  for (const std::string& guiding :
+       {std::string(), pair("stub_direction", "stub_direction"),
+        pair("stub_vertices", "stub_vertices"), pair("stub_mixture", "stub_exact")}) {
+    CAPTURE(guiding);
+    CHECK(std::abs(furnace_t(from_both_ends(path_config(kDiffuseScene, 4, guiding, 32)),
+                             kDiffuseFurnace)) < kLimit);
+    CHECK(std::abs(furnace_t(from_both_ends(path_config(kGlassInFogScene, 100, guiding, 32)),
+                             kGlassInFogFurnace)) < kLimit);
+  }
+}
+
+TEST_CASE("furnace: from both ends, a density off by 3 % is seen") {
+  const std::string guider = "{ type: stub_direction, pdf_scale: 1.03 }";
+  const std::string config = path_config(kDiffuseScene, 4, pair("stub_direction", guider), 128);
+  CHECK(furnace_t(from_both_ends(config), kDiffuseFurnace, 24) < -kLimit);
+}
+
 TEST_CASE("furnace (a): a direction-only method") {
   CHECK(std::abs(diffuse_t(pair("stub_direction", "stub_direction"))) < kLimit);
   CHECK(std::abs(fog_t(pair("stub_direction", "stub_direction"))) < kLimit);

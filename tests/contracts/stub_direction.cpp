@@ -190,7 +190,9 @@ class DirectionGuider final : public Guider {
   using Settings = DirectionGuiderSettings;
   explicit DirectionGuider(Settings settings) : settings_(settings) {}
 
-  GuiderTraits traits() const override { return {.model = "stub_direction"}; }
+  GuiderTraits traits() const override {
+    return {.model = "stub_direction", .guides_light_paths = true};
+  }
   std::unique_ptr<const BoundGuider> bind(
       std::shared_ptr<const GuidingModel> model) const override {
     return std::make_unique<BoundDirectionGuider>(bind_model<DirectionModel>(model, *this),

@@ -129,7 +129,10 @@ class VertexGuider final : public Guider {
   using Settings = NoSettings;
   explicit VertexGuider(Settings) {}
   GuiderTraits traits() const override {
-    return {.model = "stub_vertices", .steers_distance = true, .steers_events = true};
+    return {.model = "stub_vertices",
+            .steers_distance = true,
+            .steers_events = true,
+            .guides_light_paths = true};
   }
   std::unique_ptr<const BoundGuider> bind(
       std::shared_ptr<const GuidingModel> model) const override {

@@ -17,6 +17,8 @@ namespace {
 struct Furnace {
   std::string name, scene, settings;
   double answer;
+  std::string integrator = "path";
+  int spp = 32;
 };
 
 /// A shining square that covers half the height and half the width of what is seen.
@@ -62,23 +64,27 @@ std::vector<Furnace> furnaces() {
       {"half covered", kCoveredScene, "max_depth: 2", 0.25},
       {"roulette", kRouletteScene, "max_depth: 200, roulette: throughput, roulette_depth: 2", 5},
       {"glass in fog", kGlassInFogScene, "max_depth: 100", kGlassInFogFurnace},
-      {"ball of fog", kFogBallScene, "max_depth: 100", 1}};
+      {"ball of fog", kFogBallScene, "max_depth: 100", 1},
+      {"light", kDiffuseScene, "max_depth: 4", kDiffuseFurnace, "light", 128},
+      {"both", kDiffuseScene, "max_depth: 4", kDiffuseFurnace, "bidirectional"},
+      {"both in fog", kGlassInFogScene, "max_depth: 100", kGlassInFogFurnace, "bidirectional"},
+      {"both, ball of fog", kFogBallScene, "max_depth: 100", 1, "bidirectional"}};
 }
 
 /// Whether a furnace's test is red under a fault.
 bool turns_red(const Furnace& furnace, const std::string& fault) {
   const std::string config =
       furnace.scene + fmt::format(
-                          "integrator: {{ type: faulty_path, fault: {}, path: {{ {} }} }}\n"
-                          "sampler: independent\nbudget: {{ spp: 32 }}\n",
-                          fault, furnace.settings);
+                          "integrator: {{ type: faulty_{}, fault: {}, settings: {{ {} }} }}\n"
+                          "sampler: independent\nbudget: {{ spp: {} }}\n",
+                          furnace.integrator, fault, furnace.settings, furnace.spp);
   return std::abs(furnace_t(config, furnace.answer)) > kLimit;
 }
 
 void check_row(const std::string& fault, const std::vector<bool>& expected) {
   const std::vector<Furnace> all = furnaces();
-  REQUIRE(expected.size() == all.size());
-  for (std::size_t i = 0; i < all.size(); ++i) {
+  REQUIRE(expected.size() <= all.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) {
     CAPTURE(fault);
     CAPTURE(all[i].name);
     CHECK(turns_red(all[i], fault) == expected[i]);
@@ -90,10 +96,12 @@ constexpr bool green = false;
 
 }  // namespace
 
-//                                       unguided guided covered roulette  fog  ball of fog
+// The first furnaces of, or all, in their order: by path tracing unguided, guided, half covered, roulette, glass in
+// fog, ball of fog; by light tracing; by both in a diffuse furnace, with glass in fog, a ball of
+// fog.
 
 TEST_CASE("no fault") {
-  check_row("none", {green, green, green, green, green, green});
+  check_row("none", {green, green, green, green, green, green, green, green, green, green});
 }
 TEST_CASE("fault: emission is weighted without the guide's density") {
   check_row("mis_without_guide", {green, red, green, green, green, green});
@@ -102,16 +110,27 @@ TEST_CASE("fault: samples of value zero are dropped") {
   check_row("zero_samples_dropped", {green, green, red, green, green, green});
 }
 TEST_CASE("fault: the probability of the light is forgotten") {
-  check_row("light_choice_forgotten", {red, red, green, green, green, green});
+  check_row("light_choice_forgotten",
+            {red, red, green, green, green, green, green, red, green, green});
 }
 TEST_CASE("fault: survivors of roulette are not weighted") {
   check_row("roulette_unweighted", {green, green, green, red, green, green});
 }
 TEST_CASE("fault: the density of distances is forgotten") {
-  check_row("distance_density_forgotten", {green, green, green, green, red, red});
+  check_row("distance_density_forgotten",
+            {green, green, green, green, red, red, green, green, red, red});
 }
-TEST_CASE("fault: light samples do not get through boundaries of media") {
-  check_row("boundaries_cast_shadows", {green, green, green, green, green, red});
+TEST_CASE("fault: light does not get through boundaries of media") {
+  check_row("boundaries_cast_shadows",
+            {green, green, green, green, green, red, green, green, green, red});
+}
+TEST_CASE("fault: shining surfaces seen from the lens are not foreshortened") {
+  check_row("camera_cosine_forgotten",
+            {green, green, green, green, green, green, red, red, green, green});
+}
+TEST_CASE("fault: paths from the lens ignore the light paths that make them too") {
+  check_row("reverse_density_forgotten",
+            {green, green, green, green, green, green, green, red, red, red});
 }
 
 }  // namespace pharos::testing

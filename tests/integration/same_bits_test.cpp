@@ -45,6 +45,19 @@ TEST_CASE("same bits: cornell-box, both samplers") {
   check_same_bits(cornell("sampler: independent\n"));
 }
 
+TEST_CASE("same bits: what light paths splat") {
+  for (const char* integrator : {"light", "bidirectional"}) {
+    check_same_bits(cornell(fmt::format("sampler: sobol\nintegrator: {}\n", integrator)));
+    check_same_bits(fmt::format(
+        "scene: {}/fog-box/scene.yaml\nbudget: {{ spp: 8 }}\nfilm: {{ width: 60, height: 48 }}\n"
+        "integrator: {}\n",
+        PHAROS_SCENES, integrator));
+  }
+  check_same_bits(
+      cornell("integrator: { type: bidirectional, guiding: { learner: uniform, guider: uniform, "
+              "training: { iterations: 2 } } }\n"));
+}
+
 TEST_CASE("same bits: guided, with the learned model and either learned mixing") {
   for (const char* mixing : {"stub_learned", "learned"}) {
     check_same_bits(cornell(fmt::format(

@@ -1,0 +1,31 @@
+#include "learning.h"
+
+#include "gaussian_model.h"
+
+namespace pharos::gaussians {
+namespace {
+
+/// A scene without extent is taken to be of size one.
+double size_of(const Bounds3& region) {
+  return region.diagonal() > 0 ? region.diagonal() : 1;
+}
+
+}  // namespace
+
+GaussianLearning::GaussianLearning(const GaussianSettings& settings, const LearningContext& context)
+    : settings_(settings),
+      rule_{settings.least_pdf,
+            settings.environment_distance * static_cast<float>(size_of(context.region))},
+      scene_size_(size_of(context.region)),
+      seed_(context.seed) {}
+
+std::shared_ptr<const GuidingModel> GaussianLearning::model(
+    const LearningCells<Sample, CellMixture>& cells) const {
+  std::vector<GaussianModel::Cell> contents;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    contents.push_back({cells[i].components(), static_cast<float>(cells[i].samples())});
+  }
+  return std::make_shared<GaussianModel>(cells.tree(), contents, cells.origins());
+}
+
+}  // namespace pharos::gaussians

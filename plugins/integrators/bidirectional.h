@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+
+#include <pharos/rendering/integrator.h>
+#include <pharos/rendering/light_selection.h>
+
+namespace pharos {
+
+/// The plugin `bidirectional`; see bidirectional.cpp.
+class BidirectionalIntegrator final : public Integrator {
+ public:
+  struct Settings {
+    std::uint16_t max_depth = 12;
+    LightSelection light_selection = LightSelection::one;
+    std::optional<GuidingSettings> guiding;
+    static void describe(Schema<Settings>& s);
+  };
+  explicit BidirectionalIntegrator(Settings settings) : settings_(std::move(settings)) {}
+
+  IntegratorTraits traits() const override;
+  const GuidingSettings* guiding() const override;
+  std::unique_ptr<const PreparedIntegrator> prepare(const RenderTarget& target) const override;
+
+ private:
+  Settings settings_;
+};
+
+}  // namespace pharos

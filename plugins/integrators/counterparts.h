@@ -1,0 +1,231 @@
+#pragma once
+
+#include <optional>
+
+#include <pharos/rendering/integrator.h>
+#include <pharos/rendering/light_selection.h>
+
+#include "planted_fault.h"
+#include "subpath_densities.h"
+
+/// What paths of the other kind make of a path: the other ways of the balance heuristic, for walks
+/// that know their own.
+namespace pharos {
+
+/// Lights as both kinds of path choose them.
+struct LightChoices {
+  const LightSelector& sampled;   ///< by vertices of paths from the lens
+  const LightSelector& emitting;  ///< by paths from the lights
+};
+
+/// Of walks whose paths no others make: weights are theirs to know.
+struct NoCounterparts {
+  static constexpr bool kExist = false;
+};
+
+/// The paths from lights that would make what a path from the lens finds.
+class LightCounterparts {
+ public:
+  static constexpr bool kExist = true;
+
+  /// The lens point of the path belongs to `u_lens`.
+  LightCounterparts(const RenderTarget& target, const LightChoices& lights,
+                    const GuidingFrame* guiding, Vec2 u_lens, Arena& arena)
+      : target_(target),
+        scene_(target.scene),
+        lights_(lights),
+        guiding_(guiding),
+        u_lens_(u_lens),
+        continuations_(target.scene, guiding, Transport::importance, arena) {}
+
+  /// The path has gone from one vertex to the next.
+  void advance(const PathVertex& from, const PathVertex& to, const ScatterStep& step,
+               const Guidance& guidance, float length, Rgb transmittance) {
+    Way there = way_to(to, step.direction, length, transmittance);
+    there.target.event = step.event;
+    if (from.kind == VertexKind::sensor) {
+      begin(from, to, there);
+    } else {
+      last_step_ = step_density(guidance, there.target, step.unguided_pdf).total *
+                   discrete_cosine(from, step.event, step.direction);
+      // Nobody sees by chance where a light path goes on from a mirror.
+      if (densities_.vertices() == 1 && is_discrete(step.event)) densities_.rule_out();
+      densities_.extend(last_step_ * there.to_vertex_measure(),
+                        onwards(from, to, step.direction, step.event));
+    }
+    back_ = way_to(from, -step.direction, length, transmittance);
+  }
+
+  /// The weight of light that the path ran into at `here`; `sampled` is the density [1/sr] of light
+  /// samples of it, 0 if there are none.
+  float of_emission(const Light& light, int index, const PathVertex& here, float sampled) const {
+    const EmissionDensity pdf = light.pdf_emission(here.surface, back_.target.direction);
+    const double at_light = density_at_light(pdf, here.kind, lights_.emitting.probability(index));
+    return balance_weight(sampled / last_step_ +
+                          densities_.ratio(density_beyond_light(pdf, here.kind, back_), at_light));
+  }
+
+  /// The weight of a light sample at `here`, which scatters its light by `event`, and what is
+  /// sampled that way with density `scatter_pdf` [1/sr] by the BSDF or phase function.
+  float of_light_sample(const Light& light, int index, const LightSample& sample, float scatter_pdf,
+                        const Guidance& guidance, const PathVertex& here, Event event,
+                        Rgb transmittance) const {
+    const PathVertex end{.kind = sample.kind, .surface = sample.point};
+    Way there = way_to(end, sample.direction, sample.distance, transmittance);
+    there.target.event = event;
+    const Way back = way_to(here, -sample.direction, sample.distance, transmittance);
+    const EmissionDensity pdf = light.pdf_emission(sample.point, -sample.direction);
+    const double at_light = density_at_light(pdf, sample.kind, lights_.emitting.probability(index));
+    const double ratio = densities_.ratio(onwards(here, end, sample.direction, event),
+                                          density_beyond_light(pdf, sample.kind, back)) *
+                         at_light;
+    if (sample.discrete) return balance_weight(ratio / sample.pdf);
+    const double hit = step_density(guidance, there.target, scatter_pdf).total / sample.pdf;
+    return balance_weight(hit + ratio / (sample.pdf * there.to_vertex_measure()));
+  }
+
+ private:
+  /// The first vertex beyond the lens, which light paths must be seen from.
+  void begin(const PathVertex& lens, const PathVertex& to, const Way& there) {
+    densities_.extend(first_density(lens, to, there) * there.target.medium_density, 0);
+  }
+
+  double first_density(const PathVertex& lens, const PathVertex& to, const Way& there) const {
+    const PreparedSensor& sensor = target_.sensor;
+    if (to.kind == VertexKind::environment) {
+      const auto seen =
+          sensor.response({lens.position(), lens.surface.normal}, there.target.direction);
+      return seen ? seen->direction_pdf : 0;
+    }
+    const auto way = sensor.connect(to.position(), u_lens_);
+    return way ? double{way->pdf} * there.cosine : 0;
+  }
+
+  /// The density, in vertex measure, of light paths going on from `at`, when they come from
+  /// `before` in `direction`, to where this path came from, if that is not the lens.
+  double onwards(const PathVertex& at, const PathVertex& before, Vec3 direction,
+                 Event event) const {
+    if (densities_.vertices() < 2 || densities_.is_ruled_out()) return 0;
+    if (planted(PlantedFault::reverse_density_forgotten)) return 0;
+    const float roughness = guiding_ == nullptr ? 1 : before.roughness(scene_);
+    return continuations_.density(at, before.described(roughness), direction, event, back_.target) *
+           back_.to_vertex_measure();
+  }
+
+  const RenderTarget& target_;
+  const Scene& scene_;
+  LightChoices lights_;
+  const GuidingFrame* guiding_;
+  Vec2 u_lens_;
+  Continuations continuations_;
+  SubpathDensities densities_;
+  /// Density of the last step [1/sr], to volumes [1/(sr m)]; of steps from the lens nobody asks.
+  double last_step_ = 1;
+  Way back_;  ///< from the last vertex to the one before
+};
+
+/// The paths from the lens that would make what a path from a light shows.
+class CameraCounterparts {
+ public:
+  static constexpr bool kExist = true;
+
+  CameraCounterparts(const Scene& scene, const LightChoices& lights, const GuidingFrame* guiding,
+                     Arena& arena)
+      : scene_(scene),
+        lights_(lights),
+        guiding_(guiding),
+        continuations_(scene, guiding, Transport::radiance, arena) {}
+
+  /// The path begins with this emission.
+  void begin(const Light& light, int index, const EmissionSample& emission) {
+    light_ = &light;
+    index_ = index;
+    emission_ = emission;
+    runs_into_light_ = emission.kind == VertexKind::environment
+                           ? light.is_environment()
+                           : emission.kind == VertexKind::surface;
+    densities_.extend(
+        density_at_light(emission.pdf, emission.kind, lights_.emitting.probability(index)), 0);
+  }
+
+  /// The path has gone from one vertex to the next.
+  void advance(const PathVertex& from, const PathVertex& to, const ScatterStep& step,
+               const Guidance& guidance, float length, Rgb transmittance) {
+    Way there = way_to(to, step.direction, length, transmittance);
+    there.target.event = step.event;
+    double forward = 0, backward = 0;
+    const bool begins = densities_.vertices() == 1;
+    if (begins) {
+      forward = density_beyond_light(emission_.pdf, emission_.kind, there);
+    } else {
+      forward = step_density(guidance, there.target, step.unguided_pdf).total *
+                discrete_cosine(from, step.event, step.direction) * there.to_vertex_measure();
+      backward = onwards(from, to.described(roughness_of(to)), step.direction, step.event);
+    }
+    densities_.extend(forward, backward);
+    back_ = way_to(from, -step.direction, length, transmittance);
+    leads_to_light_ = begins;
+    if (begins) begin_backwards(to);
+  }
+
+  /// The weight of the light itself, seen directly with density `seen` [1/m^2] or [1/sr].
+  float of_light_seen(double seen) const { return balance_weight(densities_.ratio(0, seen)); }
+
+  /// The weight of being seen through `way` from `here`, which scatters light that way by `event`.
+  float of_connection(const PathVertex& here, const SensorConnection& way, Event event,
+                      Rgb transmittance) const {
+    const Way from_lens = way_to(here, -way.direction, way.distance, transmittance);
+    const PathVertex lens{.surface = {.position = way.lens.position,
+                                      .normal = way.lens.normal,
+                                      .shading = {.n = way.lens.normal}}};
+    const double seen = double{way.pdf} * from_lens.cosine * from_lens.target.medium_density;
+    return balance_weight(
+        densities_.ratio(onwards(here, lens.described(), way.direction, event), seen));
+  }
+
+ private:
+  /// The density, in vertex measure, of paths from the lens going on from `at`, when they come from
+  /// `before` in `direction`, to where this path came from.
+  double onwards(const PathVertex& at, const GuidingVertex& before, Vec3 direction,
+                 Event event) const {
+    if (densities_.is_ruled_out()) return 0;
+    double density = 0;
+    if (!leads_to_light_ || runs_into_light_) {
+      density = continuations_.density(at, before, direction, event, back_.target) *
+                back_.to_vertex_measure();
+    }
+    return leads_to_light_ && !is_discrete(event) ? density + sampled_ : density;
+  }
+
+  /// The first vertex beyond the light: `sampled_` and the way back from there.
+  void begin_backwards(const PathVertex& to) {
+    sampled_ = lights_.sampled.probability(index_);
+    if (emission_.kind == VertexKind::surface) {
+      sampled_ *= light_->pdf_point(to.position(), emission_.point) * back_.to_vertex_measure();
+    } else if (runs_into_light_) {
+      sampled_ *= light_->pdf_direction(back_.target.direction);
+    }
+    if (emission_.kind != VertexKind::environment) return;
+    back_.target.distance = kInfinity;
+    back_.target.position = scene_.environment_point(to.position(), back_.target.direction);
+  }
+
+  float roughness_of(const PathVertex& vertex) const {
+    return guiding_ == nullptr ? 1 : vertex.roughness(scene_);
+  }
+
+  const Scene& scene_;
+  LightChoices lights_;
+  const GuidingFrame* guiding_;
+  Continuations continuations_;
+  SubpathDensities densities_;
+  const Light* light_ = nullptr;
+  int index_ = 0;
+  EmissionSample emission_;
+  bool runs_into_light_ = false;  ///< whether steps can meet it
+  bool leads_to_light_ = false;   ///< whether `back_` does
+  double sampled_ = 0;            ///< density of light samples, in the measure of the light's end
+  Way back_;                      ///< from the last vertex to the one before
+};
+
+}  // namespace pharos
