@@ -96,9 +96,9 @@ constexpr bool green = false;
 
 }  // namespace
 
-// The first furnaces of, or all, in their order: by path tracing unguided, guided, half covered, roulette, glass in
-// fog, ball of fog; by light tracing; by both in a diffuse furnace, with glass in fog, a ball of
-// fog.
+// The first furnaces of, or all, in their order: by path tracing unguided, guided, half covered,
+// roulette, glass in fog, ball of fog; by light tracing; by both in a diffuse furnace, with glass
+// in fog, a ball of fog.
 
 TEST_CASE("no fault") {
   check_row("none", {green, green, green, green, green, green, green, green, green, green});
