@@ -56,7 +56,7 @@ TEST_CASE("experiments: scenes and methods") {
   check_refused(experiment(3, "  - { name: ball, config: rendr.yaml }"),
                 {"rendr.yaml", "did you mean 'render.yaml'?"});
   check_refused(experiment(3, "  - { name: ball, config: render.yaml, budget: {} }"),
-                {"bad.yaml:3:46: error: ", "'spp' or 'seconds'"});
+                {"bad.yaml:3:48: error: ", "'spp' or 'seconds'"});
   check_refused(experiment(3, "  - { name: a/b, config: render.yaml }"),
                 {"bad.yaml:3:13: error: ", "letters, digits"});
   check_refused(experiment(3, "  - { name: .., config: render.yaml }"), {"bad.yaml:3:13: error: "});

@@ -123,6 +123,14 @@ TEST_CASE("an experiment leaves tables, images, records and a report") {
         folder.path());
     CHECK(rendered_runs(more) == 4);
   }
+  SUBCASE("a scene may have a budget of the other kind") {
+    const Outcome mixed =
+        run_pharos("experiment test.yaml --set 'scenes.1.budget={ seconds: 0.05 }'", folder.path());
+    CHECK(mixed.exit_code == 0);
+    CHECK(rendered_runs(mixed) == 4);
+    CHECK(read_text(folder.path() / "test/report.html").find("0.05 s in flat") !=
+          std::string::npos);
+  }
   SUBCASE("a method's config lies below its settings: the same in either is not rendered again") {
     folder.write("preset.yaml", "sampler: sobol\n");
     const std::string config = "--set 'methods.1={ name: sobol, config: preset.yaml";
