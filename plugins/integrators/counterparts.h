@@ -65,8 +65,8 @@ class LightCounterparts {
                           densities_.ratio(density_beyond_light(pdf, here.kind, back_), at_light));
   }
 
-  /// The weight of a light sample at `here`, which scatters its light by `event`, and what is
-  /// sampled that way with density `scatter_pdf` [1/sr] by the BSDF or phase function.
+  /// The weight of a light sample at `here`, whose light is scattered by `event`; BSDF or phase
+  /// function would sample its direction with density `scatter_pdf` [1/sr].
   float of_light_sample(const Light& light, int index, const LightSample& sample, float scatter_pdf,
                         const Guidance& guidance, const PathVertex& here, Event event,
                         Rgb transmittance) const {
