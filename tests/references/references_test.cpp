@@ -95,8 +95,9 @@ TEST_CASE("reference: fog, with the fault that it has") {
   const std::string settings = "max_depth: 16, mis: power";
   const auto theirs = reference_of("fog");
   if (!theirs) return;
-  compare("fog", {"integrator={ type: faulty_path, fault: boundaries_count_as_origins, settings: { " +
-                  settings + " } }"});
+  compare("fog",
+          {"integrator={ type: faulty_path, fault: boundaries_count_as_origins, settings: { " +
+           settings + " } }"});
   const Renders ours = render_scene("fog", {"integrator={ type: path, " + settings + " }"});
   const auto result = statistics::compare_images(ours.side(), *theirs, {});
   const Ratio ratio = ratio_of(result.whole_image.a, result.whole_image.b);
