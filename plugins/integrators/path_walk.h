@@ -193,7 +193,6 @@ class PathWalk {
       counterparts_.advance(from, to, step, guidance_, segment.length, passage.transmittance);
     }
 
-    from_position_ = from.position();
     if (vertices_are_asked_for()) {
       previous_ = current_vertex_;
       if (!Counterparts::kExist) previous_.event = step.event;
@@ -250,9 +249,10 @@ class PathWalk {
 
   /// Where the step began that light was run into by.
   Point3 step_origin() const {
+    const Point3 from = arrivals_[1 - current_].position();
     return planted(PlantedFault::boundaries_count_as_origins)
-               ? last_boundary(scene_, from_position_, arrival().surface)
-               : from_position_;
+               ? last_boundary(scene_, from, arrival().surface)
+               : from;
   }
 
   /// Emission that the path ran into; `light_pdf()` is next event estimation's density of it, but
@@ -394,7 +394,6 @@ class PathWalk {
   std::array<PathVertex, 2> arrivals_;
   int current_ = 0;
   Vec3 towards_previous_;
-  Point3 from_position_;  ///< of the previous vertex
   bool arrived_discretely_ = true;
   StepDensity density_;  ///< of the step that led here
   GuidingVertex previous_, current_vertex_{.kind = VertexKind::sensor};
