@@ -30,7 +30,7 @@ std::optional<ResolvedVertex> Guided::draw(RandomStream& random) const {
   const auto [direction, event] = step(*proposal);
   if (event == Event::none) return std::nullopt;
   const auto reached = reach(vertex_.surface_along(direction, event), *proposal, random);
-  return reached && contains(proposal->targets, reached->kind) ? reached : std::nullopt;
+  return reached && proposal->accepts(reached->kind, reached->position) ? reached : std::nullopt;
 }
 
 bool Guided::scatters_into(Vec3 direction) const {

@@ -128,18 +128,27 @@ bool check_camera(const GuidingFrame& frame, const Scene& scene, std::uint64_t s
   const GuidingDistribution* guide = frame.query_camera(*sensor, lens, arena).distribution;
   if (guide == nullptr) return false;
   const KeyedSampler numbers;
+  const auto seen = [&](Vec3 direction) -> std::optional<ResolvedVertex> {
+    if (!sensor->response(lens, direction)) return std::nullopt;
+    SurfacePoint hit;
+    const float distance = scene.intersect({lens.position, direction}, hit);
+    return ResolvedVertex{
+        .direction = direction,
+        .distance = distance,
+        .position = hit.position,
+        .kind = std::isinf(distance) ? VertexKind::environment : VertexKind::surface,
+        .event = Event::smooth_reflect};
+  };
   const auto draw = [&](RandomStream& random) -> std::optional<Vec3> {
     const SampleStream stream(numbers, {.seed = 78, .index = random()});
     const auto proposal = guide->propose(VertexStream(stream, 0));
-    const bool on_film = proposal && sensor->response(lens, proposal->direction);
-    return on_film ? std::optional(proposal->direction) : std::nullopt;
+    const auto first = proposal ? seen(proposal->direction) : std::nullopt;
+    if (!first || !proposal->accepts(first->kind, first->position)) return std::nullopt;
+    return first->direction;
   };
   const auto density = [&](Vec3 direction) -> double {
-    if (!sensor->response(lens, direction)) return 0;
-    SurfacePoint hit;
-    const float distance = scene.intersect({lens.position, direction}, hit);
-    return guide->density({.direction = direction, .distance = distance, .position = hit.position})
-        .value;
+    const auto first = seen(direction);
+    return first ? guide->density(*first).value : 0;
   };
   test_directions({draw, density, "from the lens", 0, 1e-3, 40'000}, seed, chi_square, integral);
   return true;
@@ -148,7 +157,8 @@ bool check_camera(const GuidingFrame& frame, const Scene& scene, std::uint64_t s
 bool same(const std::optional<Proposal>& a, const std::optional<Proposal>& b) {
   if (!a || !b) return a.has_value() == b.has_value();
   return a->direction == b->direction && a->events == b->events && a->reach == b->reach &&
-         a->distance == b->distance && a->targets == b->targets;
+         a->distance == b->distance && a->targets == b->targets &&
+         (a->within == nullptr) == (b->within == nullptr);
 }
 
 /// Two guides that must be alike: the same answers at every vertex of a scene.

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 
+#include <pharos/core/bounds.h>
 #include <pharos/core/vec.h>
 #include <pharos/sampling/sampler.h>
 #include <pharos/scene/events.h>
@@ -33,6 +34,11 @@ constexpr bool contains(TargetMask set, VertexKind kind) {
   }
 }
 
+/// Whether a vertex of this kind is among `targets`, and in the box, if there is one.
+inline bool is_target(TargetMask targets, const Bounds3* within, VertexKind kind, Point3 position) {
+  return contains(targets, kind) && (within == nullptr || within->contains(position));
+}
+
 /// What a guide proposes for the next vertex.
 struct Proposal {
   /// Who decides how far the path goes along `direction`.
@@ -49,6 +55,13 @@ struct Proposal {
   Reach reach = Reach::medium;
   float distance = 0;                    ///< for Reach::distance [scene units]
   TargetMask targets = TargetMask::all;  ///< another kind of next vertex is a zero sample
+  const Bounds3* within = nullptr; /**< so is a next vertex outside this box, which lives as long as
+                                        the guide; null: anywhere */
+
+  /// Whether a next vertex like this is one that was proposed.
+  bool accepts(VertexKind kind, Point3 position) const {
+    return is_target(targets, within, kind, position);
+  }
 };
 
 /// A next vertex as it was found: by tracing a proposal or an unguided sample, by next event

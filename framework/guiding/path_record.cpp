@@ -26,7 +26,7 @@ std::uint32_t PathLog::add(const RecordedVertex& vertex) {
 void PathLog::blacken_last_path() {
   for (std::size_t i = paths_.back().first_vertex; i < vertices_.size(); ++i) {
     vertices_[i].throughput = vertices_[i].local_weight = Rgb();
-    vertices_[i].emission = vertices_[i].full_emission = Rgb();
+    vertices_[i].emission = vertices_[i].full_emission = vertices_[i].joint_emission = Rgb();
   }
   light_samples_.resize(paths_.back().first_light_sample);
 }
@@ -37,7 +37,8 @@ void PathLog::clear() {
   light_samples_.clear();
 }
 
-void estimate_incident_radiance(const PathView& path, std::vector<Rgb>& out) {
+void estimate_incident_radiance(const PathView& path, std::vector<Rgb>& out, WeightedAmong among) {
+  const bool jointly = among == WeightedAmong::both_ends;
   const std::size_t count = path.vertices.size();
   out.assign(count, Rgb());
   // Children stand after their parents, and light samples in order of their vertices: one
@@ -45,9 +46,11 @@ void estimate_incident_radiance(const PathView& path, std::vector<Rgb>& out) {
   std::size_t light = path.light_samples.size();
   for (std::size_t i = count; i-- > 0;) {
     const RecordedVertex& vertex = path.vertices[i];
-    Rgb leaving = vertex.emission + vertex.local_weight * out[i];
+    Rgb leaving = jointly ? vertex.joint_emission : vertex.emission;
+    leaving += vertex.local_weight * out[i];
     for (; light > 0 && path.light_samples[light - 1].vertex == i; --light) {
-      leaving += path.light_samples[light - 1].contribution;
+      const RecordedLightSample& sample = path.light_samples[light - 1];
+      leaving += jointly ? sample.joint_contribution : sample.contribution;
     }
     if (vertex.parent != kNoVertex) out[vertex.parent] += leaving;
   }

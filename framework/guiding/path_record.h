@@ -39,8 +39,9 @@ struct RecordedVertex {
   bool guidable = false;     ///< a guide was or could have been asked here
   float reverse_pdf = 0;     ///< of the step back to `parent`, on request
 
-  Rgb emission;       ///< radiance leaving here towards `parent`, times its MIS weight
-  Rgb full_emission;  ///< the same without MIS weight
+  Rgb emission;        ///< radiance leaving here towards `parent`, times its MIS weight
+  Rgb full_emission;   ///< the same without MIS weight
+  Rgb joint_emission;  ///< the same times its MIS weight among paths from both ends
 
   /// The density that the step was drawn with.
   float pdf() const {
@@ -48,23 +49,27 @@ struct RecordedVertex {
   }
 };
 
-/// Light found from a vertex by next event estimation.
+/// Light found from a vertex by next event estimation. Of paths from lights: the lens found from a
+/// vertex.
 struct RecordedLightSample {
   std::uint32_t vertex = 0;  ///< index within the path of the vertex it was found from
   RecordedVertex light;      ///< the light's end as a full vertex; parent = `vertex`
   Vec3 direction;            ///< unit, from the vertex
   Rgb contribution;          ///< f/p of the connection times its MIS weight, without throughput
+  Rgb joint_contribution;    ///< the same, times that among paths from both ends
   float mis_weight = 1;
   float light_pdf = 0;        ///< of the light sample [1/sr]; the choice of light included
   float scattering_pdf = 0;   ///< of reaching it by scattering, guide included [1/sr]
   Event event = Event::none;  ///< what the connection is at the vertex
 };
 
-/// One recorded path. Spans are valid as long as the log.
+/// One recorded path. Spans are valid as long as the log. What a path stands for is its part of the
+/// mean over all pixels, whichever end it begins at: throughputs begin with 1 at the lens, and with
+/// power at a light.
 struct PathView {
   std::span<const RecordedVertex> vertices;  ///< [0] lies on the lens (or on the light)
   std::span<const RecordedLightSample> light_samples;
-  Vec2 film;  ///< film position [pixels]
+  Vec2 film;  ///< film position [pixels]; of paths from lights that of their key
   Transport transport = Transport::radiance;
 };
 
@@ -107,10 +112,18 @@ class PathLog {
   std::vector<RecordedLightSample> light_samples_;
 };
 
+/// What MIS weights add up to one over.
+enum class WeightedAmong {
+  own_end,   ///< the ways of paths from the same end
+  both_ends  ///< the ways of all paths, from the sensor and from lights
+};
+
 /// For each vertex i of a path an estimate of the radiance that arrives there along the step the
 /// path took: the emission met (MIS-weighted), next event estimates at later vertices, and all
 /// that follows. Next event estimates at i itself are not part of it. Black where no step was
-/// taken. The full-path contribution through the step is throughput * local_weight * this.
-void estimate_incident_radiance(const PathView& path, std::vector<Rgb>& out);
+/// taken. The full-path contribution through the step is throughput * local_weight * this. Of paths
+/// from lights it is importance in place of radiance.
+void estimate_incident_radiance(const PathView& path, std::vector<Rgb>& out,
+                                WeightedAmong among = WeightedAmong::own_end);
 
 }  // namespace pharos

@@ -8,7 +8,8 @@ bool accept(const LocalScattering& scattering, const Proposal& proposal, Scatter
   step = {.direction = proposal.direction,
           .reach = proposal.reach,
           .distance = proposal.distance,
-          .targets = proposal.targets};
+          .targets = proposal.targets,
+          .within = proposal.within};
   if (is_empty(proposal.events & EventMask::smooth)) {
     for (const DiscreteOutcome& outcome : scattering.discrete()) {
       if (!contains(proposal.events, outcome.event)) continue;

@@ -17,6 +17,12 @@ struct ScatterStep {
   Proposal::Reach reach = Proposal::Reach::medium;
   float distance = 0;  ///< for Reach::distance [scene units]
   TargetMask targets = TargetMask::all;
+  const Bounds3* within = nullptr;  ///< where the next vertex must lie; null: anywhere
+
+  /// Whether a next vertex like this is one that the step was for.
+  bool accepts(VertexKind kind, Point3 position) const {
+    return is_target(targets, within, kind, position);
+  }
 };
 
 /// The densities of a step once its next vertex is known.
@@ -41,6 +47,7 @@ inline bool sample_unguided_step(const LocalScattering& scattering, const Vertex
   step.unguided_weight = sample->weight;
   step.reach = Proposal::Reach::medium;
   step.targets = TargetMask::all;
+  step.within = nullptr;
   return true;
 }
 

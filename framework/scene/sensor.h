@@ -29,6 +29,9 @@ struct SensorConnection {
   Vec2 film;           ///< normalised film position that it belongs to
   float pdf = 0;       ///< density of rays of uniform film positions across a surface at the point
                   ///< that faces them [1/m^2]: what the pixels together make of light from there
+
+  /// Density of directions from the lens when film positions are uniform [1/sr].
+  float direction_pdf() const { return pdf * square(distance); }
 };
 
 /// A sensor for a film of given size: constant, thread-safe. Film positions are normalised to

@@ -7,8 +7,7 @@
 #include <fmt/format.h>
 
 #include <pharos/core/binary_stream.h>
-
-#include "seen_gaussian.h"
+#include <pharos/guiding/seen_gaussian.h>
 
 namespace pharos::gaussians {
 namespace {

@@ -5,8 +5,7 @@
 #include <limits>
 
 #include <pharos/core/parallel.h>
-
-#include "ray_integrals.h"
+#include <pharos/guiding/ray_integrals.h>
 
 namespace pharos::gaussians {
 namespace {

@@ -6,8 +6,7 @@
 #include <cstring>
 
 #include <pharos/core/warp.h>
-
-#include "ray_integrals.h"
+#include <pharos/guiding/ray_integrals.h>
 
 namespace pharos::gaussians {
 namespace {

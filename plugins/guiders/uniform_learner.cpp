@@ -20,6 +20,7 @@ class UniformState final : public LearningState {
   void absorb(const PathLog& log) override {
     for (std::size_t i = 0; i < log.size(); ++i) {
       const PathView path = log[i];
+      if (path.transport != Transport::radiance) continue;
       estimate_incident_radiance(path, incident_);
       for (std::size_t k = 0; k < path.vertices.size(); ++k) {
         // Where no guide will ever be asked there is nothing to learn. Steps that met no light

@@ -7,13 +7,17 @@
 //
 // One model guides both kinds of path, if its guider can: the densities of either, guides included,
 // count in the weights of the other. Guides learn from the paths that start at the lens, as in
-// `path`. There is no Russian roulette: its probabilities would have to be known from the other
-// end.
+// `path`, or from both if they ask for light paths. There is no Russian roulette: its probabilities
+// would have to be known from the other end.
 //
-//     integrator: { type: bidirectional, max_depth: 12 }
+//     integrator:
+//       type: bidirectional
+//       max_depth: 12
+//       light_paths: always    # always | training: the final image then is that of `path`
 
 #include "bidirectional.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <pharos/core/error.h>
@@ -37,12 +41,23 @@ PathSettings path_settings(const BidirectionalIntegrator::Settings& settings) {
   return path;
 }
 
+/// Whether a learner wants to hear of paths from lights.
+bool records_light_paths(const std::optional<GuidingSettings>& guiding) {
+  if (!guiding) return false;
+  const std::vector<GuidingMethod> methods = guiding->resolved_methods();
+  return std::any_of(methods.begin(), methods.end(), [](const GuidingMethod& method) {
+    return method.learns() && method.learner->traits().records.light_paths;
+  });
+}
+
 class PreparedBidirectional final : public PreparedIntegrator {
  public:
   PreparedBidirectional(const BidirectionalIntegrator::Settings& settings,
                         const RenderTarget& target)
       : target_(target),
         settings_(path_settings(settings)),
+        light_paths_(settings.light_paths),
+        records_light_paths_(records_light_paths(settings.guiding)),
         sampled_(target.scene, settings.light_selection),
         emitting_(target.scene, LightSelection::one),
         from_lens_{target_, settings_, sampled_},
@@ -50,13 +65,18 @@ class PreparedBidirectional final : public PreparedIntegrator {
 
   void render(const WorkUnit& unit, const IterationContext& context,
               WorkResult& result) const override {
-    Splats splats(settings_.max_depth);
     Arenas arenas;
-    if (context.record) {
+    if (!context.record) {
+      SilentRecorder recorder;
+      Splats splats(settings_.max_depth);
+      render_unit(unit, context, arenas, recorder, splats, result);
+    } else if (records_light_paths_) {
       LogRecorder recorder(result.log);
+      RecordedSplats splats(settings_.max_depth, result.log);
       render_unit(unit, context, arenas, recorder, splats, result);
     } else {
-      SilentRecorder recorder;
+      LogRecorder recorder(result.log);
+      Splats splats(settings_.max_depth);
       render_unit(unit, context, arenas, recorder, splats, result);
     }
   }
@@ -69,7 +89,7 @@ class PreparedBidirectional final : public PreparedIntegrator {
     RenderCounters counters;
     const SampleStream stream(context.sampler, key);
     const PathSample sample = walk_from_lens(stream, context, arenas, counters, recorder);
-    walk_from_light(stream, context, arenas, counters, teller);
+    if (traces_light(context)) walk_from_light(stream, context, arenas, counters, teller);
     const PathTrace light = teller.trace();
     return {sample.radiance + light.radiance,
             "from the lens, weighted among its own ways:\n" + path_text(log[0], sample.radiance) +
@@ -82,15 +102,21 @@ class PreparedBidirectional final : public PreparedIntegrator {
     Arena forward, backward;
   };
 
-  template <class Recorder>
+  /// Whether paths start at lights: in training they always do.
+  bool traces_light(const IterationContext& context) const {
+    return context.record || light_paths_ == LightPaths::always;
+  }
+
+  template <class Recorder, class Listener>
   void render_unit(const WorkUnit& unit, const IterationContext& context, Arenas& arenas,
-                   Recorder& recorder, Splats& splats, WorkResult& result) const {
+                   Recorder& recorder, Listener& splats, WorkResult& result) const {
     for_each_path(unit, context, target_.width, result,
                   [&](const PathKey& key, const SampleStream& stream) {
                     const PathSample sample =
                         walk_from_lens(stream, context, arenas, result.counters, recorder);
-                    result.film.add_sample(sample.film, checked(sample.radiance, key, result),
-                                           sample.features);
+                    deposit(sample, target_, key, result);
+                    if (!traces_light(context)) return;
+                    splats.begin();
                     walk_from_light(stream, context, arenas, result.counters, splats);
                     splats.deposit(key, result);
                   });
@@ -99,6 +125,10 @@ class PreparedBidirectional final : public PreparedIntegrator {
   template <class Recorder>
   PathSample walk_from_lens(const SampleStream& stream, const IterationContext& context,
                             Arenas& arenas, RenderCounters& counters, Recorder& recorder) const {
+    if (!traces_light(context)) {
+      return PathWalk(from_lens_, context, stream, arenas.forward, counters, recorder)
+          .run(settings_.max_depth);
+    }
     PathWalk walk(from_lens_, context, stream, arenas.forward, counters, recorder,
                   LightCounterparts(target_, choices_, context.guiding,
                                     stream.get_2d({Purpose::lens}), arenas.backward));
@@ -109,12 +139,14 @@ class PreparedBidirectional final : public PreparedIntegrator {
   void walk_from_light(const SampleStream& stream, const IterationContext& context, Arenas& arenas,
                        RenderCounters& counters, Listener& listener) const {
     LightWalk(from_lights_, context, stream, arenas.forward, counters, listener,
-              CameraCounterparts(target_.scene, choices_, context.guiding, arenas.backward))
+              CameraCounterparts(target_, choices_, context.guiding, arenas.backward))
         .run();
   }
 
   RenderTarget target_;
   PathSettings settings_;
+  LightPaths light_paths_;
+  bool records_light_paths_;
   LightSelector sampled_, emitting_;
   LightChoices choices_{sampled_, emitting_};
   PathScene from_lens_;
@@ -130,11 +162,16 @@ void BidirectionalIntegrator::Settings::describe(Schema<Settings>& s) {
       .at_most(kFirstLightBounce - 1);
   s.field("light_selection", &Settings::light_selection,
           "Which lights a vertex samples: one in proportion to power, or all");
+  s.field("light_paths", &Settings::light_paths,
+          "Whether paths start at lights always, or for the training of guides alone: the final "
+          "image then is that of path tracing");
   s.field("guiding", &Settings::guiding, "What is learned and how it is used");
 }
 
 IntegratorTraits BidirectionalIntegrator::traits() const {
-  return {.records = {.light_samples = true}, .guided = true};
+  return {.records = {.light_samples = true, .light_paths = true},
+          .guided = true,
+          .guided_camera = true};
 }
 
 const GuidingSettings* BidirectionalIntegrator::guiding() const {

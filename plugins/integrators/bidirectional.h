@@ -1,11 +1,22 @@
 #pragma once
 
+#include <array>
 #include <optional>
+#include <string_view>
+#include <utility>
 
 #include <pharos/rendering/integrator.h>
 #include <pharos/rendering/light_selection.h>
 
 namespace pharos {
+
+/// When paths start at lights.
+enum class LightPaths { always, training };
+template <>
+struct EnumNames<LightPaths> {
+  static constexpr std::array<std::pair<std::string_view, LightPaths>, 2> names{
+      {{"always", LightPaths::always}, {"training", LightPaths::training}}};
+};
 
 /// The plugin `bidirectional`; see bidirectional.cpp.
 class BidirectionalIntegrator final : public Integrator {
@@ -13,6 +24,7 @@ class BidirectionalIntegrator final : public Integrator {
   struct Settings {
     std::uint16_t max_depth = 12;
     LightSelection light_selection = LightSelection::one;
+    LightPaths light_paths = LightPaths::always;
     std::optional<GuidingSettings> guiding;
     static void describe(Schema<Settings>& s);
   };

@@ -36,6 +36,7 @@ class LightCounterparts {
         lights_(lights),
         guiding_(guiding),
         u_lens_(u_lens),
+        first_steps_(target.sensor, guiding, arena),
         continuations_(target.scene, guiding, Transport::importance, arena) {}
 
   /// The path has gone from one vertex to the next.
@@ -87,18 +88,20 @@ class LightCounterparts {
  private:
   /// The first vertex beyond the lens, which light paths must be seen from.
   void begin(const PathVertex& lens, const PathVertex& to, const Way& there) {
-    densities_.extend(first_density(lens, to, there) * there.target.medium_density, 0);
+    const LensPoint lens_point{lens.position(), lens.surface.normal};
+    densities_.extend(first_steps_.density(lens_point, there, direction_pdf(lens_point, to, there)),
+                      0);
   }
 
-  double first_density(const PathVertex& lens, const PathVertex& to, const Way& there) const {
+  /// Of the first direction, when film positions are uniform [1/sr].
+  float direction_pdf(const LensPoint& lens, const PathVertex& to, const Way& there) const {
     const PreparedSensor& sensor = target_.sensor;
     if (to.kind == VertexKind::environment) {
-      const auto seen =
-          sensor.response({lens.position(), lens.surface.normal}, there.target.direction);
+      const auto seen = sensor.response(lens, there.target.direction);
       return seen ? seen->direction_pdf : 0;
     }
     const auto way = sensor.connect(to.position(), u_lens_);
-    return way ? double{way->pdf} * there.cosine : 0;
+    return way ? way->direction_pdf() : 0;
   }
 
   /// The density, in vertex measure, of light paths going on from `at`, when they come from
@@ -117,6 +120,7 @@ class LightCounterparts {
   LightChoices lights_;
   const GuidingFrame* guiding_;
   Vec2 u_lens_;
+  FirstSteps first_steps_;
   Continuations continuations_;
   SubpathDensities densities_;
   /// Density of the last step [1/sr], to volumes [1/(sr m)]; of steps from the lens nobody asks.
@@ -129,12 +133,13 @@ class CameraCounterparts {
  public:
   static constexpr bool kExist = true;
 
-  CameraCounterparts(const Scene& scene, const LightChoices& lights, const GuidingFrame* guiding,
-                     Arena& arena)
-      : scene_(scene),
+  CameraCounterparts(const RenderTarget& target, const LightChoices& lights,
+                     const GuidingFrame* guiding, Arena& arena)
+      : scene_(target.scene),
         lights_(lights),
         guiding_(guiding),
-        continuations_(scene, guiding, Transport::radiance, arena) {}
+        first_steps_(target.sensor, guiding, arena),
+        continuations_(target.scene, guiding, Transport::radiance, arena) {}
 
   /// The path begins with this emission.
   void begin(const Light& light, int index, const EmissionSample& emission) {
@@ -168,8 +173,13 @@ class CameraCounterparts {
     if (begins) begin_backwards(to);
   }
 
-  /// The weight of the light itself, seen directly with density `seen` [1/m^2] or [1/sr].
-  float of_light_seen(double seen) const { return balance_weight(densities_.ratio(0, seen)); }
+  /// The weight of the light itself at `here`, seen from the lens in `direction`.
+  float of_light_seen(const PathVertex& here, const LensPoint& lens, Vec3 direction, float distance,
+                      float direction_pdf, Rgb transmittance) const {
+    const Way from_lens = way_to(here, direction, distance, transmittance);
+    return balance_weight(
+        densities_.ratio(0, first_steps_.density(lens, from_lens, direction_pdf)));
+  }
 
   /// The weight of being seen through `way` from `here`, which scatters light that way by `event`.
   float of_connection(const PathVertex& here, const SensorConnection& way, Event event,
@@ -178,7 +188,7 @@ class CameraCounterparts {
     const PathVertex lens{.surface = {.position = way.lens.position,
                                       .normal = way.lens.normal,
                                       .shading = {.n = way.lens.normal}}};
-    const double seen = double{way.pdf} * from_lens.cosine * from_lens.target.medium_density;
+    const double seen = first_steps_.density(way.lens, from_lens, way.direction_pdf());
     return balance_weight(
         densities_.ratio(onwards(here, lens.described(), way.direction, event), seen));
   }
@@ -217,6 +227,7 @@ class CameraCounterparts {
   const Scene& scene_;
   LightChoices lights_;
   const GuidingFrame* guiding_;
+  FirstSteps first_steps_;
   Continuations continuations_;
   SubpathDensities densities_;
   const Light* light_ = nullptr;

@@ -20,13 +20,25 @@ struct LightScene {
   std::uint16_t first_bounce = 0;  ///< number of the light's vertex in the stream's dimensions
 };
 
+/// What a LightWalk reports to, call by call along the path; others replace what they want to hear.
+struct SilentLightListener {
+  /// A vertex is reached, that on the light too.
+  void arrive(const PathVertex&, Rgb /*throughput*/) {}
+  /// The step from the last vertex, with its f/p.
+  void step(const ScatterStep&, Rgb /*weight*/) {}
+  /// The lens sees the last vertex, which scatters light there by the event: f/p without
+  /// throughput, part of the mean over all pixels, and its MIS weight.
+  void connection(const LensPoint&, Vec3 /*direction*/, Event, Rgb /*value*/, float /*weight*/) {}
+  /// What comes to the film [pixels], as FilmTile::add_splat() wants it.
+  void contribute(Vec2 /*film*/, Rgb /*contribution*/) {}
+};
+
 /// One path from a light, vertex by vertex, each of which is seen by the sensor:
 ///
 ///     emission -> see the light -> [ advance -> connect to the lens -> step ] until it ends
 ///
-/// `Listener` has `void contribute(Vec2 film, Rgb contribution)`, with positions in pixels and
-/// contributions as FilmTile::add_splat() wants them, and `void arrive(VertexKind, Point3, Rgb
-/// throughput)`. `Counterparts` know what else could have made the path.
+/// `Listener` hears of it (SilentLightListener). `Counterparts` know what else could have made the
+/// path.
 template <class Listener, class Counterparts = NoCounterparts>
 class LightWalk {
  public:
@@ -75,20 +87,20 @@ class LightWalk {
         numbers().get_2d(Purpose::light_position), numbers().get_2d(Purpose::bsdf_direction));
     if (!(emission.pdf.direction > 0) || !(chosen > 0)) return false;
     start(emission);
-    if constexpr (Counterparts::kExist) counterparts_.begin(light, index, emission);
-    if (emission.kind == VertexKind::environment) {
-      show_environment(light, emission, chosen);
-    } else if (emission.kind == VertexKind::surface) {
-      show_surface(light, emission, chosen);
-    }
-    if (shared_.max_depth < 2) return false;
     // What fills all of space has to be crossed from infinitely far away.
     if (emission.kind == VertexKind::environment && here().medium != nullptr) {
       before_scene_ =
           here().medium->transmittance({here().position(), -emission.direction}, kInfinity);
     }
     throughput_ = before_scene_ * emission.weight / chosen;
-    if (is_black(throughput_)) return false;
+    listener_.arrive(here(), throughput_);
+    if constexpr (Counterparts::kExist) counterparts_.begin(light, index, emission);
+    if (emission.kind == VertexKind::environment) {
+      show_environment(light, emission, chosen);
+    } else if (emission.kind == VertexKind::surface) {
+      show_surface(light, emission, chosen);
+    }
+    if (shared_.max_depth < 2 || is_black(throughput_)) return false;
     step.direction = emission.direction;
     step.event = Event::smooth_reflect;
     step.value = step.unguided_weight = Rgb(1);
@@ -102,7 +114,6 @@ class LightWalk {
     light.surface = emission.point;
     light.medium =
         scene_.has_media() ? scene_.medium_at(light.origin_towards(emission.direction)) : nullptr;
-    listener_.arrive(light.kind, light.position(), Rgb(1));
   }
 
   /// An area light as it is seen from the lens.
@@ -118,7 +129,8 @@ class LightWalk {
     const Rgb transmittance = passage.transmittance;
     float weight = 1;
     if constexpr (Counterparts::kExist) {
-      weight = counterparts_.of_light_seen(double{way->pdf} * cosine * mean(transmittance));
+      weight = counterparts_.of_light_seen(here(), way->lens, -way->direction, way->distance,
+                                           way->direction_pdf(), transmittance);
     }
     contribute(way->film, weight * way->pdf * cosine / (emission.pdf.position * chosen) *
                               transmittance * radiance);
@@ -138,7 +150,8 @@ class LightWalk {
     const Rgb transmittance = passage.transmittance;
     float weight = 1;
     if constexpr (Counterparts::kExist) {
-      weight = counterparts_.of_light_seen(double{seen->direction_pdf} * mean(transmittance));
+      weight = counterparts_.of_light_seen(here(), lens, towards, kInfinity, seen->direction_pdf,
+                                           transmittance);
     }
     contribute(seen->film, weight * seen->direction_pdf / (emission.pdf.direction * chosen) *
                                transmittance * light.environment_radiance(towards));
@@ -158,12 +171,14 @@ class LightWalk {
     Passage passage;
     if (!look(*way, throughput_ * value, passage)) return;
     const Rgb transmittance = passage.transmittance;
+    const Event event = scattering_->smooth_event(way->direction);
     float weight = 1;
     if constexpr (Counterparts::kExist) {
-      weight = counterparts_.of_connection(here(), *way, scattering_->smooth_event(way->direction),
-                                           transmittance);
+      weight = counterparts_.of_connection(here(), *way, event, transmittance);
     }
-    contribute(way->film, weight * way->pdf * transmittance * throughput_ * value);
+    const Rgb seen = way->pdf * transmittance * value;
+    listener_.connection(way->lens, way->direction, event, seen, weight);
+    contribute(way->film, weight * throughput_ * seen);
   }
 
   /// Fills in what is between here and the lens, for light of this strength; false when something
@@ -193,11 +208,13 @@ class LightWalk {
     Segment segment;
     const bool arrives = tracer_.trace(ray, from.medium_towards(scene_, step.direction), step,
                                        throughput_ * step.value, numbers(), segment, to.surface);
-    if (!arrives || !contains(step.targets, segment.kind)) return false;
+    if (!arrives || !step.accepts(segment.kind, to.position())) return false;
     to.kind = segment.kind;
     to.medium = segment.medium;
     const Passage& passage = segment.passage;
-    weight_step(step, segment, to);
+    const Rgb weight = weight_of(step, segment, to);
+    throughput_ *= weight;
+    listener_.step(step, weight);
     if (is_black(throughput_) || to.kind == VertexKind::environment) return false;
     if constexpr (Counterparts::kExist) {
       counterparts_.advance(
@@ -207,16 +224,14 @@ class LightWalk {
     towards_previous_ = -step.direction;
     current_ = 1 - current_;
     ++bounce_;
-    listener_.arrive(here().kind, here().position(), throughput_);
+    listener_.arrive(here(), throughput_);
     return true;
   }
 
-  void weight_step(const ScatterStep& step, const Segment& segment, const PathVertex& to) {
+  /// f/p of a step.
+  Rgb weight_of(const ScatterStep& step, const Segment& segment, const PathVertex& to) const {
     const Passage& passage = segment.passage;
-    if (guidance_.distribution == nullptr && !scene_.has_media()) {
-      throughput_ *= step.unguided_weight;
-      return;
-    }
+    if (guidance_.distribution == nullptr && !scene_.has_media()) return step.unguided_weight;
     const StepDensity density = step_density(guidance_,
                                              {.direction = step.direction,
                                               .distance = segment.length,
@@ -225,7 +240,7 @@ class LightWalk {
                                               .event = step.event,
                                               .medium_density = passage.medium_density},
                                              step.unguided_pdf);
-    throughput_ *= density.total > 0 ? step.value * passage.transmittance / density.total : Rgb();
+    return density.total > 0 ? step.value * passage.transmittance / density.total : Rgb();
   }
 
   // --- scattering -----------------------------------------------------------------------------

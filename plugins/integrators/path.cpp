@@ -65,19 +65,8 @@ class PreparedPath final : public PreparedIntegrator {
                     const PathSample sample = walk.run(settings_.max_depth);
                     const bool dropped =
                         planted(PlantedFault::zero_samples_dropped) && is_black(sample.radiance);
-                    if (!dropped) deposit(sample, key, result);
+                    if (!dropped) deposit(sample, target_, key, result);
                   });
-  }
-
-  /// Puts a path's value on the film. NaN and infinity are counted and count as zero.
-  static void deposit(PathSample sample, const PathKey& key, WorkResult& result) {
-    sample.radiance = checked(sample.radiance, key, result);
-    if (sample.splat) {
-      result.film.add_splat(sample.film, sample.radiance);
-      result.film.add_features(sample.film, sample.features);
-    } else {
-      result.film.add_sample(sample.film, sample.radiance, sample.features);
-    }
   }
 
   RenderTarget target_;

@@ -9,6 +9,12 @@
 
 namespace pharos {
 
+/// MIS weights of one way to make a path.
+struct PathWeight {
+  float own_end = 1;    ///< among the ways of paths from the sensor
+  float both_ends = 1;  ///< among those of all paths
+};
+
 /// What a PathWalk reports to, call by call along the path. Nobody listens here: everything
 /// compiles to nothing. Other recorders replace what they want to hear.
 struct SilentRecorder {
@@ -18,8 +24,8 @@ struct SilentRecorder {
   void lens(const LensPoint&, Vec2) {}
   void film(Vec2) {}
   void arrival(const GuidingVertex&, Rgb) {}
-  void emission(Rgb, float) {}
-  void light(const LightSample&, Event, const StepDensity&, float, Rgb, Rgb) {}
+  void emission(Rgb, PathWeight) {}
+  void light(const LightSample&, Event, const StepDensity&, PathWeight, Rgb, Rgb) {}
   void scattering(const LocalScattering&, float, const Guidance&) {}
   void step(const ScatterStep&, const StepDensity&, const Guidance&, Rgb, const ResolvedVertex&,
             Rgb) {}
@@ -56,14 +62,15 @@ class LogRecorder {
   void film(Vec2 film) { log_.set_film(film); }
 
   /// Emission of the vertex and its MIS weight.
-  void emission(Rgb radiance, float mis_weight) {
-    current().emission += mis_weight * radiance;
+  void emission(Rgb radiance, PathWeight weight) {
+    current().emission += weight.own_end * radiance;
     current().full_emission += radiance;
+    current().joint_emission += weight.both_ends * radiance;
   }
 
-  /// Light found by next event estimation; `contribution` without throughput.
-  void light(const LightSample& light, Event event, const StepDensity& density, float mis_weight,
-             Rgb contribution, Rgb) {
+  /// Light found by next event estimation; `value` is f/p of the connection, without throughput.
+  void light(const LightSample& light, Event event, const StepDensity& density, PathWeight weight,
+             Rgb value, Rgb) {
     log_.add({.vertex = current_,
               .light = {.position = light.point.position,
                         .normal = light.point.normal,
@@ -72,8 +79,9 @@ class LogRecorder {
                         .parent = current_,
                         .emission = light.radiance},
               .direction = light.direction,
-              .contribution = contribution,
-              .mis_weight = mis_weight,
+              .contribution = weight.own_end * value,
+              .joint_contribution = weight.both_ends * value,
+              .mis_weight = weight.own_end,
               .light_pdf = light.pdf,
               .scattering_pdf = density.total,
               .event = event});
@@ -116,9 +124,9 @@ class LogRecorder {
 /// Keeps the contribution of the last light sample, throughput included, for the integrand probe.
 class LightProbeRecorder : public SilentRecorder {
  public:
-  void light(const LightSample&, Event, const StepDensity&, float, Rgb contribution,
+  void light(const LightSample&, Event, const StepDensity&, PathWeight weight, Rgb value,
              Rgb throughput) {
-    last_ = throughput * contribution;
+    last_ = throughput * (weight.own_end * value);
   }
   /// That contribution; black where there was none since take() was called last.
   Rgb take() { return std::exchange(last_, Rgb()); }

@@ -13,16 +13,9 @@
 #include "path_recorder.h"
 #include "path_settings.h"
 #include "planted_fault.h"
+#include "unit_paths.h"
 
 namespace pharos {
-
-/// What one path found.
-struct PathSample {
-  Rgb radiance;
-  Vec2 film;  ///< [pixels]
-  Features features;
-  bool splat = false;  ///< the camera was guided: `radiance` is a splat's contribution
-};
 
 /// One path from the sensor, vertex by vertex:
 ///
@@ -151,15 +144,14 @@ class PathWalk {
       step.reach = proposal->reach;
       step.distance = proposal->distance;
       step.targets = proposal->targets;
+      step.within = proposal->within;
     }
     const std::optional<SensorResponse> response = sensor.response(lens, step.direction);
     if (!response) return false;
     result_.film = {response->film.x * size.x, response->film.y * size.y};
     recorder_.film(result_.film);
     step.unguided_pdf = response->direction_pdf;
-    const auto pixels = static_cast<float>(shared_.target.window.area());
-    step.value = Rgb(response->direction_pdf * pixels);
-    step.unguided_weight = Rgb(pixels);
+    step.value = Rgb(response->direction_pdf);
     return true;
   }
 
@@ -174,7 +166,7 @@ class PathWalk {
     const bool arrives =
         tracer_.trace(ray, from.medium_towards(scene_, step.direction), step,
                       throughput_ * step.value, {stream_, bounce_}, segment, to.surface);
-    if (!arrives || !contains(step.targets, segment.kind)) return false;
+    if (!arrives || !step.accepts(segment.kind, to.position())) return false;
     Passage& passage = segment.passage;
     if (planted(PlantedFault::distance_density_forgotten)) passage.medium_density = 1;
     to.kind = segment.kind;
@@ -269,7 +261,7 @@ class PathWalk {
       whole_weight = counterparts_.of_emission(light, index, arrival(), sampled);
     }
     radiance_ += whole_weight * throughput_ * radiance;
-    recorder_.emission(radiance, weight);
+    recorder_.emission(radiance, {weight, whole_weight});
   }
 
   void add_light_samples() {
@@ -315,7 +307,7 @@ class PathWalk {
                                         resolved.event, passage.transmittance);
     }
     radiance_ += whole_weight * throughput_ * value;
-    recorder_.light(light, resolved.event, density, weight, weight * value, throughput_);
+    recorder_.light(light, resolved.event, density, {weight, whole_weight}, value, throughput_);
   }
 
   bool pass(const Ray& shadow, const Medium* medium, Rgb throughput, Passage& passage) const {

@@ -109,6 +109,35 @@ class Continuations {
   Arena& arena_;
 };
 
+/// How densely paths from the lens begin, a guide of first vertices included.
+class FirstSteps {
+ public:
+  /// `guiding` may be null. `arena` is reset by every call.
+  FirstSteps(const PreparedSensor& sensor, const GuidingFrame* guiding, Arena& arena)
+      : sensor_(sensor),
+        guiding_(guiding != nullptr && guiding->guides_camera() ? guiding : nullptr),
+        arena_(arena) {}
+
+  /// The density, in vertex measure, of the first vertex that `to` leads to from this point of the
+  /// lens, if that of its direction is `direction_pdf` [1/sr] where film positions are uniform.
+  double density(const LensPoint& lens, const Way& to, float direction_pdf) const {
+    double density = double{direction_pdf} * to.target.medium_density;
+    if (guiding_ != nullptr && direction_pdf > 0) {
+      arena_.reset();
+      ResolvedVertex first = to.target;
+      first.event = Event::smooth_reflect;
+      density =
+          step_density(guiding_->query_camera(sensor_, lens, arena_), first, direction_pdf).total;
+    }
+    return density * to.to_vertex_measure();
+  }
+
+ private:
+  const PreparedSensor& sensor_;
+  const GuidingFrame* guiding_;
+  Arena& arena_;
+};
+
 /// The product of densities of all vertices of a subpath, backward over forward, but for the last
 /// two vertices: what comes next decides on their backward densities.
 class SubpathDensities {

@@ -4,6 +4,14 @@
 
 namespace pharos {
 
+/// What one path found.
+struct PathSample {
+  Rgb radiance;
+  Vec2 film;  ///< [pixels]
+  Features features;
+  bool splat = false;  ///< the camera was guided: the path may be of any pixel
+};
+
 /// Calls `trace(key, stream)` for every path of a work unit, in a fixed order, and counts them on
 /// the film.
 template <class Trace>
@@ -35,6 +43,19 @@ inline Rgb checked(Rgb radiance, const PathKey& key, WorkResult& result) {
   reject(key, result);
   if (result.log.size() > 0) result.log.blacken_last_path();
   return {};
+}
+
+/// Puts a path's value on the film. NaN and infinity are counted and count as zero.
+inline void deposit(PathSample sample, const RenderTarget& target, const PathKey& key,
+                    WorkResult& result) {
+  sample.radiance = checked(sample.radiance, key, result);
+  if (sample.splat) {
+    const auto pixels = static_cast<float>(target.window.area());
+    result.film.add_splat(sample.film, pixels * sample.radiance);
+    result.film.add_features(sample.film, sample.features);
+  } else {
+    result.film.add_sample(sample.film, sample.radiance, sample.features);
+  }
 }
 
 }  // namespace pharos

@@ -72,6 +72,7 @@ class LearnedState final : public MixingState {
   void absorb(const PathLog& log) override {
     for (std::size_t i = 0; i < log.size(); ++i) {
       const PathView path = log[i];
+      if (path.transport != Transport::radiance) continue;
       estimate_incident_radiance(path, incident_);
       for (std::size_t k = 0; k < path.vertices.size(); ++k) {
         const RecordedVertex& vertex = path.vertices[k];

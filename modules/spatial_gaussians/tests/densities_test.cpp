@@ -5,11 +5,11 @@
 #include <boost/math/quadrature/gauss.hpp>
 #include <doctest/doctest.h>
 
+#include <pharos/guiding/ray_integrals.h>
+#include <pharos/guiding/seen_gaussian.h>
 #include <pharos/statistics/goodness_of_fit.h>
 #include <pharos/statistics/quadrature.h>
 
-#include "../ray_integrals.h"
-#include "../seen_gaussian.h"
 #include "../seen_mixture.h"
 #include "test_gaussians.h"
 

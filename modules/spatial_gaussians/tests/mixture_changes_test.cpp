@@ -5,8 +5,8 @@
 #include <doctest/doctest.h>
 
 #include <pharos/core/warp.h>
+#include <pharos/guiding/seen_gaussian.h>
 
-#include "../seen_gaussian.h"
 #include "test_gaussians.h"
 
 namespace pharos::gaussians {

@@ -4,8 +4,8 @@
 #include <pharos/guiding/spatial_mixture.h>
 
 /// One Gaussian as it is seen from a point, in double precision: the readable form of the
-/// densities, which pictures and tests use. Guiders ask eight components at once (seen_mixture.h).
-namespace pharos::gaussians {
+/// densities. (The guiders of module spatial_gaussians ask eight components at once.)
+namespace pharos {
 
 /// The density p0 of the directions from `origin` to points of a Gaussian [1/sr]; integrates to one
 /// over the sphere (Lelyakin et al. 2025, eq. 2).
@@ -21,4 +21,4 @@ double flipped_density(const SpatialGaussian& gaussian, Point3 origin, Vec3 dire
 /// origin, integrates to one. Not defined in the mean itself: 0 there.
 double projected_density(const SpatialGaussian& gaussian, Point3 origin, Vec3 direction);
 
-}  // namespace pharos::gaussians
+}  // namespace pharos

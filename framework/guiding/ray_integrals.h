@@ -8,7 +8,7 @@
 /// al. 2025, eq. 1 to 3), in whitened space. There the Gaussian is a unit one at distance m from
 /// the origin, and a direction has the component u of the way to its centre: its square is m^2 less
 /// the squared distance at which the ray passes the centre.
-namespace pharos::gaussians {
+namespace pharos {
 
 /// h(x) = int_0^inf r^2 e^(-r^2 / 2 - x r) dr = (1 + x^2) sqrt(pi / 2) erfcx(x / sqrt 2) - x for
 /// x >= 0, relative error below 1e-9. Beyond 16 its asymptotic series, as small differences of
@@ -63,4 +63,4 @@ struct Rays8 {
   }
 };
 
-}  // namespace pharos::gaussians
+}  // namespace pharos

@@ -1,13 +1,12 @@
-#include "seen_gaussian.h"
-
 #include <array>
 #include <cmath>
 
 #include <Eigen/Core>
 
-#include "ray_integrals.h"
+#include <pharos/guiding/ray_integrals.h>
+#include <pharos/guiding/seen_gaussian.h>
 
-namespace pharos::gaussians {
+namespace pharos {
 namespace {
 
 /// A direction or a mean, in world space or whitened: L^-1 x for the covariance L L^T.
@@ -74,4 +73,4 @@ double projected_density(const SpatialGaussian& gaussian, Point3 origin, Vec3 di
   return std::exp(-0.5 * squared) * d * d / (2 * EIGEN_PI * determinant * cosine * cosine * cosine);
 }
 
-}  // namespace pharos::gaussians
+}  // namespace pharos

@@ -1,0 +1,68 @@
+#include "guider.h"
+
+#include "first_distribution.h"
+#include "triplet_model.h"
+
+namespace pharos::triplets {
+namespace {
+
+class BoundTripletGuider final : public BoundGuider, public CameraGuider {
+ public:
+  BoundTripletGuider(std::shared_ptr<const TripletModel> model,
+                     const TripletGuiderSettings& settings)
+      : model_(std::move(model)),
+        rules_{settings.surfaces, settings.specular_roughness},
+        guides_camera_(settings.guide_camera) {}
+
+  const GuidingDistribution* query(const GuidingQuery& query, Arena& arena) const override {
+    const std::span<const NextVertex> next =
+        model_->next_vertices(query, query.scattering.events(), arena);
+    if (next.empty()) return nullptr;
+    const std::uint32_t cell = model_->region_at(query.current.position);
+    constexpr float kLeastDistance = 1e-6f;  // of the cell's edge
+    return NextDistribution::make(next, query.scattering, query.current.position, rules_,
+                                  kLeastDistance * model_->cell_size(cell), cell, arena);
+  }
+
+  const CameraGuider* camera() const override {
+    return guides_camera_ && !model_->camera().empty() ? this : nullptr;
+  }
+  const GuidingDistribution* query_camera(const PreparedSensor&, const LensPoint& lens,
+                                          Arena& arena) const override {
+    return arena.make<FirstDistribution>(model_->camera(), lens.position);
+  }
+
+ private:
+  std::shared_ptr<const TripletModel> model_;
+  StepRules rules_;
+  bool guides_camera_;
+};
+
+}  // namespace
+
+void TripletGuiderSettings::describe(Schema<TripletGuiderSettings>& s) {
+  s.field("surfaces", &TripletGuiderSettings::surfaces,
+          "How directions to surfaces and the environment are made from Gaussians: projected on a "
+          "plane (the paper), or to their points (p0, p1)");
+  s.field("specular_roughness", &TripletGuiderSettings::specular_roughness,
+          "Below this square root of GGX alpha, or of 1 - |g|, directions are more and more left "
+          "to BSDF and phase function")
+      .above(0);
+  s.field("guide_camera", &TripletGuiderSettings::guide_camera,
+          "Whether first vertices, and so pixels, are guided");
+}
+
+GuiderTraits TripletGuider::traits() const {
+  return {.model = TripletModel::kName,
+          .steers_distance = true,
+          .steers_events = true,
+          .guides_camera = settings_.guide_camera,
+          .guides_light_paths = true};
+}
+
+std::unique_ptr<const BoundGuider> TripletGuider::bind(
+    std::shared_ptr<const GuidingModel> model) const {
+  return std::make_unique<BoundTripletGuider>(bind_model<TripletModel>(model, *this), settings_);
+}
+
+}  // namespace pharos::triplets

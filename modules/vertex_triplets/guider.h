@@ -1,0 +1,32 @@
+#pragma once
+
+#include <memory>
+
+#include <pharos/guiding/guider.h>
+
+#include "next_distribution.h"
+
+namespace pharos::triplets {
+
+struct TripletGuiderSettings {
+  SurfaceTechnique surfaces = SurfaceTechnique::projected;
+  float specular_roughness = 0.2f;
+  bool guide_camera = true;
+  static void describe(Schema<TripletGuiderSettings>& schema);
+};
+
+/// Samples models of vertex triplets or pairs: next vertices on surfaces and in media, discrete
+/// events, distances, and first vertices (Schuessler et al. 2022, section 5).
+class TripletGuider final : public Guider {
+ public:
+  using Settings = TripletGuiderSettings;
+  explicit TripletGuider(const Settings& settings) : settings_(settings) {}
+
+  GuiderTraits traits() const override;
+  std::unique_ptr<const BoundGuider> bind(std::shared_ptr<const GuidingModel> model) const override;
+
+ private:
+  Settings settings_;
+};
+
+}  // namespace pharos::triplets

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include <pharos/config/schema.h>
+#include <pharos/guiding/learner.h>
+
+#include "triplet.h"
+
+namespace pharos::triplets {
+
+/// Parameters of the method; the README says where they come from.
+struct TripletSettings {
+  Prefix vertices = Prefix::triplet;
+  bool light_paths = false;
+  std::uint32_t cells = 64;
+  std::uint32_t components = 32;
+  std::uint32_t reservoir = 1024;
+  float jitter = 0.2f;
+  float single_deviation = 0.1f;
+  float least_deviation = 1e-4f;
+  int em_iterations = 50;
+  double em_tolerance = 1e-3;
+  float environment_distance = 5;
+
+  static void describe(Schema<TripletSettings>& schema);
+};
+
+/// Learns where whole paths go on to, given where they come from (Schuessler et al. 2022).
+class TripletLearner final : public Learner {
+ public:
+  using Settings = TripletSettings;
+  /// Throws InputError for pairs of paths from lights, which would not know their way back.
+  explicit TripletLearner(const Settings& settings);
+
+  LearnerTraits traits() const override;
+  std::unique_ptr<LearningState> begin(const LearningContext& context) const override;
+  std::shared_ptr<const GuidingModel> load_model(std::istream& in) const override;
+
+ private:
+  Settings settings_;
+};
+
+}  // namespace pharos::triplets
+
+namespace pharos {
+template <>
+struct EnumNames<triplets::Prefix> {
+  static constexpr std::array<std::pair<std::string_view, triplets::Prefix>, 2> names{
+      {{"pairs", triplets::Prefix::pair}, {"triplets", triplets::Prefix::triplet}}};
+};
+}  // namespace pharos

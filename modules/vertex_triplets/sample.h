@@ -1,0 +1,38 @@
+#pragma once
+
+#include <iosfwd>
+#include <vector>
+
+#include <pharos/guiding/path_record.h>
+
+#include "triplet.h"
+
+namespace pharos::triplets {
+
+/// A triplet of a recorded path with the sum of f/p of the path's completions through it: their
+/// luminance, part of the mean over all pixels, each way by its MIS weight among the ways that
+/// samples are taken of (Schuessler et al. 2022, eq. 32).
+struct Sample {
+  Triplet triplet;
+  float weight = 0;  ///< > 0
+
+  void save(std::ostream& out) const;
+  /// Throws InputError when it is damaged.
+  static Sample load(std::istream& in);
+};
+
+/// Which samples are taken.
+struct SampleRule {
+  EnvironmentShell environment;
+  bool light_paths = false;  ///< of paths from lights too, and lights that no step can meet
+};
+
+/// Appends the samples of a path. `incident` is scratch memory, kept from call to call.
+void extract_samples(const PathView& path, const SampleRule& rule, std::vector<Rgb>& incident,
+                     std::vector<Sample>& samples);
+
+void save_triplet(const Triplet& triplet, std::ostream& out);
+/// Throws InputError when it is damaged.
+Triplet load_triplet(std::istream& in);
+
+}  // namespace pharos::triplets

@@ -1,0 +1,407 @@
+#include <cmath>
+#include <map>
+
+#include <doctest/doctest.h>
+
+#include <pharos/sampling/keyed_numbers.h>
+#include <pharos/statistics/goodness_of_fit.h>
+#include <pharos/statistics/quadrature.h>
+
+#include "../first_distribution.h"
+#include "../next_distribution.h"
+#include "test_gaussians.h"
+
+namespace pharos::triplets {
+namespace {
+
+using namespace testing;
+
+/// Independent numbers.
+class Numbers final : public PreparedSampler {
+ public:
+  std::uint64_t begin(const PathKey& key) const override { return hash_key(key); }
+  float value_1d(const SampleStream& stream, Dimension dimension) const override {
+    return keyed_numbers(stream.state(), dimension).x;
+  }
+  Vec2 value_2d(const SampleStream& stream, Dimension dimension) const override {
+    return keyed_numbers(stream.state(), dimension);
+  }
+};
+
+std::optional<Proposal> propose(const GuidingDistribution& guide, RandomStream& random) {
+  static const Numbers numbers;
+  const SampleStream stream(numbers, {.seed = 5, .index = random()});
+  return guide.propose(VertexStream(stream, 1));
+}
+
+/// A phase function that scatters ahead, in a cone; its mean cosine is stated apart.
+class Cone final : public PhaseFunction {
+ public:
+  explicit Cone(float stated_cosine) : stated_cosine_(stated_cosine) {}
+  float evaluate(Vec3 wo, Vec3 wi) const override {
+    return 1 - dot(-wo, wi) <= kOneMinusCos ? warp::cone_pdf(kOneMinusCos) : 0.0f;
+  }
+  Vec3 sample(Vec3 wo, Vec2 u) const override {
+    return Frame::from_normal(-wo).to_world(warp::cone_from_square(u, kOneMinusCos));
+  }
+  float mean_cosine() const override { return stated_cosine_; }
+
+ private:
+  static constexpr float kOneMinusCos = 0.02f;
+  float stated_cosine_;
+};
+
+/// Reflects and transmits as a mirror and a window do.
+class Pane final : public Bsdf {
+ public:
+  EventMask events() const override { return EventMask::discrete; }
+  ScatterValue evaluate(const SurfacePoint&, Vec3, Vec3, ScatterOptions) const override {
+    return {};
+  }
+  std::optional<ScatterSample> sample(const SurfacePoint&, Vec3, float, Vec2,
+                                      ScatterOptions) const override {
+    return std::nullopt;
+  }
+  DiscreteOutcomes discrete(const SurfacePoint&, Vec3 wo, ScatterOptions) const override {
+    DiscreteOutcomes outcomes;
+    outcomes.add({Event::discrete_reflect, {-wo.x, -wo.y, wo.z}, Rgb(0.3f), 0.3f});
+    outcomes.add({Event::discrete_transmit, -wo, Rgb(0.7f), 0.7f});
+    return outcomes;
+  }
+  float roughness(const SurfacePoint&) const override { return 0; }
+  Rgb albedo(const SurfacePoint&) const override { return Rgb(1); }
+};
+
+constexpr Vec3 kBack{0, 0, -1};  // where the path came from: it flies along +z
+
+NextVertex next_vertex(const Gaussian<3>& g, float share, Event event, VertexKind kind) {
+  return {spatial(g, share), event, kind};
+}
+
+/// The mixture at the origin, in a medium of roughness 1 - g.
+struct InMedium {
+  InMedium(std::vector<NextVertex> next, float mean_cosine, StepRules rules = {})
+      : vertices(std::move(next)),
+        phase(mean_cosine),
+        scattering(phase, Rgb(1), kBack, Transport::radiance),
+        guide(NextDistribution::make(vertices, scattering, {}, rules, 0, 0, arena)) {}
+
+  std::vector<NextVertex> vertices;
+  Cone phase;
+  LocalScattering scattering;
+  Arena arena;
+  const NextDistribution* guide;
+};
+
+statistics::DensityFit fit_directions(const NextDistribution& guide, VertexKind kind) {
+  const auto draw = [&](RandomStream& random) -> std::optional<Vec3> {
+    const auto proposal = propose(guide, random);
+    const bool fits = proposal && contains(proposal->targets, kind);
+    return fits ? std::optional(proposal->direction) : std::nullopt;
+  };
+  const auto density = [&](Vec3 direction) -> double {
+    return guide
+        .density({.direction = direction, .distance = 1, .kind = kind, .event = Event::scatter})
+        .value;
+  };
+  return statistics::fit_direction_density(draw, density);
+}
+
+std::vector<Gaussian<3>> any_gaussians(int count, std::uint64_t seed) {
+  std::vector<Gaussian<3>> result;
+  RandomStream random(seed);
+  for (int i = 0; i < count; ++i) {
+    result.push_back(any_gaussian<3>(random, 0.5, 0.2));
+    result.back().mean += Vector<3>(0.2, -0.3, 2);
+  }
+  return result;
+}
+
+TEST_CASE("on surfaces: directions follow their density, which integrates to one (2D)") {
+  for (const auto technique :
+       {SurfaceTechnique::projected, SurfaceTechnique::p0, SurfaceTechnique::p1}) {
+    std::vector<NextVertex> next;
+    for (const auto& g : any_gaussians(4, 1)) {
+      next.push_back(next_vertex(g, 0.25f, Event::scatter, VertexKind::surface));
+    }
+    const InMedium at(next, 0, {.technique = technique});
+    const auto fit = fit_directions(*at.guide, VertexKind::surface);
+    CAPTURE(static_cast<int>(technique));
+    CHECK(fit.is_density());
+    CHECK(fit.missed == 0);
+    CHECK(fit.integral == doctest::Approx(1).epsilon(1e-3));
+    CHECK(fit.chi_square.p_value > 1e-4);
+  }
+}
+
+TEST_CASE("near specular: shares of the phase function and of the Gaussians (eq. 22 to 25)") {
+  std::vector<NextVertex> next;
+  for (const auto& g : any_gaussians(3, 2)) {
+    next.push_back(next_vertex(g, 1.0f / 3, Event::scatter, VertexKind::surface));
+  }
+  const float g = 0.99f;  // r = 0.1: half of all
+  const InMedium at(next, g), rough(next, 0.9f), straight(next, 0.99999999f);
+  const auto fit = fit_directions(*at.guide, VertexKind::surface);
+  CHECK(fit.is_density());
+  CHECK(fit.integral == doctest::Approx(1).epsilon(2e-3));
+  CHECK(fit.chi_square.p_value > 1e-4);
+  RandomStream random(3);
+  for (int i = 0; i < 100; ++i) {
+    const Vec3 direction = warp::cone_from_square(random.next_2d(), 0.3f);
+    const auto density = [&](const InMedium& where) {
+      return where.guide->density({.direction = direction, .event = Event::scatter}).value;
+    };
+    const float phase = at.phase.evaluate(kBack, direction);
+    CHECK(density(at) == doctest::Approx(0.5f * (phase + density(rough))).epsilon(1e-3));
+  }
+}
+
+/// All of `density` over the distance along a direction.
+double over_distances(const NextDistribution& guide, Vec3 direction, Event event) {
+  constexpr int kSteps = 400;
+  constexpr double kReach = 8;
+  double sum = 0;
+  for (int i = 0; i < kSteps; ++i) {
+    const auto t = static_cast<float>((i + 0.5) * kReach / kSteps);
+    sum += guide
+               .density({.direction = direction,
+                         .distance = t,
+                         .position = t * direction,
+                         .kind = VertexKind::volume,
+                         .event = event})
+               .value *
+           kReach / kSteps;
+  }
+  return sum;
+}
+
+TEST_CASE("in media: points follow their density, by Gaussians and along scattered rays") {
+  for (const float g : {0.0f, 0.99f}) {
+    std::vector<NextVertex> next;
+    for (const auto& gaussian : any_gaussians(3, 4)) {
+      next.push_back(next_vertex(gaussian, 1.0f / 3, Event::scatter, VertexKind::volume));
+    }
+    const InMedium at(next, g);
+    int proposals = 0;
+    const auto draw = [&](RandomStream& random) -> std::optional<Vec3> {
+      const auto proposal = propose(*at.guide, random);
+      if (!proposal) return std::nullopt;
+      CHECK(proposal->reach == Proposal::Reach::distance);
+      CHECK(proposal->distance > 0);
+      proposals += 1;
+      return proposal->direction;
+    };
+    const auto density = [&](Vec3 direction) {
+      return over_distances(*at.guide, direction, Event::scatter);
+    };
+    const auto fit = statistics::fit_direction_density(
+        draw, density, {.draws = 40'000, .cells = 60, .quadrature_tolerance = 1e-3});
+    CAPTURE(g);
+    CHECK(proposals > 39'000);
+    CHECK(fit.is_density(3e-3));
+    CHECK(fit.integral + fit.missed == doctest::Approx(1).epsilon(5e-3));
+    CHECK(fit.chi_square.p_value > 1e-4);
+  }
+}
+
+TEST_CASE("truncated Gaussians: points follow their density, which integrates to one (3D)") {
+  RandomStream random(5);
+  for (int run = 0; run < 3; ++run) {
+    const SpatialGaussian g = spatial(any_gaussian<3>(random, 2, 0.1));
+    // Whitened points: equally likely parts of each axis, and the density at their middles.
+    constexpr int kParts = 6;
+    constexpr int kDraws = 60'000;
+    std::vector<double> observed(kParts * kParts * kParts, 0);
+    const auto part_of = [](double z) {
+      const double u = 0.5 * std::erfc(-z / std::sqrt(2.0));
+      return std::min(kParts - 1, static_cast<int>(u * kParts));
+    };
+    for (int i = 0; i < kDraws; ++i) {
+      const Vec2 u = random.next_2d();
+      const Point3 p = truncated_point(g, u, random.next_1d());
+      CHECK(box_around(g).contains(p));
+      const Vec3 d = p - g.mean;
+      const auto z = whitened(g, {d.x, d.y, d.z});
+      ++observed[(part_of(z[0]) * kParts + part_of(z[1])) * kParts + part_of(z[2])];
+    }
+    const std::vector<double> expected(observed.size(),
+                                       kDraws / static_cast<double>(observed.size()));
+    CHECK(statistics::chi_square_test(observed, expected).p_value > 1e-4);
+    constexpr int kSteps = 80;
+    constexpr double kStep = 2.0 * kTruncation / kSteps;
+    double integral = 0;
+    for (int i = 0; i < kSteps * kSteps * kSteps; ++i) {
+      const auto z = [&](int rest) {
+        return static_cast<float>((rest % kSteps + 0.5) * kStep - kTruncation);
+      };
+      const Point3 p = g.mean + spread(g, {z(i), z(i / kSteps), z(i / kSteps / kSteps)});
+      integral += truncated_density(g, p) * root_determinant(g) * kStep * kStep * kStep;
+    }
+    CHECK(integral == doctest::Approx(1).epsilon(1e-4));
+    CHECK(truncated_density(g, g.mean + spread(g, {0, 4.001f, 0})) == 0);
+  }
+}
+
+TEST_CASE("distances along rays: the Gaussian's own, cut and normalised (1D)") {
+  RandomStream random(6);
+  int possible = 0;
+  for (int run = 0; run < 200; ++run) {
+    const SpatialGaussian g = spatial(any_gaussian<3>(random, 1, 0.2));
+    const Vec3 direction = warp::sphere_from_square(random.next_2d());
+    const DistancesAlong distances(g, {}, direction);
+    if (!distances.is_possible()) continue;
+    ++possible;
+    constexpr int kSteps = 4000;
+    constexpr double kReach = 12;
+    double integral = 0, log_ratio = 0;
+    for (int i = 0; i < kSteps; ++i) {
+      const auto t = static_cast<float>((i + 0.5) * kReach / kSteps);
+      const double p = distances.density(t);
+      integral += p * kReach / kSteps;
+      // Along the ray it is the 3D density but for a factor.
+      const Vec3 d = t * direction - g.mean;
+      const auto z = whitened(g, {d.x, d.y, d.z});
+      const double exponent = -0.5 * (z[0] * z[0] + z[1] * z[1] + z[2] * z[2]);
+      if (p > 0 && log_ratio == 0) log_ratio = std::log(p) - exponent;
+      if (p > 0) CHECK(std::log(p) - exponent == doctest::Approx(log_ratio).epsilon(1e-3));
+    }
+    CHECK(integral == doctest::Approx(1).epsilon(2e-2));
+    if (run >= 20) continue;
+    std::vector<float> drawn(20'000);
+    for (float& t : drawn) t = distances.sample(random.next_1d());
+    const auto [low, high] = std::minmax_element(drawn.begin(), drawn.end());
+    constexpr int kParts = 20, kInPart = 200;
+    std::vector<double> observed(kParts, 0), expected(kParts, 0);
+    const double width = (*high - *low) / kParts;
+    for (const float t : drawn) {
+      ++observed[static_cast<std::size_t>(std::min(kParts - 1.0, std::floor((t - *low) / width)))];
+    }
+    double all = 0;
+    for (int i = 0; i < kParts * kInPart; ++i) {
+      const double p = distances.density(static_cast<float>(*low + (i + 0.5) * width / kInPart));
+      expected[i / kInPart] += p;
+      all += p;
+    }
+    for (double& count : expected) count *= static_cast<double>(drawn.size()) / all;
+    CHECK(statistics::chi_square_test(observed, expected).p_value > 1e-4);
+  }
+  CHECK(possible > 100);
+  // Never behind the origin.
+  const SpatialGaussian ahead = spatial({Vector<3>(0, 0, 0.5), Matrix<3>::Identity()});
+  const DistancesAlong around(ahead, {}, {0, 0, 1});
+  for (int i = 0; i < 1000; ++i) CHECK(around.sample(random.next_1d()) > 0);
+  const SpatialGaussian behind = spatial({Vector<3>(0, 0, -9), Matrix<3>::Identity()});
+  CHECK(!DistancesAlong(behind, {}, {0, 0, 1}).is_possible());
+}
+
+TEST_CASE("discrete events: each as often as its components' shares, distances included") {
+  const auto gaussians = any_gaussians(3, 8);
+  const std::vector<NextVertex> next{
+      next_vertex(gaussians[0], 0.35f, Event::discrete_reflect, VertexKind::surface),
+      next_vertex(gaussians[1], 0.25f, Event::discrete_reflect, VertexKind::surface),
+      next_vertex(gaussians[2], 0.4f, Event::discrete_transmit, VertexKind::volume)};
+  const Pane pane;
+  const SurfacePoint surface{.normal = {0, 0, -1}, .shading = Frame::from_normal({0, 0, -1})};
+  const Vec3 back = normalize(Vec3{0.1f, -0.15f, -1});
+  const LocalScattering scattering(surface, pane, back, Transport::radiance);
+  Arena arena;
+  const auto* guide = NextDistribution::make(next, scattering, {}, {}, 0, 0, arena);
+  REQUIRE(guide != nullptr);
+  const auto reflected = guide->density(
+      {.distance = 1, .kind = VertexKind::surface, .event = Event::discrete_reflect});
+  CHECK(reflected.value == doctest::Approx(0.6f));
+  CHECK(reflected.measure == Measure::discrete);
+  CHECK(guide->density({.kind = VertexKind::environment, .event = Event::discrete_reflect}).value ==
+        0);
+  CHECK(over_distances(*guide, -back, Event::discrete_transmit) ==
+        doctest::Approx(0.4).epsilon(1e-2));
+  RandomStream random(9);
+  std::map<EventMask, int> counts;
+  for (int i = 0; i < 20'000; ++i) {
+    const auto proposal = propose(*guide, random);
+    REQUIRE(proposal);
+    ++counts[proposal->events];
+  }
+  const std::vector<double> observed{
+      static_cast<double>(counts[mask_of(Event::discrete_reflect)]),
+      static_cast<double>(counts[mask_of(Event::discrete_transmit)])};
+  CHECK(statistics::chi_square_test(observed, std::vector<double>{12'000, 8'000}).p_value > 1e-4);
+}
+
+TEST_CASE("projections: seen from their own means there is no direction") {
+  const SpatialGaussian g = spatial({Vector<3>(0, 0, 0), Matrix<3>::Identity()});
+  const std::vector<NextVertex> next{{g, Event::scatter, VertexKind::surface}};
+  const Cone phase(0);
+  const LocalScattering scattering(phase, Rgb(1), kBack, Transport::radiance);
+  Arena arena;
+  CHECK(NextDistribution::make(next, scattering, {}, {}, 1e-6f, 0, arena) == nullptr);
+  CHECK(NextDistribution::make(next, scattering, {}, {.technique = SurfaceTechnique::p0}, 1e-6f, 0,
+                               arena) != nullptr);
+}
+
+// --- the camera
+// ------------------------------------------------------------------------------------
+
+CameraMixture wall_mixture(int count) {
+  std::vector<FirstVertex> components;
+  RandomStream random(11);
+  for (int i = 0; i < count; ++i) {
+    Gaussian<3> g = any_gaussian<3>(random, 0.3, 0.2);
+    g.mean = Vector<3>(4 * random.next_1d() - 2, 4 * random.next_1d() - 2, 3);
+    components.push_back({spatial(g, 1.0f / static_cast<float>(count)), VertexKind::surface});
+  }
+  return CameraMixture(std::move(components));
+}
+
+TEST_CASE("camera: the hierarchy finds all components around a point") {
+  for (const int count : {0, 1, 4, 5, 100, 3000}) {
+    const CameraMixture mixture = wall_mixture(count);
+    RandomStream random(12);
+    for (int i = 0; i < 200; ++i) {
+      const Vec2 u = random.next_2d();
+      const Point3 p{5 * u.x - 2.5f, 5 * u.y - 2.5f, 2 + 2 * random.next_1d()};
+      std::vector<std::size_t> found, expected;
+      mixture.for_each_around(p, [&](std::size_t k) { found.push_back(k); });
+      for (std::size_t k = 0; k < mixture.size(); ++k) {
+        if (box_around(mixture[k].gaussian).contains(p)) expected.push_back(k);
+      }
+      std::sort(found.begin(), found.end());
+      CHECK(found == expected);
+    }
+  }
+}
+
+TEST_CASE(
+    "camera: what is met on a wall follows its density (2D), outside of boxes it is nothing") {
+  const CameraMixture mixture = wall_mixture(12);
+  const Point3 lens{0.1f, 0.2f, -1};
+  const FirstDistribution guide(mixture, lens);
+  const auto seen = [&](Vec3 direction) -> std::optional<ResolvedVertex> {
+    if (!(direction.z > 0)) return std::nullopt;
+    // A wall that leans: some of it lies outside the boxes.
+    const float t = (3 - lens.z) / (direction.z + 0.4f * direction.x);
+    if (!(t > 0)) return std::nullopt;
+    return ResolvedVertex{.direction = direction,
+                          .distance = t,
+                          .position = lens + t * direction,
+                          .event = Event::smooth_reflect};
+  };
+  const auto draw = [&](RandomStream& random) -> std::optional<Vec3> {
+    const auto proposal = propose(guide, random);
+    const auto first = proposal ? seen(proposal->direction) : std::nullopt;
+    if (!first || !proposal->accepts(first->kind, first->position)) return std::nullopt;
+    return proposal->direction;
+  };
+  const auto density = [&](Vec3 direction) -> double {
+    const auto first = seen(direction);
+    return first ? guide.density(*first).value : 0;
+  };
+  const auto fit = statistics::fit_direction_density(draw, density);
+  CHECK(fit.outside_support == 0);
+  CHECK(fit.missed > 0.001);
+  CHECK(fit.integral + fit.missed == doctest::Approx(1).epsilon(4e-3));
+  CHECK(fit.chi_square.p_value > 1e-4);
+}
+
+}  // namespace
+}  // namespace pharos::triplets

@@ -1,0 +1,307 @@
+#include "../learner.h"
+
+#include <cmath>
+#include <sstream>
+
+#include <doctest/doctest.h>
+#include <tbb/global_control.h>
+
+#include <pharos/core/error.h>
+#include <pharos/core/random.h>
+
+#include "../sample.h"
+#include "../triplet_model.h"
+
+namespace pharos::triplets {
+namespace {
+
+const SampleRule kRule{.environment = {100}};
+
+std::vector<Sample> samples_of(const PathLog& log, const SampleRule& rule = kRule) {
+  std::vector<Sample> samples;
+  std::vector<Rgb> incident;
+  for (std::size_t i = 0; i < log.size(); ++i) extract_samples(log[i], rule, incident, samples);
+  return samples;
+}
+
+/// lens -> glass -> floor -> environment, with a light sample at the floor.
+PathLog path_from_sensor() {
+  PathLog log;
+  log.begin_path({}, Transport::radiance);
+  log.add(RecordedVertex{.position = {0, 0, 5},
+                         .kind = VertexKind::sensor,
+                         .throughput = Rgb(1),
+                         .direction = {0, 0, -1}});
+  log.add(RecordedVertex{.position = {0, 0, 1},
+                         .event = Event::discrete_transmit,
+                         .parent = 0,
+                         .throughput = Rgb(2),
+                         .local_weight = Rgb(0.5f),
+                         .direction = {0, 0, -1},
+                         .emission = Rgb(7)});
+  log.add(RecordedVertex{.position = {0, 0, 0},
+                         .event = Event::smooth_reflect,
+                         .parent = 1,
+                         .throughput = Rgb(1),
+                         .local_weight = Rgb(0.25f),
+                         .direction = {0, 1, 0}});
+  log.add(RecordedVertex{.position = {0, 55, 0},
+                         .kind = VertexKind::environment,
+                         .parent = 2,
+                         .throughput = Rgb(0.25f),
+                         .emission = Rgb(8),
+                         .joint_emission = Rgb(4)});
+  log.add(RecordedLightSample{.vertex = 2,
+                              .light = {.position = {3, 0, 1}, .kind = VertexKind::surface},
+                              .direction = {1, 0, 0},
+                              .contribution = Rgb(3),
+                              .joint_contribution = Rgb(1),
+                              .event = Event::smooth_reflect});
+  return log;
+}
+
+TEST_CASE("samples: each triplet once, with all that follows") {
+  const std::vector<Sample> samples = samples_of(path_from_sensor());
+  REQUIRE(samples.size() == 3);
+  // 2 * 0.5 * (0.25 * 8 + 3)
+  CHECK(samples[0].weight == doctest::Approx(5));
+  CHECK(samples[0].triplet.mode ==
+        Mode{VertexKind::sensor, Event::discrete_transmit, VertexKind::surface});
+  CHECK(samples[0].triplet.vertices[0] == Point3{0, 0, 5});
+  CHECK(samples[0].triplet.vertices[1] == Point3{0, 0, 1});
+  CHECK(samples[0].triplet.vertices[2] == Point3{0, 0, 0});
+  CHECK(samples[1].weight == doctest::Approx(2));
+  CHECK(samples[1].triplet.mode ==
+        Mode{VertexKind::surface, Event::smooth_reflect, VertexKind::environment});
+  CHECK(samples[1].triplet.vertices[2] == Point3{0, 100, 0});
+  CHECK(samples[2].weight == doctest::Approx(3));
+  CHECK(samples[2].triplet.vertices[2] == Point3{3, 0, 1});
+}
+
+TEST_CASE("samples: with light paths, weights are those among both ends") {
+  SampleRule rule = kRule;
+  rule.light_paths = true;
+  const std::vector<Sample> samples = samples_of(path_from_sensor(), rule);
+  REQUIRE(samples.size() == 3);
+  CHECK(samples[0].weight == doctest::Approx(2));  // 2 * 0.5 * (0.25 * 4 + 1)
+  CHECK(samples[1].weight == doctest::Approx(1));
+  CHECK(samples[2].weight == doctest::Approx(1));
+}
+
+/// environment -> floor -> wall, both seen from the lens.
+PathLog path_from_light() {
+  PathLog log;
+  log.begin_path({}, Transport::importance);
+  log.add(RecordedVertex{.position = {9, 9, 9},
+                         .kind = VertexKind::environment,
+                         .throughput = Rgb(10),
+                         .local_weight = Rgb(1),
+                         .direction = {0, -1, 0}});
+  log.add(RecordedVertex{.position = {1, 0, 0},
+                         .event = Event::smooth_reflect,
+                         .parent = 0,
+                         .throughput = Rgb(10),
+                         .local_weight = Rgb(0.5f),
+                         .direction = {1, 0, 0}});
+  log.add(RecordedVertex{.position = {2, 0, 0}, .parent = 1, .throughput = Rgb(5)});
+  const auto seen = [&](std::uint32_t vertex, float value) {
+    log.add(RecordedLightSample{.vertex = vertex,
+                                .light = {.position = {0, 0, 5}, .kind = VertexKind::sensor},
+                                .contribution = Rgb(2 * value),
+                                .joint_contribution = Rgb(value),
+                                .event = Event::smooth_reflect});
+  };
+  seen(1, 0.1f);
+  seen(2, 0.2f);
+  return log;
+}
+
+TEST_CASE("samples: paths from lights are read as if they came from the sensor") {
+  CHECK(samples_of(path_from_light()).empty());
+  SampleRule rule = kRule;
+  rule.light_paths = true;
+  const std::vector<Sample> samples = samples_of(path_from_light(), rule);
+  REQUIRE(samples.size() == 3);
+  CHECK(samples[0].weight == doctest::Approx(10 * 0.5 * 0.2));
+  CHECK(samples[0].triplet.mode ==
+        Mode{VertexKind::surface, Event::smooth_reflect, VertexKind::environment});
+  CHECK(samples[0].triplet.vertices[0] == Point3{2, 0, 0});
+  CHECK(samples[0].triplet.vertices[2] == Point3{1, 100, 0});
+  CHECK(samples[1].weight == doctest::Approx(10 * 0.1));
+  CHECK(samples[1].triplet.mode ==
+        Mode{VertexKind::sensor, Event::smooth_reflect, VertexKind::environment});
+  CHECK(samples[2].weight == doctest::Approx(5 * 0.2));
+  CHECK(samples[2].triplet.vertices[2] == Point3{1, 0, 0});
+}
+
+TEST_CASE("samples: lights without extent are for paths from lights alone; nothing of NaN") {
+  PathLog log;
+  log.begin_path({}, Transport::radiance);
+  log.add(RecordedVertex{.kind = VertexKind::sensor, .throughput = Rgb(1)});
+  log.add(RecordedVertex{.position = {0, 0, 1}, .parent = 0, .throughput = Rgb(1)});
+  RecordedLightSample point{.vertex = 1,
+                            .light = {.position = {1, 1, 1}, .kind = VertexKind::light},
+                            .contribution = Rgb(3),
+                            .joint_contribution = Rgb(3),
+                            .event = Event::smooth_reflect};
+  log.add(point);
+  point.light.kind = VertexKind::surface;
+  point.contribution = Rgb(std::nanf(""));
+  log.add(point);
+  CHECK(samples_of(log).empty());
+  CHECK(samples_of(log, {.environment = {1}, .light_paths = true}).size() == 2);
+}
+
+// --- learning ------------------------------------------------------------------------------------
+
+/// A mirror-like floor under a lens: light reaches (x, y) from where the lens is mirrored.
+PathLog mirror_paths(int count, std::uint64_t seed) {
+  PathLog log;
+  RandomStream random(seed);
+  for (int i = 0; i < count; ++i) {
+    const Vec2 u = random.next_2d(), v = random.next_2d();
+    const Point3 lens{v.x, v.y, 1}, floor{2 * u.x - 0.5f, 2 * u.y - 0.5f, 0};
+    const Vec3 in = floor - lens;
+    const Point3 ceiling = floor + Vec3{in.x, in.y, 1} + 0.02f * Vec3{random.next_1d(), 0, 0};
+    log.begin_path({}, Transport::radiance);
+    log.add(RecordedVertex{.position = lens, .kind = VertexKind::sensor, .throughput = Rgb(1)});
+    log.add(RecordedVertex{.position = floor,
+                           .event = Event::smooth_reflect,
+                           .parent = 0,
+                           .throughput = Rgb(1),
+                           .local_weight = Rgb(1),
+                           .direction = normalize(ceiling - floor)});
+    log.add(RecordedVertex{
+        .position = ceiling, .parent = 1, .emission = Rgb(1), .joint_emission = Rgb(1)});
+  }
+  return log;
+}
+
+LearningContext context() {
+  Bounds3 region;
+  region.add(Point3{-1.5f, -1.5f, 0});
+  region.add(Point3{2.5f, 2.5f, 1});
+  return {.region = region, .seed = 7, .iterations = 4};
+}
+
+std::shared_ptr<const TripletModel> learned(const TripletSettings& settings, int updates = 3) {
+  const auto state = TripletLearner(settings).begin(context());
+  std::shared_ptr<const GuidingModel> model;
+  for (int i = 0; i < updates; ++i) {
+    state->absorb(mirror_paths(2000 << i, 20 + i));
+    model = state->update(i, i + 1 == updates);
+  }
+  return std::dynamic_pointer_cast<const TripletModel>(model);
+}
+
+/// Mean distance from where light comes from to where the model expects it.
+double mirror_error(const TripletModel& model) {
+  class Flat final : public PhaseFunction {
+   public:
+    float evaluate(Vec3, Vec3) const override { return 1; }
+    Vec3 sample(Vec3 wo, Vec2) const override { return wo; }
+    float mean_cosine() const override { return 0; }
+  } flat;
+  RandomStream random(99);
+  double sum = 0;
+  int answers = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Vec2 u = random.next_2d(), v = random.next_2d();
+    const Point3 lens{v.x, v.y, 1}, floor{2 * u.x - 0.5f, 2 * u.y - 0.5f, 0};
+    const GuidingVertex previous{.position = lens, .kind = VertexKind::sensor};
+    const Vec3 back = normalize(lens - floor);
+    const LocalScattering scattering(flat, Rgb(1), back, Transport::radiance);
+    const GuidingQuery query{.previous = &previous,
+                             .current = {.position = floor},
+                             .towards_previous = back,
+                             .scattering = scattering};
+    Arena arena;
+    const Vec3 in = floor - lens;
+    for (const NextVertex& next :
+         model.next_vertices(query, mask_of(Event::smooth_reflect), arena)) {
+      const Point3 ceiling = floor + Vec3{in.x, in.y, 1};
+      sum += next.gaussian.weight * length(next.gaussian.mean - ceiling);
+      answers += 1;
+    }
+  }
+  return answers > 0 ? sum / 300 : 1e9;
+}
+
+TEST_CASE("learning: triplets know a mirror's direction, pairs its mean") {
+  TripletSettings settings{.cells = 16, .reservoir = 1024};
+  const auto triplets = learned(settings);
+  REQUIRE(triplets);
+  CHECK(mirror_error(*triplets) < 0.03);
+  CHECK(triplets->camera().size() > 0);
+  CHECK(triplets->region_count() >= 8);
+  settings.vertices = Prefix::pair;
+  const auto pairs = learned(settings);
+  CHECK(mirror_error(*pairs) > 0.2);
+}
+
+TEST_CASE("learning: knows nothing of nothing") {
+  const auto state = TripletLearner({}).begin(context());
+  CHECK(state->initial_model() == nullptr);
+  CHECK(state->update(0, false) == nullptr);
+  state->absorb(PathLog{});
+  CHECK(state->update(1, false) == nullptr);
+  const auto later = TripletLearner({}).begin(context());
+  later->absorb(mirror_paths(1, 1));
+  CHECK(later->update(0, false) != nullptr);
+}
+
+std::string saved(const GuidingModel& model) {
+  std::ostringstream out;
+  model.save(out);
+  return out.str();
+}
+
+TEST_CASE("learning: the same for 1, 2, 3 and 7 threads, all variants") {
+  for (const auto& [vertices, light_paths] :
+       {std::pair{Prefix::pair, false}, {Prefix::triplet, false}, {Prefix::triplet, true}}) {
+    std::string first;
+    for (const int threads : {1, 2, 3, 7}) {
+      const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+      const auto model = learned(
+          {.vertices = vertices, .light_paths = light_paths, .cells = 16, .reservoir = 256});
+      if (first.empty()) first = saved(*model);
+      CHECK(saved(*model) == first);
+    }
+  }
+}
+
+TEST_CASE("models: loaded they are the same, both ways; damage is noticed") {
+  for (const auto vertices : {Prefix::pair, Prefix::triplet}) {
+    const auto model = learned({.vertices = vertices,
+                                .light_paths = vertices == Prefix::triplet,
+                                .cells = 8,
+                                .reservoir = 128});
+    const std::string bytes = saved(*model);
+    std::istringstream in(bytes);
+    const TripletModel loaded(in);
+    CHECK(saved(loaded) == bytes);
+    CHECK(loaded.size_bytes() >= model->size_bytes() - 4 * model->region_count());
+    CHECK(loaded.kind().both_ways == (vertices == Prefix::triplet));
+    for (std::size_t length : {std::size_t{5}, bytes.size() / 2, bytes.size() - 1}) {
+      std::istringstream cut(bytes.substr(0, length));
+      CHECK_THROWS_AS(TripletModel{cut}, InputError);
+    }
+  }
+}
+
+TEST_CASE("models: densities for pictures are those of the learned samples") {
+  const auto model = learned({.cells = 16, .reservoir = 512});
+  CHECK(model->density({0.5f, 0.5f, 0}) > 0);
+  CHECK(model->density({0.5f, 0.5f, 0}) > 100 * model->density({0.5f, 0.5f, 0.9f}));
+  // Light comes from above, more or less.
+  CHECK(model->density({0.5f, 0.5f, 0}, {0, 0, 1}) > model->density({0.5f, 0.5f, 0}, {0, 0, -1}));
+}
+
+TEST_CASE("learner: pairs cannot learn from paths from lights") {
+  CHECK_THROWS_AS(TripletLearner({.vertices = Prefix::pair, .light_paths = true}), InputError);
+  CHECK(!TripletLearner({}).traits().records.light_paths);
+  CHECK(TripletLearner({.light_paths = true}).traits().records.light_paths);
+}
+
+}  // namespace
+}  // namespace pharos::triplets

@@ -1,0 +1,43 @@
+#include "truncated_normal.h"
+
+#include <pharos/core/frame.h>
+
+namespace pharos::triplets {
+
+Projection::Projection(const SpatialGaussian& g, Point3 origin) {
+  const Vec3 offset = g.mean - origin;
+  distance_ = length(offset);
+  if (!(distance_ > 0)) return;
+  towards_ = offset / distance_;
+  const Frame frame = Frame::from_normal(towards_);
+  across_[0] = frame.s;
+  across_[1] = frame.t;
+  // S = (L^T Q^T)^T (L^T Q^T) for the rows Q across the line of sight.
+  const auto through = [&](Vec3 q) {
+    const float* l = g.cholesky;
+    return Vec3{l[0] * q.x + l[1] * q.y + l[3] * q.z, l[2] * q.y + l[4] * q.z, l[5] * q.z};
+  };
+  const Vec3 a = through(frame.s), b = through(frame.t);
+  cholesky_[0] = length(a);
+  cholesky_[1] = dot(a, b) / cholesky_[0];
+  // What of b is perpendicular to a, without the difference of squares.
+  cholesky_[2] = length(cross(a, b)) / cholesky_[0];
+}
+
+Vec3 Projection::sample(Vec2 u) const {
+  const float z0 = truncated_normal(u.x), z1 = truncated_normal(u.y);
+  const float s = cholesky_[0] * z0, t = cholesky_[1] * z0 + cholesky_[2] * z1;
+  return normalize(distance_ * towards_ + s * across_[0] + t * across_[1]);
+}
+
+float Projection::density(Vec3 direction) const {
+  const float cosine = dot(towards_, direction);
+  if (!(cosine > 0)) return 0;
+  const float scale = distance_ / cosine;
+  const float z0 = scale * dot(across_[0], direction) / cholesky_[0];
+  const float z1 = (scale * dot(across_[1], direction) - cholesky_[1] * z0) / cholesky_[2];
+  return truncated_normal_density(z0) * truncated_normal_density(z1) * scale * scale /
+         (cosine * cholesky_[0] * cholesky_[2]);
+}
+
+}  // namespace pharos::triplets
