@@ -35,7 +35,8 @@ std::string from_both_ends(std::string config) {
 TEST_CASE("furnace: paths from both ends, unguided and guided in both directions") {
   for (const std::string& guiding :
        {std::string(), pair("stub_direction", "stub_direction"),
-        pair("stub_vertices", "stub_vertices"), pair("stub_mixture", "stub_exact")}) {
+        pair("stub_vertices", "stub_vertices"), pair("stub_mixture", "stub_exact"),
+        pair("stub_camera", "stub_camera")}) {
     CAPTURE(guiding);
     CHECK(std::abs(furnace_t(from_both_ends(path_config(kDiffuseScene, 4, guiding, 32)),
                              kDiffuseFurnace)) < kLimit);

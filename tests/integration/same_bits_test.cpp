@@ -89,6 +89,22 @@ TEST_CASE("same bits: parallax-aware mixtures in a tree or as one, with the lear
   }
 }
 
+TEST_CASE("same bits: vertex pairs and triplets, with paths from lights and in fog") {
+  const std::string training =
+      "guider: vertex_triplets, training: { schedule: geometric, images: combine }";
+  check_same_bits(cornell(fmt::format(
+      "sampler: sobol\nintegrator: {{ type: path, guiding: {{ learner: {{ type: vertex_triplets, "
+      "vertices: pairs }}, {} }} }}\n",
+      training)));
+  for (const char* light_paths : {"always", "training"}) {
+    check_same_bits(fmt::format(
+        "scene: {}/fog-box/scene.yaml\nbudget: {{ spp: 16 }}\nfilm: {{ width: 60, height: 48 }}\n"
+        "integrator: {{ type: bidirectional, light_paths: {}, guiding: {{ learner: {{ type: "
+        "vertex_triplets, light_paths: true }}, {} }} }}\n",
+        PHAROS_SCENES, light_paths, training));
+  }
+}
+
 TEST_CASE("same bits: practical path guiding, with the SD-tree") {
   for (const char* target : {"radiance", "relative"}) {
     check_same_bits(cornell(fmt::format(

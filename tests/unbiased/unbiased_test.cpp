@@ -3,6 +3,7 @@
 // for unguided renders to converge. Prints one line a comparison.
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <span>
 
@@ -16,10 +17,11 @@ namespace {
 
 constexpr int kRenders = 32;
 
-/// A way to guide, as settings of the integrator's `guiding`.
+/// A way to guide, as settings of the integrator's `guiding`, and of the integrator beside it.
 struct Method {
   std::string name;
   std::vector<std::string> settings;
+  std::vector<std::string> integrator = {};
 };
 
 Method focal_learned() {
@@ -118,6 +120,53 @@ std::vector<Method> lobe_methods() {
           lobes(single, "cosine", few, "combine")};
 }
 
+/// Pairs, triplets, triplets that learn from light paths, and those that render with them.
+enum class Triplets { pairs, plain, light_training, light_always };
+
+Method triplets(Triplets variant, const char* surfaces, float unguided_fraction, bool guide_camera,
+                const char* images) {
+  constexpr std::array kNames{"pairs", "triplets", "triplets, light in training",
+                              "triplets, light always"};
+  const bool pairs = variant == Triplets::pairs;
+  const bool light = variant == Triplets::light_training || variant == Triplets::light_always;
+  Method method{
+      fmt::format("{} {} {} {} {}", kNames[static_cast<std::size_t>(variant)], surfaces,
+                  unguided_fraction, guide_camera ? "camera" : "pixels", images),
+      {fmt::format("learner={{ type: vertex_triplets, vertices: {}, light_paths: {}, cells: 16, "
+                   "components: 16, reservoir: 512 }}",
+                   pairs ? "pairs" : "triplets", light),
+       fmt::format("guider={{ type: vertex_triplets, surfaces: {}, guide_camera: {} }}", surfaces,
+                   guide_camera),
+       fmt::format("mixing={{ type: fixed, unguided_fraction: {} }}", unguided_fraction),
+       fmt::format("training={{ schedule: geometric, images: {} }}", images)}};
+  if (light) {
+    method.integrator = {"integrator.type=bidirectional",
+                         fmt::format("integrator.light_paths={}",
+                                     variant == Triplets::light_always ? "always" : "training")};
+  }
+  return method;
+}
+
+/// A pairwise covering array of variants, surface techniques, unguided fractions, guides of first
+/// vertices, and uses of training images, in two halves.
+std::vector<Method> triplet_methods(int half) {
+  using enum Triplets;
+  if (half == 0) {
+    return {triplets(pairs, "projected", 0.25f, true, "discard"),
+            triplets(plain, "p0", 0.25f, false, "discard"),
+            triplets(light_training, "p1", 0.25f, true, "combine"),
+            triplets(light_always, "projected", 0.75f, false, "combine"),
+            triplets(plain, "projected", 0.75f, true, "combine"),
+            triplets(light_always, "p1", 0.25f, true, "discard")};
+  }
+  return {triplets(pairs, "p0", 0.75f, false, "combine"),
+          triplets(pairs, "p1", 0.75f, true, "discard"),
+          triplets(plain, "p1", 0.75f, false, "discard"),
+          triplets(light_training, "projected", 0.25f, false, "discard"),
+          triplets(light_training, "p0", 0.75f, true, "discard"),
+          triplets(light_always, "p0", 0.25f, true, "combine")};
+}
+
 /// Every kind of guide, which in media leaves distances to these.
 std::vector<Method> media_methods() {
   return {focal(0.5f, "line", "discard"),
@@ -150,8 +199,10 @@ void compare(const std::filesystem::path& config, std::span<const Method> method
   const Renders unguided = render_seeds(load(config, {}, overrides), kRenders);
   const auto reference = unguided.side();
   for (std::size_t i = 0; i < methods.size(); ++i) {
+    std::vector<std::string> changed = overrides;
+    changed.insert(changed.end(), methods[i].integrator.begin(), methods[i].integrator.end());
     const Renders guided =
-        render_seeds(load(config, methods[i].settings, overrides), kRenders, 1000 * (i + 1));
+        render_seeds(load(config, methods[i].settings, changed), kRenders, 1000 * (i + 1));
     const auto result = statistics::compare_images(guided.side(), reference, kOptions);
     CAPTURE(scene);
     CAPTURE(methods[i].name);
@@ -202,6 +253,10 @@ TEST_CASE("unbiased: parallax-aware mixtures under strips of light") {
   compare_proof("strip-lights", {lobe_methods()[3]});
 }
 
+TEST_CASE("unbiased: vertex triplets in fog, with paths from lights") {
+  compare_proof("fog-box", {triplet_methods(1).back()});
+}
+
 TEST_CASE("unbiased: every proof variant has a case below") {
   std::vector<std::string> found;
   for (const auto& entry : std::filesystem::directory_iterator(PHAROS_PROOF_CONFIGS)) {
@@ -209,7 +264,8 @@ TEST_CASE("unbiased: every proof variant has a case below") {
   }
   std::sort(found.begin(), found.end());
   CHECK(found == std::vector<std::string>{"camera-obscura", "dining-room", "disco-ball", "fog-box",
-                                          "hall", "haze", "living-room", "standing-light",
+                                          "hall", "haze", "living-room", "metalwork",
+                                          "mirror-chamber", "pool", "standing-light",
                                           "strip-lights", "volume-caustics"});
 }
 
@@ -274,6 +330,25 @@ TEST_CASE("long: unbiased in media, in the proof variant haze") {
 }
 TEST_CASE("long: unbiased in media, in the proof variant volume-caustics") {
   compare_proof("volume-caustics", media_methods());
+}
+
+TEST_CASE("long: vertex triplets are unbiased in the proof variant metalwork") {
+  compare_proof("metalwork", triplet_methods(0));
+}
+TEST_CASE("long: vertex triplets are unbiased in the proof variant mirror-chamber") {
+  compare_proof("mirror-chamber", triplet_methods(1));
+}
+TEST_CASE("long: vertex triplets are unbiased in the proof variant pool") {
+  compare_proof("pool", triplet_methods(0));
+}
+TEST_CASE("long: vertex triplets are unbiased in the proof variant fog-box") {
+  compare_proof("fog-box", triplet_methods(1));
+}
+TEST_CASE("long: vertex triplets are unbiased in the proof variant haze") {
+  compare_proof("haze", triplet_methods(0));
+}
+TEST_CASE("long: vertex triplets are unbiased in the proof variant volume-caustics") {
+  compare_proof("volume-caustics", triplet_methods(1));
 }
 
 // (Not the smallest pinhole: with so few samples most renders have yet to find it.)
