@@ -6,7 +6,7 @@
 namespace pharos {
 
 /// Changes whenever a contract's binary interface does; modules built for another one are refused.
-inline constexpr int kAbiVersion = 14;
+inline constexpr int kAbiVersion = 15;
 
 }  // namespace pharos
 

@@ -51,6 +51,12 @@ struct LearnerTraits {
   RecordNeeds records;  ///< what paths must carry
   /// GuidingModel::version() of its models; files of another one are refused.
   std::uint32_t model_version = 1;
+  std::string also = {};  ///< another model contract that its models meet; empty: none
+
+  /// Whether guiders of this model contract can sample what it learns.
+  bool suits(std::string_view contract) const {
+    return contract == model || (!also.empty() && contract == also);
+  }
 };
 
 /// Contract: turns recorded paths into a model.

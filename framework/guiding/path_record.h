@@ -57,10 +57,11 @@ struct RecordedLightSample {
   Vec3 direction;            ///< unit, from the vertex
   Rgb contribution;          ///< f/p of the connection times its MIS weight, without throughput
   Rgb joint_contribution;    ///< the same, times that among paths from both ends
-  float mis_weight = 1;
+  float mis_weight = 1;       ///< among paths from the same end
   float light_pdf = 0;        ///< of the light sample [1/sr]; the choice of light included
   float scattering_pdf = 0;   ///< of reaching it by scattering, guide included [1/sr]
   Event event = Event::none;  ///< what the connection is at the vertex
+  bool discrete = false;      ///< no step can meet the light: it has no extent
 };
 
 /// One recorded path. Spans are valid as long as the log. What a path stands for is its part of the
@@ -69,7 +70,7 @@ struct RecordedLightSample {
 struct PathView {
   std::span<const RecordedVertex> vertices;  ///< [0] lies on the lens (or on the light)
   std::span<const RecordedLightSample> light_samples;
-  Vec2 film;  ///< film position [pixels]; of paths from lights that of their key
+  Vec2 film;  ///< film position [pixels]; not told of paths from lights
   Transport transport = Transport::radiance;
 };
 

@@ -43,7 +43,7 @@ void check_method(const IntegratorTraits& offered, const Sensor& sensor, bool ji
                   const GuidingMethod& method) {
   const LearnerTraits learner = method.learner->traits();
   const GuiderTraits guider = method.guider->traits();
-  if (learner.model != guider.model) {
+  if (!learner.suits(guider.model)) {
     throw InputError(fmt::format(
         "the learner '{}' learns a '{}' model, but the guider '{}' samples a '{}' model",
         method.learner->plugin_name(), learner.model, method.guider->plugin_name(), guider.model));

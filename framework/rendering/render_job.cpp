@@ -168,7 +168,7 @@ class RenderJob::Implementation {
     }
     begin({});
     for (std::uint32_t i = 0; i < key.iteration; ++i) run_iteration(i);
-    return integrator_->replay(key, context(false));
+    return integrator_->replay(key, context(iterations_[key.iteration].training));
   }
 
   const RenderConfig& config() const { return config_; }

@@ -33,7 +33,11 @@ class VarOptReservoir {
         heavy_(std::move(heavy)),
         light_(std::move(light)),
         threshold_(threshold),
-        total_(total_weight) {}
+        total_(total_weight) {
+    // A heap stays as it is: making it anew would exchange equals.
+    if (std::is_heap(heavy_.begin(), heavy_.end(), is_heavier)) return;
+    std::make_heap(heavy_.begin(), heavy_.end(), is_heavier);
+  }
 
   /// Takes an item; weights that are not positive and finite are ignored. Draws at most one number.
   void insert(const Item& item, double weight, RandomStream& random) {

@@ -34,9 +34,11 @@ CameraMixture::CameraMixture(std::vector<FirstVertex> components)
   if (components_.empty()) return;
   nodes_.push_back({});
   build(0, 0, static_cast<std::uint32_t>(components_.size()));
-  float sum = 0;
-  for (const FirstVertex& component : components_) {
+  double total = 0, sum = 0;
+  for (const FirstVertex& component : components_) total += component.gaussian.weight;
+  for (FirstVertex& component : components_) {
     boxes_.push_back(box_around(component.gaussian));
+    component.gaussian.weight = static_cast<float>(component.gaussian.weight / total);
     shares_.push_back(sum += component.gaussian.weight);
   }
 }
@@ -72,7 +74,7 @@ std::size_t CameraMixture::choose(float u) const {
 }
 
 std::size_t CameraMixture::size_bytes() const {
-  return components_.size() * (sizeof(FirstVertex) + sizeof(Bounds3) + sizeof(float)) +
+  return components_.size() * (sizeof(FirstVertex) + sizeof(Bounds3) + sizeof(double)) +
          nodes_.size() * sizeof(Node);
 }
 
@@ -89,7 +91,6 @@ void CameraMixture::save(std::ostream& out) const {
 
 CameraMixture CameraMixture::load(std::istream& in) {
   std::vector<FirstVertex> components;
-  double total = 0;
   for (auto count = load_number<std::uint32_t>(in); count > 0; --count) {
     FirstVertex& component = components.emplace_back();
     SpatialGaussian& g = component.gaussian;
@@ -98,14 +99,10 @@ CameraMixture CameraMixture::load(std::istream& in) {
     for (float& l : g.cholesky) l = load_finite<float>(in);
     const auto kind = load_number<std::uint8_t>(in);
     component.kind = static_cast<VertexKind>(kind);
-    const bool fits = g.weight > 0 && g.cholesky[0] > 0 && g.cholesky[2] > 0 && g.cholesky[5] > 0 &&
-                      kind <= static_cast<std::uint8_t>(VertexKind::volume);
+    const bool fits =
+        g.weight > 0 && g.cholesky[0] > 0 && g.cholesky[2] > 0 && g.cholesky[5] > 0 &&
+        (component.kind == VertexKind::surface || component.kind == VertexKind::volume);
     if (!fits) throw InputError("the mixture at the camera is damaged");
-    total += g.weight;
-  }
-  constexpr double kRounding = 1e-3;
-  if (!components.empty() && !(std::abs(total - 1) < kRounding)) {
-    throw InputError("the mixture at the camera is damaged");
   }
   return CameraMixture(std::move(components));
 }

@@ -22,7 +22,7 @@ struct FirstVertex {
 class CameraMixture {
  public:
   CameraMixture() : CameraMixture(std::vector<FirstVertex>{}) {}
-  /// The weights add up to one.
+  /// Weights > 0, of which shares are made.
   explicit CameraMixture(std::vector<FirstVertex> components);
 
   bool empty() const { return components_.empty(); }
@@ -70,7 +70,7 @@ class CameraMixture {
 
   std::vector<FirstVertex> components_;  ///< in the order of nodes
   std::vector<Bounds3> boxes_;
-  std::vector<float> shares_;  ///< up to and including each component
+  std::vector<double> shares_;  ///< up to and including each component
   std::vector<Node> nodes_;
 };
 

@@ -86,7 +86,8 @@ typename ConditionalMixtures<P>::Run fit_run(const Mode& mode, const Group& grou
   for (std::size_t k = 0; k < mixture.size(); ++k) {
     const double weight = share * mixture.weights[k];
     if (!(weight > kLeastWeight)) continue;
-    run.components.push_back(make_component<P>(weight, mixture.components[k]));
+    const Component<P> component = make_component<P>(weight, mixture.components[k]);
+    if (component.is_sound()) run.components.push_back(component);
   }
   return run;
 }
@@ -97,6 +98,7 @@ void fit_first_vertices(const Group& group, VertexKind kind, const Cube& cell, c
   for (std::size_t k = 0; k < mixture.size(); ++k) {
     const Gaussian<3>& g = mixture.components[k];
     const Eigen::LLT<Matrix<3>> factor(g.covariance);
+    if (factor.info() != Eigen::Success) continue;
     const Matrix<3> l = factor.matrixL();
     FirstVertex& first = camera.emplace_back();
     first.kind = kind;
@@ -121,8 +123,9 @@ CellFit fit_cell(const Reservoir& reservoir, const Cube& cell, const FitRule& ru
     Mode mode = triplet.mode;
     // Pairs do not know what they came from.
     if (pairs) mode.before = VertexKind::surface;
-    groups[mode].add(triplet, weight);
     total += weight;
+    const bool can_guide = mode.after != VertexKind::light || rule.kind.both_ways;
+    if (can_guide) groups[mode].add(triplet, weight);
     if (triplet.mode.before != VertexKind::sensor) return;
     const bool in_volume = triplet.mode.event == Event::scatter;
     first_vertices[in_volume ? VertexKind::volume : VertexKind::surface].add(triplet, weight);

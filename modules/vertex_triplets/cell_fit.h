@@ -15,7 +15,7 @@ using Reservoir = statistics::VarOptReservoir<Triplet>;
 /// What is fitted to the samples of one cell.
 struct CellFit {
   CellKnowledge knowledge;          ///< its `share` is a weight yet
-  std::vector<FirstVertex> camera;  ///< their weights add up to `camera_weight`
+  std::vector<FirstVertex> camera;  ///< their weights are those of the samples
 };
 
 /// How samples are fitted.

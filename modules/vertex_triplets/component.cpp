@@ -1,5 +1,6 @@
 #include "component.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/QR>
@@ -28,6 +29,16 @@ Component<P> from_factor(double weight, const statistics::Vector<P + 3>& mean,
 }  // namespace
 
 template <int P>
+bool Component<P>::is_sound() const {
+  const auto is_finite = [](float x) { return std::isfinite(x); };
+  bool sound = weight > 0 && std::isfinite(weight) &&
+               std::all_of(mean.begin(), mean.end(), is_finite) &&
+               std::all_of(factor.begin(), factor.end(), is_finite);
+  for (int row = 0; row < kSize; ++row) sound = sound && factor[triangle(row + 1) - 1] > 0;
+  return sound;
+}
+
+template <int P>
 auto Component<P>::cholesky() const -> statistics::Matrix<kSize> {
   statistics::Matrix<kSize> l = statistics::Matrix<kSize>::Zero();
   for (int row = 0, i = 0; row < kSize; ++row) {
@@ -51,15 +62,14 @@ Component<P> Component<P>::load(std::istream& in) {
   result.weight = load_finite<float>(in);
   for (float& x : result.mean) x = load_finite<float>(in);
   for (float& x : result.factor) x = load_finite<float>(in);
-  bool fits = result.weight > 0;
-  for (int row = 0; row < kSize; ++row) fits = fits && result.factor[triangle(row + 1) - 1] > 0;
-  if (!fits) throw InputError("the model of vertex triplets is damaged");
+  if (!result.is_sound()) throw InputError("the model of vertex triplets is damaged");
   return result;
 }
 
 template <int P>
 Component<P> make_component(double weight, const statistics::Gaussian<P + 3>& gaussian) {
   const Eigen::LLT<statistics::Matrix<P + 3>> factor(gaussian.covariance);
+  if (factor.info() != Eigen::Success) return {};
   return from_factor<P>(weight, gaussian.mean, factor.matrixL());
 }
 

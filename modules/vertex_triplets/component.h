@@ -27,6 +27,8 @@ struct Component {
   /// Lower triangle of L by rows, of the first P diagonal entries the reciprocals.
   std::array<float, triangle(kSize)> factor{};
 
+  /// Whether all numbers are finite, and the weight and L's diagonal positive.
+  bool is_sound() const;
   /// L as a matrix.
   statistics::Matrix<kSize> cholesky() const;
   void save(std::ostream& out) const;
@@ -34,7 +36,7 @@ struct Component {
   static Component load(std::istream& in);
 };
 
-/// The component of a Gaussian.
+/// The component of a Gaussian; not sound if its covariance has lost its rank to rounding.
 template <int P>
 Component<P> make_component(double weight, const statistics::Gaussian<P + 3>& gaussian);
 

@@ -170,13 +170,15 @@ std::span<const NextVertex> ConditionalMixtures<P>::given(std::size_t index,
   for (int lane = 0; lane < 8; ++lane) largest = std::max(largest, largest8[lane]);
   if (largest == kNever) return {};
   Float8 total8{};
+  std::size_t survivors = 0;
   for (std::size_t i = 0; i < groups; ++i) {
     const Float8 below = weighed[i].log2_weight - largest;
-    weighed[i].log2_weight = below < kLeastLog2 ? Float8{} : exp2(below);
+    weighed[i].log2_weight = below >= kLeastLog2 ? exp2(below) : Float8{};
     total8 += weighed[i].log2_weight;
+    for (int lane = 0; lane < 8; ++lane) survivors += weighed[i].log2_weight[lane] > 0 ? 1 : 0;
   }
   const float to_share = 1 / sum(total8);
-  NextVertex* result = arena.make_array<NextVertex>(8 * groups);
+  NextVertex* result = arena.make_array<NextVertex>(survivors);
   std::size_t count = 0;
   for (std::size_t i = 0; i < groups; ++i) {
     if (!any(weighed[i].log2_weight > 0)) continue;

@@ -35,7 +35,8 @@ struct NextVertex {
 template <int P>
 class ConditionalMixtures {
  public:
-  /// What a step to a mode's outer vertex leads to, and where it comes from.
+  /// Which end paths come from. from_sensor: the prefix is (before, current), and `after` is next;
+  /// from_lights: the other way round.
   enum class Direction { from_sensor, from_lights };
 
   /// Components of one mode, whose weights are shares of the whole mixture.

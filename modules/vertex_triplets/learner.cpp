@@ -51,7 +51,8 @@ TripletLearner::TripletLearner(const Settings& settings) : settings_(settings) {
 LearnerTraits TripletLearner::traits() const {
   return {.model = TripletModel::kName,
           .records = {.light_samples = true, .light_paths = settings_.light_paths},
-          .model_version = TripletModel::kVersion};
+          .model_version = TripletModel::kVersion,
+          .also = std::string(kSpatialMixtureModel)};
 }
 
 std::unique_ptr<LearningState> TripletLearner::begin(const LearningContext& context) const {

@@ -159,11 +159,8 @@ std::shared_ptr<const GuidingModel> TripletLearning::fit() const {
     if (reservoir.size() == 0) return;
     fits[c] = fit_cell(reservoir, tree_.cube(static_cast<std::uint32_t>(c)), rule_);
   });
-  double total = 0, camera_total = 0;
-  for (const CellFit& f : fits) {
-    total += f.knowledge.share;
-    for (const FirstVertex& first : f.camera) camera_total += first.gaussian.weight;
-  }
+  double total = 0;
+  for (const CellFit& f : fits) total += f.knowledge.share;
   if (!(total > 0)) return nullptr;
   std::vector<CellKnowledge> knowledge;
   std::vector<FirstVertex> camera;
@@ -172,7 +169,7 @@ std::shared_ptr<const GuidingModel> TripletLearning::fit() const {
     knowledge.push_back(std::move(fits[c].knowledge));
     knowledge.back().share = static_cast<float>(knowledge.back().share / total);
     for (FirstVertex& first : fits[c].camera) {
-      first.gaussian.weight = static_cast<float>(first.gaussian.weight / camera_total);
+      first.gaussian.weight = static_cast<float>(first.gaussian.weight / total);
       if (first.gaussian.weight > 0) camera.push_back(first);
     }
     origins.push_back(cells_[c].origin);
@@ -216,13 +213,13 @@ TripletLearning::Cell TripletLearning::load_cell(std::istream& in) const {
   for (auto left = load_number<std::uint32_t>(in); left > 0; --left) {
     const Triplet triplet = load_triplet(in);
     heavy.push_back({triplet, load_finite<double>(in)});
-    expect(heavy.back().weight > 0);
+    expect(heavy.back().weight > threshold);
   }
   for (auto left = load_number<std::uint32_t>(in); left > 0; --left) {
     light.push_back(load_triplet(in));
   }
-  expect(count >= 0 && total >= 0 && heavy.size() + light.size() <= settings_.reservoir &&
-         (light.empty() || threshold > 0));
+  expect(count >= 0 && threshold >= 0 && total >= 0 &&
+         heavy.size() + light.size() <= settings_.reservoir && (light.empty() || threshold > 0));
   return {Reservoir(settings_.reservoir, threshold, total, std::move(heavy), std::move(light)),
           count, origin};
 }

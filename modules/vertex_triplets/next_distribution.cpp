@@ -33,8 +33,8 @@ const NextDistribution* NextDistribution::make(std::span<const NextVertex> verti
   for (const NextVertex& vertex : vertices) {
     Branch& branch = branches[count];
     branch.vertex = vertex;
-    const bool projects =
-        vertex.kind != VertexKind::volume && rules.technique == SurfaceTechnique::projected;
+    const bool projects = vertex.kind != VertexKind::volume && !is_discrete(vertex.event) &&
+                          rules.technique == SurfaceTechnique::projected;
     if (projects) {
       branch.projection = Projection(vertex.gaussian, origin);
       if (!branch.projection.is_possible(least)) continue;
@@ -106,7 +106,7 @@ std::optional<Proposal> NextDistribution::propose(const VertexStream& stream) co
   const NextVertex& next = branch.vertex;
   const bool in_volume = next.kind == VertexKind::volume;
   const float v = stream.get_1d(Purpose::guide_distance);
-  const bool scatters = u < by_scattering(next.event) * next.gaussian.weight;
+  const bool scatters = stream.get_1d(Purpose::guide_choice, 1) < by_scattering(next.event);
   const Vec3 to = scatters ? scattered_direction(next.event, stream)
                            : direction_to(branch, stream.get_2d(Purpose::guide_direction), v);
   const float distance = length(to);

@@ -1,6 +1,7 @@
 #include "sample.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include <pharos/core/binary_stream.h>
@@ -35,10 +36,10 @@ class Extraction {
   void add_connection(const RecordedLightSample& found) {
     const RecordedVertex& here = path_.vertices[found.vertex];
     if (here.parent == kNoVertex) return;
-    // No step can meet a light without extent.
-    if (found.light.kind == VertexKind::light && !rule_.light_paths) return;
-    add(here, found.event, outer(here.position, found.direction, found.light),
-        here.throughput * contribution(found));
+    Outer end = outer(here.position, found.direction, found.light);
+    // Which no step can meet: of use to first vertices, and to paths from there.
+    if (found.discrete) end.kind = VertexKind::light;
+    add(here, found.event, end, here.throughput * contribution(found));
   }
 
   Rgb contribution(const RecordedLightSample& found) const {
@@ -81,13 +82,28 @@ void extract_samples(const PathView& path, const SampleRule& rule, std::vector<R
   for (const RecordedLightSample& found : path.light_samples) extraction.add_connection(found);
 }
 
+void save_mode(const Mode& mode, std::ostream& out) {
+  save_number(out, static_cast<std::uint8_t>(mode.before));
+  save_number(out, static_cast<std::uint8_t>(mode.event));
+  save_number(out, static_cast<std::uint8_t>(mode.after));
+}
+
+Mode load_mode(std::istream& in) {
+  const auto before = load_number<std::uint8_t>(in), event = load_number<std::uint8_t>(in),
+             after = load_number<std::uint8_t>(in);
+  constexpr auto kLast = static_cast<std::uint8_t>(VertexKind::light);
+  const bool is_event = std::has_single_bit(event) && contains(EventMask::all, Event{event});
+  if (before > kLast || after > kLast || !is_event) {
+    throw InputError("a mode of vertex triplets is damaged");
+  }
+  return {VertexKind{before}, Event{event}, VertexKind{after}};
+}
+
 void save_triplet(const Triplet& triplet, std::ostream& out) {
   for (const Point3 p : triplet.vertices) {
     for (int axis = 0; axis < 3; ++axis) save_number(out, p[axis]);
   }
-  save_number(out, static_cast<std::uint8_t>(triplet.mode.before));
-  save_number(out, static_cast<std::uint8_t>(triplet.mode.event));
-  save_number(out, static_cast<std::uint8_t>(triplet.mode.after));
+  save_mode(triplet.mode, out);
 }
 
 Triplet load_triplet(std::istream& in) {
@@ -95,14 +111,7 @@ Triplet load_triplet(std::istream& in) {
   for (Point3& p : triplet.vertices) {
     for (int axis = 0; axis < 3; ++axis) p[axis] = load_finite<float>(in);
   }
-  const auto before = load_number<std::uint8_t>(in), event = load_number<std::uint8_t>(in),
-             after = load_number<std::uint8_t>(in);
-  constexpr auto kLast = static_cast<std::uint8_t>(VertexKind::light);
-  if (before > kLast || after > kLast || !contains(EventMask::all, static_cast<Event>(event))) {
-    throw InputError("a vertex triplet is damaged");
-  }
-  triplet.mode = {static_cast<VertexKind>(before), static_cast<Event>(event),
-                  static_cast<VertexKind>(after)};
+  triplet.mode = load_mode(in);
   return triplet;
 }
 

@@ -24,13 +24,16 @@ struct Sample {
 /// Which samples are taken.
 struct SampleRule {
   EnvironmentShell environment;
-  bool light_paths = false;  ///< of paths from lights too, and lights that no step can meet
+  bool light_paths = false;  ///< of paths from lights too
 };
 
 /// Appends the samples of a path. `incident` is scratch memory, kept from call to call.
 void extract_samples(const PathView& path, const SampleRule& rule, std::vector<Rgb>& incident,
                      std::vector<Sample>& samples);
 
+void save_mode(const Mode& mode, std::ostream& out);
+/// Throws InputError when it is damaged.
+Mode load_mode(std::istream& in);
 void save_triplet(const Triplet& triplet, std::ostream& out);
 /// Throws InputError when it is damaged.
 Triplet load_triplet(std::istream& in);

@@ -9,8 +9,9 @@
 namespace pharos::triplets {
 
 /// The kind of light transport around a vertex (Schuessler et al. 2022, section 4.1): what the
-/// vertices before and after it lie on, seen along a path from the sensor, and what happens at
-/// itself. What happens at the outer ones is not known when it is sampled.
+/// vertices before and after it lie on (VertexKind::light: any light that no step can meet), seen
+/// along a path from the sensor, and what happens at itself. What happens at the outer ones is not
+/// known when it is sampled.
 struct Mode {
   VertexKind before = VertexKind::surface;
   Event event = Event::smooth_reflect;

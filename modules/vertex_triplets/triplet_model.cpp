@@ -8,6 +8,8 @@
 #include <pharos/core/binary_stream.h>
 #include <pharos/guiding/seen_gaussian.h>
 
+#include "sample.h"
+
 namespace pharos::triplets {
 namespace {
 
@@ -19,18 +21,10 @@ template <int P>
 void save_runs(const std::vector<typename ConditionalMixtures<P>::Run>& runs, std::ostream& out) {
   save_number(out, static_cast<std::uint32_t>(runs.size()));
   for (const auto& run : runs) {
-    save_number(out, static_cast<std::uint8_t>(run.mode.before));
-    save_number(out, static_cast<std::uint8_t>(run.mode.event));
-    save_number(out, static_cast<std::uint8_t>(run.mode.after));
+    save_mode(run.mode, out);
     save_number(out, static_cast<std::uint32_t>(run.components.size()));
     for (const Component<P>& component : run.components) component.save(out);
   }
-}
-
-VertexKind load_kind(std::istream& in) {
-  const auto kind = load_number<std::uint8_t>(in);
-  expect(kind <= static_cast<std::uint8_t>(VertexKind::light));
-  return static_cast<VertexKind>(kind);
 }
 
 template <int P>
@@ -38,9 +32,7 @@ std::vector<typename ConditionalMixtures<P>::Run> load_runs(std::istream& in) {
   std::vector<typename ConditionalMixtures<P>::Run> runs;
   for (auto count = load_number<std::uint32_t>(in); count > 0; --count) {
     auto& run = runs.emplace_back();
-    run.mode.before = load_kind(in);
-    run.mode.event = static_cast<Event>(load_number<std::uint8_t>(in));
-    run.mode.after = load_kind(in);
+    run.mode = load_mode(in);
     for (auto left = load_number<std::uint32_t>(in); left > 0; --left) {
       run.components.push_back(Component<P>::load(in));
     }
@@ -53,6 +45,7 @@ std::vector<ConditionalMixtures<6>::Run> reversed_runs(
     std::vector<ConditionalMixtures<6>::Run> runs) {
   for (auto& run : runs) {
     for (Component<6>& component : run.components) component = reversed(component);
+    std::erase_if(run.components, [](const Component<6>& c) { return !c.is_sound(); });
   }
   return runs;
 }
@@ -87,11 +80,13 @@ TripletModel::TripletModel(std::istream& in) {
   const ModelKind kind{.prefix = pairs != 0 ? Prefix::pair : Prefix::triplet,
                        .both_ways = both_ways != 0,
                        .environment = {load_finite<float>(in)}};
+  expect(kind.environment.radius > 0);
   const auto sample_bytes = load_number<std::uint64_t>(in);
   Octree tree = Octree::load(in);
   std::vector<CellKnowledge> cells(tree.cell_count());
   for (CellKnowledge& cell : cells) {
     cell.share = load_finite<float>(in);
+    expect(cell.share >= 0);
     if (pairs != 0) {
       cell.pairs = load_runs<3>(in);
     } else {

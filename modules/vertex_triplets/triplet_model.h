@@ -64,7 +64,7 @@ class TripletModel final : public GuidingModel, public SpatialMixture {
   std::size_t component_count() const {
     return pairs_.component_count() + triplets_.component_count();
   }
-  /// Edge of the cell around a point [scene units].
+  /// Edge of a cell [scene units].
   float cell_size(std::uint32_t cell) const { return tree_.cube(cell).size; }
 
  private:

@@ -31,13 +31,19 @@ Vec3 Projection::sample(Vec2 u) const {
 }
 
 float Projection::density(Vec3 direction) const {
-  const float cosine = dot(towards_, direction);
+  // Narrow Gaussians far away: of small angles single precision would leave few digits.
+  const auto along = [&](Vec3 axis) {
+    return double{axis.x} * direction.x + double{axis.y} * direction.y +
+           double{axis.z} * direction.z;
+  };
+  const double cosine = along(towards_);
   if (!(cosine > 0)) return 0;
-  const float scale = distance_ / cosine;
-  const float z0 = scale * dot(across_[0], direction) / cholesky_[0];
-  const float z1 = (scale * dot(across_[1], direction) - cholesky_[1] * z0) / cholesky_[2];
-  return truncated_normal_density(z0) * truncated_normal_density(z1) * scale * scale /
-         (cosine * cholesky_[0] * cholesky_[2]);
+  const double scale = distance_ / cosine;
+  const double z0 = scale * along(across_[0]) / cholesky_[0];
+  const double z1 = (scale * along(across_[1]) - cholesky_[1] * z0) / cholesky_[2];
+  const float across = truncated_normal_density(static_cast<float>(z0)) *
+                       truncated_normal_density(static_cast<float>(z1));
+  return static_cast<float>(across * scale * scale / (cosine * cholesky_[0] * cholesky_[2]));
 }
 
 }  // namespace pharos::triplets

@@ -61,7 +61,7 @@ class LogRecorder {
   /// The guide chose another place on the film [pixels].
   void film(Vec2 film) { log_.set_film(film); }
 
-  /// Emission of the vertex and its MIS weight.
+  /// Emission of the vertex and its MIS weights.
   void emission(Rgb radiance, PathWeight weight) {
     current().emission += weight.own_end * radiance;
     current().full_emission += radiance;
@@ -84,7 +84,8 @@ class LogRecorder {
               .mis_weight = weight.own_end,
               .light_pdf = light.pdf,
               .scattering_pdf = density.total,
-              .event = event});
+              .event = event,
+              .discrete = light.discrete});
   }
 
   /// The path is about to go on from the vertex.

@@ -30,5 +30,6 @@ std::vector<Measurement> bench_growth(int repeats);
 std::vector<Measurement> bench_aligned(int repeats);
 std::vector<Measurement> bench_gaussians(int repeats);
 std::vector<Measurement> bench_baselines(int repeats);
+std::vector<Measurement> bench_triplets(int repeats);
 
 }  // namespace pharos::bench

@@ -47,9 +47,10 @@ struct Options {
 
 int run(const Options& options) {
   const std::vector<std::pair<std::string, Benchmark>> benchmarks{
-      {"startup", bench_startup}, {"rays", bench_rays},           {"threads", bench_threads},
-      {"guiding", bench_guiding}, {"samplers", bench_samplers},   {"growth", bench_growth},
-      {"aligned", bench_aligned}, {"gaussians", bench_gaussians}, {"baselines", bench_baselines}};
+      {"startup", bench_startup},  {"rays", bench_rays},           {"threads", bench_threads},
+      {"guiding", bench_guiding},  {"samplers", bench_samplers},   {"growth", bench_growth},
+      {"aligned", bench_aligned},  {"gaussians", bench_gaussians}, {"baselines", bench_baselines},
+      {"triplets", bench_triplets}};
   std::vector<Measurement> all;
   for (const auto& [name, benchmark] : benchmarks) {
     if (!options.filter.empty() && name.find(options.filter) == std::string::npos) continue;

@@ -204,11 +204,69 @@ TEST_CASE("in media: points follow their density, by Gaussians and along scatter
   }
 }
 
+TEST_CASE("in media: points along the rays of narrow cones follow their density (3D)") {
+  for (const float g : {0.0f, 0.99f}) {
+    std::vector<NextVertex> next;
+    for (const auto& gaussian : any_gaussians(3, 4)) {
+      next.push_back(next_vertex(gaussian, 1.0f / 3, Event::scatter, VertexKind::volume));
+    }
+    const InMedium at(next, g);
+    // Boxes of (x / z, y / z) and of distances, with the density's integral over each.
+    constexpr int kSides = 5, kLengths = 8;
+    constexpr double kReach = 0.12, kFrom = 1, kTo = 3.4;
+    const auto cell = [](Vec3 direction, double distance) {
+      const int i =
+          static_cast<int>(std::floor((direction.x / direction.z / kReach + 1) / 2 * kSides));
+      const int j =
+          static_cast<int>(std::floor((direction.y / direction.z / kReach + 1) / 2 * kSides));
+      const int k = static_cast<int>(std::floor((distance - kFrom) / (kTo - kFrom) * kLengths));
+      const bool is_within =
+          direction.z > 0 && i >= 0 && i < kSides && j >= 0 && j < kSides && k >= 0 && k < kLengths;
+      return is_within ? (i * kSides + j) * kLengths + k : kSides * kSides * kLengths;
+    };
+    constexpr int kDraws = 200'000;
+    std::vector<double> observed(kSides * kSides * kLengths + 1, 0), expected(observed.size(), 0);
+    RandomStream random(31);
+    for (int i = 0; i < kDraws; ++i) {
+      const auto proposal = propose(*at.guide, random);
+      ++observed[proposal ? cell(proposal->direction, proposal->distance) : observed.size() - 1];
+    }
+    constexpr int kFine = 6;
+    const double side = 2 * kReach / (kSides * kFine), step = (kTo - kFrom) / (kLengths * kFine);
+    for (int i = 0; i < kSides * kFine; ++i) {
+      for (int j = 0; j < kSides * kFine; ++j) {
+        const double x = -kReach + (i + 0.5) * side, y = -kReach + (j + 0.5) * side;
+        const double size = std::sqrt(x * x + y * y + 1);
+        const Vec3 direction{static_cast<float>(x / size), static_cast<float>(y / size),
+                             static_cast<float>(1 / size)};
+        for (int k = 0; k < kLengths * kFine; ++k) {
+          const auto t = static_cast<float>(kFrom + (k + 0.5) * step);
+          expected[cell(direction, t)] += kDraws * side * side / (size * size * size) * step *
+                                          at.guide
+                                              ->density({.direction = direction,
+                                                         .distance = t,
+                                                         .position = t * direction,
+                                                         .kind = VertexKind::volume,
+                                                         .event = Event::scatter})
+                                              .value;
+        }
+      }
+    }
+    double within = 0;
+    for (const double count : expected) within += count;
+    expected.back() = kDraws - within;
+    CAPTURE(g);
+    CHECK(within > 0.02 * kDraws);
+    CHECK(expected.back() > 0);
+    CHECK(statistics::chi_square_test(observed, expected).p_value > 1e-4);
+  }
+}
+
 TEST_CASE("truncated Gaussians: points follow their density, which integrates to one (3D)") {
   RandomStream random(5);
   for (int run = 0; run < 3; ++run) {
     const SpatialGaussian g = spatial(any_gaussian<3>(random, 2, 0.1));
-    // Whitened points: equally likely parts of each axis, and the density at their middles.
+    // Whitened points: equally likely parts of each axis.
     constexpr int kParts = 6;
     constexpr int kDraws = 60'000;
     std::vector<double> observed(kParts * kParts * kParts, 0);

@@ -134,22 +134,32 @@ TEST_CASE("samples: paths from lights are read as if they came from the sensor")
   CHECK(samples[2].triplet.vertices[2] == Point3{1, 0, 0});
 }
 
-TEST_CASE("samples: lights without extent are for paths from lights alone; nothing of NaN") {
+TEST_CASE("samples: lights that no step can meet are of a kind of their own; nothing of NaN") {
   PathLog log;
   log.begin_path({}, Transport::radiance);
   log.add(RecordedVertex{.kind = VertexKind::sensor, .throughput = Rgb(1)});
   log.add(RecordedVertex{.position = {0, 0, 1}, .parent = 0, .throughput = Rgb(1)});
-  RecordedLightSample point{.vertex = 1,
-                            .light = {.position = {1, 1, 1}, .kind = VertexKind::light},
-                            .contribution = Rgb(3),
-                            .joint_contribution = Rgb(3),
-                            .event = Event::smooth_reflect};
-  log.add(point);
-  point.light.kind = VertexKind::surface;
-  point.contribution = Rgb(std::nanf(""));
-  log.add(point);
-  CHECK(samples_of(log).empty());
-  CHECK(samples_of(log, {.environment = {1}, .light_paths = true}).size() == 2);
+  RecordedLightSample sun{.vertex = 1,
+                          .light = {.kind = VertexKind::environment},
+                          .direction = {0, 1, 0},
+                          .contribution = Rgb(3),
+                          .event = Event::smooth_reflect,
+                          .discrete = true};
+  log.add(sun);
+  sun.contribution = Rgb(std::nanf(""));
+  log.add(sun);
+  const std::vector<Sample> samples = samples_of(log);
+  REQUIRE(samples.size() == 1);
+  CHECK(samples[0].triplet.mode.after == VertexKind::light);
+  CHECK(samples[0].triplet.vertices[2] == Point3{0, 100, 1});
+  // First vertices see it, guides of next ones do not.
+  const TripletLearner learner({.cells = 1});
+  const auto state = learner.begin({.region = {{-1, -1, -1}, {1, 1, 1}}});
+  state->absorb(log);
+  const auto model = std::dynamic_pointer_cast<const TripletModel>(state->update(0, true));
+  REQUIRE(model);
+  CHECK(model->camera().size() == 1);
+  CHECK(model->component_count() == 0);
 }
 
 // --- learning ------------------------------------------------------------------------------------
@@ -287,6 +297,79 @@ TEST_CASE("models: loaded they are the same, both ways; damage is noticed") {
       CHECK_THROWS_AS(TripletModel{cut}, InputError);
     }
   }
+}
+
+std::string saved(const LearningState& state) {
+  std::ostringstream out;
+  state.save(out);
+  return out.str();
+}
+
+TEST_CASE("learning: saved and loaded amid an iteration it goes on as before") {
+  const TripletLearner learner({.cells = 16, .reservoir = 64});
+  const auto state = learner.begin(context()), again = learner.begin(context());
+  for (int i = 0; i < 3; ++i) {
+    state->absorb(mirror_paths(500, i));
+    if (i < 2) state->update(i, false);
+  }
+  const std::string bytes = saved(*state);
+  std::istringstream in(bytes);
+  again->load(in);
+  CHECK(saved(*again) == bytes);
+  for (const auto* s : {&state, &again}) (*s)->absorb(mirror_paths(700, 9));
+  CHECK(saved(*state->update(2, true)) == saved(*again->update(2, true)));
+  for (const std::size_t length : {std::size_t{3}, bytes.size() / 3, bytes.size() - 1}) {
+    std::istringstream cut(bytes.substr(0, length));
+    CHECK_THROWS_AS(again->load(cut), InputError);
+  }
+  // Changed bytes are noticed or harmless: never a crash, nor a model that cannot be made.
+  RandomStream random(1);
+  int noticed = 0;
+  for (int i = 0; i < 300; ++i) {
+    std::string changed = bytes;
+    changed[random() % bytes.size()] = static_cast<char>(random());
+    const auto other = learner.begin(context());
+    std::istringstream damaged(changed);
+    try {
+      other->load(damaged);
+      other->update(3, true);
+    } catch (const InputError&) {
+      ++noticed;
+    }
+  }
+  CHECK(noticed > 0);
+}
+
+TEST_CASE("learning: what two have absorbed is merged, in one iteration alone") {
+  const TripletLearner learner({.cells = 16, .reservoir = 64});
+  const auto one = learner.begin(context()), other = learner.begin(context()),
+             both = learner.begin(context());
+  one->absorb(mirror_paths(500, 1));
+  other->absorb(mirror_paths(400, 2));
+  both->absorb(mirror_paths(500, 1));
+  both->absorb(mirror_paths(400, 2));
+  one->merge(*other);
+  CHECK(saved(*one->update(0, false)) == saved(*both->update(0, false)));
+  CHECK_THROWS_AS(one->merge(*other), InputError);
+}
+
+TEST_CASE("models: changed bytes are noticed or harmless") {
+  const auto model = learned({.light_paths = true, .cells = 8, .reservoir = 64}, 2);
+  const std::string bytes = saved(*model);
+  RandomStream random(2);
+  int noticed = 0;
+  for (int i = 0; i < 300; ++i) {
+    std::string changed = bytes;
+    changed[random() % bytes.size()] = static_cast<char>(random());
+    std::istringstream damaged(changed);
+    try {
+      const TripletModel loaded(damaged);
+      mirror_error(loaded);
+    } catch (const InputError&) {
+      ++noticed;
+    }
+  }
+  CHECK(noticed > 0);
 }
 
 TEST_CASE("models: densities for pictures are those of the learned samples") {
