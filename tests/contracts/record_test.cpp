@@ -72,6 +72,79 @@ void check_record(const std::string& yaml) {
   CHECK(image_mean(unit.film.layers()) == doctest::Approx(sum / (2.0 * 32 * 32)).epsilon(1e-4));
 }
 
+/// The mean over all pixels of the config's image, and the paths recorded on the way.
+struct Rendered {
+  explicit Rendered(const std::string& yaml) : unit(yaml), result(unit.render(true)) {
+    unit.film.merge(result.film);
+    unit.film.end_pass(2);
+    mean = image_mean(unit.film.layers());
+  }
+  Unit unit;
+  WorkResult result;
+  double mean = 0;
+};
+
+/// The same config with another integrator.
+std::string with_integrator(std::string config, const std::string& integrator) {
+  const std::string path = "type: path\n";
+  return config.replace(config.find(path), path.size(), "type: " + integrator + "\n");
+}
+
+/// What the vertices of a path add to the image from number `first` on, light samples included.
+double value_of(const PathView& path, std::size_t first, WeightedAmong among) {
+  const bool jointly = among == WeightedAmong::both_ends;
+  Rgb sum;
+  for (std::size_t i = first; i < path.vertices.size(); ++i) {
+    const RecordedVertex& v = path.vertices[i];
+    sum += v.throughput * (jointly ? v.joint_emission : v.emission);
+  }
+  for (const RecordedLightSample& light : path.light_samples) {
+    sum += path.vertices[light.vertex].throughput *
+           (jointly ? light.joint_contribution : light.contribution);
+  }
+  return mean(sum);
+}
+
+/// Paths from both ends together: those of more than one segment, as lights that are seen directly
+/// are not recorded from their side.
+void check_joint_record(const std::string& scene, int depth) {
+  const std::string guiding =
+      "{ learner: { type: vertex_triplets, light_paths: true }, guider: { type: vertex_triplets, "
+      "guide_camera: false } }";
+  const auto config = [&](int d) { return path_config(scene, d, guiding, 2); };
+  const Rendered all(with_integrator(config(depth), "bidirectional"));
+  const Rendered direct(with_integrator(config(1), "bidirectional"));
+  const std::string plain = "{ learner: uniform, guider: uniform }";
+  const Rendered path(path_config(scene, depth, plain, 2));
+  double jointly = 0, from_lens = 0;
+  int from_lights = 0;
+  std::vector<Rgb> incident;
+  for (std::size_t p = 0; p < all.result.log.size(); ++p) {
+    const PathView view = all.result.log[p];
+    jointly += value_of(view, 2, WeightedAmong::both_ends);
+    if (view.transport == Transport::radiance) {
+      from_lens += value_of(view, 0, WeightedAmong::own_end);
+    } else {
+      ++from_lights;
+    }
+    estimate_incident_radiance(view, incident, WeightedAmong::both_ends);
+    for (std::size_t i = 1; i < view.vertices.size(); ++i) {
+      const RecordedVertex& parent = view.vertices[view.vertices[i].parent];
+      CHECK(mean(parent.throughput * parent.local_weight) ==
+            doctest::Approx(mean(view.vertices[i].throughput)).epsilon(1e-4));
+    }
+  }
+  constexpr double kPaths = 2.0 * 32 * 32;
+  CHECK(from_lights == kPaths);
+  CHECK(jointly / kPaths == doctest::Approx(all.mean - direct.mean).epsilon(1e-3));
+  CHECK(from_lens / kPaths == doctest::Approx(path.mean).epsilon(1e-4));
+}
+
+TEST_CASE("records of paths from both ends add up to the image") {
+  check_joint_record(kDiffuseScene, 4);
+  check_joint_record(kGlassInFogScene, 20);
+}
+
 TEST_CASE("records add up to the image") {
   check_record(path_config(kDiffuseScene, 4, "", 2));
   check_record(path_config(kGlassInFogScene, 20, "", 2));
