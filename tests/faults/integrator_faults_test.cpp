@@ -126,7 +126,7 @@ TEST_CASE("fault: light does not get through boundaries of media") {
 }
 TEST_CASE("fault: shining surfaces seen from the lens are not foreshortened") {
   check_row("camera_cosine_forgotten",
-            {green, green, green, green, green, green, red, red, green, green});
+            {green, green, green, green, green, green, red, red, red, green});
 }
 TEST_CASE("fault: paths from the lens ignore the light paths that make them too") {
   check_row("reverse_density_forgotten",
