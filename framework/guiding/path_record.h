@@ -52,11 +52,11 @@ struct RecordedVertex {
 /// Light found from a vertex by next event estimation. Of paths from lights: the lens found from a
 /// vertex.
 struct RecordedLightSample {
-  std::uint32_t vertex = 0;  ///< index within the path of the vertex it was found from
-  RecordedVertex light;      ///< the light's end as a full vertex; parent = `vertex`
-  Vec3 direction;            ///< unit, from the vertex
-  Rgb contribution;          ///< f/p of the connection times its MIS weight, without throughput
-  Rgb joint_contribution;    ///< the same, times that among paths from both ends
+  std::uint32_t vertex = 0;   ///< index within the path of the vertex it was found from
+  RecordedVertex light;       ///< the light's end as a full vertex; parent = `vertex`
+  Vec3 direction;             ///< unit, from the vertex
+  Rgb contribution;           ///< f/p of the connection times its MIS weight, without throughput
+  Rgb joint_contribution;     ///< the same, times that among paths from both ends
   float mis_weight = 1;       ///< among paths from the same end
   float light_pdf = 0;        ///< of the light sample [1/sr]; the choice of light included
   float scattering_pdf = 0;   ///< of reaching it by scattering, guide included [1/sr]
