@@ -3,36 +3,17 @@
 
 #include <doctest/doctest.h>
 
-#include <pharos/sampling/keyed_numbers.h>
 #include <pharos/statistics/goodness_of_fit.h>
 #include <pharos/statistics/quadrature.h>
 
-#include "../first_distribution.h"
+#include "../camera_mixture.h"
 #include "../next_distribution.h"
-#include "test_gaussians.h"
+#include "test_proposals.h"
 
 namespace pharos::triplets {
 namespace {
 
 using namespace testing;
-
-/// Independent numbers.
-class Numbers final : public PreparedSampler {
- public:
-  std::uint64_t begin(const PathKey& key) const override { return hash_key(key); }
-  float value_1d(const SampleStream& stream, Dimension dimension) const override {
-    return keyed_numbers(stream.state(), dimension).x;
-  }
-  Vec2 value_2d(const SampleStream& stream, Dimension dimension) const override {
-    return keyed_numbers(stream.state(), dimension);
-  }
-};
-
-std::optional<Proposal> propose(const GuidingDistribution& guide, RandomStream& random) {
-  static const Numbers numbers;
-  const SampleStream stream(numbers, {.seed = 5, .index = random()});
-  return guide.propose(VertexStream(stream, 1));
-}
 
 /// A phase function that scatters ahead, in a cone; its mean cosine is stated apart.
 class Cone final : public PhaseFunction {
@@ -105,16 +86,6 @@ statistics::DensityFit fit_directions(const NextDistribution& guide, VertexKind 
         .value;
   };
   return statistics::fit_direction_density(draw, density);
-}
-
-std::vector<Gaussian<3>> any_gaussians(int count, std::uint64_t seed) {
-  std::vector<Gaussian<3>> result;
-  RandomStream random(seed);
-  for (int i = 0; i < count; ++i) {
-    result.push_back(any_gaussian<3>(random, 0.5, 0.2));
-    result.back().mean += Vector<3>(0.2, -0.3, 2);
-  }
-  return result;
 }
 
 TEST_CASE("on surfaces: directions follow their density, which integrates to one (2D)") {
@@ -395,70 +366,6 @@ TEST_CASE("projections: seen from their own means there is no direction") {
   CHECK(NextDistribution::make(next, scattering, {}, {}, 1e-6f, 0, arena) == nullptr);
   CHECK(NextDistribution::make(next, scattering, {}, {.technique = SurfaceTechnique::p0}, 1e-6f, 0,
                                arena) != nullptr);
-}
-
-// --- the camera
-// ------------------------------------------------------------------------------------
-
-CameraMixture wall_mixture(int count) {
-  std::vector<FirstVertex> components;
-  RandomStream random(11);
-  for (int i = 0; i < count; ++i) {
-    Gaussian<3> g = any_gaussian<3>(random, 0.3, 0.2);
-    g.mean = Vector<3>(4 * random.next_1d() - 2, 4 * random.next_1d() - 2, 3);
-    components.push_back({spatial(g, 1.0f / static_cast<float>(count)), VertexKind::surface});
-  }
-  return CameraMixture(std::move(components));
-}
-
-TEST_CASE("camera: the hierarchy finds all components around a point") {
-  for (const int count : {0, 1, 4, 5, 100, 3000}) {
-    const CameraMixture mixture = wall_mixture(count);
-    RandomStream random(12);
-    for (int i = 0; i < 200; ++i) {
-      const Vec2 u = random.next_2d();
-      const Point3 p{5 * u.x - 2.5f, 5 * u.y - 2.5f, 2 + 2 * random.next_1d()};
-      std::vector<std::size_t> found, expected;
-      mixture.for_each_around(p, [&](std::size_t k) { found.push_back(k); });
-      for (std::size_t k = 0; k < mixture.size(); ++k) {
-        if (box_around(mixture[k].gaussian).contains(p)) expected.push_back(k);
-      }
-      std::sort(found.begin(), found.end());
-      CHECK(found == expected);
-    }
-  }
-}
-
-TEST_CASE(
-    "camera: what is met on a wall follows its density (2D), outside of boxes it is nothing") {
-  const CameraMixture mixture = wall_mixture(12);
-  const Point3 lens{0.1f, 0.2f, -1};
-  const FirstDistribution guide(mixture, lens);
-  const auto seen = [&](Vec3 direction) -> std::optional<ResolvedVertex> {
-    if (!(direction.z > 0)) return std::nullopt;
-    // A wall that leans: some of it lies outside the boxes.
-    const float t = (3 - lens.z) / (direction.z + 0.4f * direction.x);
-    if (!(t > 0)) return std::nullopt;
-    return ResolvedVertex{.direction = direction,
-                          .distance = t,
-                          .position = lens + t * direction,
-                          .event = Event::smooth_reflect};
-  };
-  const auto draw = [&](RandomStream& random) -> std::optional<Vec3> {
-    const auto proposal = propose(guide, random);
-    const auto first = proposal ? seen(proposal->direction) : std::nullopt;
-    if (!first || !proposal->accepts(first->kind, first->position)) return std::nullopt;
-    return proposal->direction;
-  };
-  const auto density = [&](Vec3 direction) -> double {
-    const auto first = seen(direction);
-    return first ? guide.density(*first).value : 0;
-  };
-  const auto fit = statistics::fit_direction_density(draw, density);
-  CHECK(fit.outside_support == 0);
-  CHECK(fit.missed > 0.001);
-  CHECK(fit.integral + fit.missed == doctest::Approx(1).epsilon(4e-3));
-  CHECK(fit.chi_square.p_value > 1e-4);
 }
 
 }  // namespace
