@@ -110,8 +110,10 @@ class VarOptReservoir {
         return;
       }
     }
-    const double share = u / (1 - old_threshold / threshold_);  // of the light items, all alike
-    const auto index = std::min(static_cast<std::size_t>(std::max(share, 0.0)), light_.size() - 1);
+    // Of the light items, all alike; nothing is left to divide where only rounding came this far.
+    const double share = u / (1 - old_threshold / threshold_);
+    const double last = static_cast<double>(light_.size()) - 1;
+    const auto index = static_cast<std::size_t>(std::min(std::max(0.0, share), last));
     light_[index] = std::move(light_.back());
     light_.pop_back();
   }
