@@ -6,6 +6,16 @@
 namespace pharos::triplets {
 namespace {
 
+/// Events that something comes of: total reflection, for one, leaves nothing of transmission.
+EventMask possible_events(const LocalScattering& scattering) {
+  EventMask events = scattering.events() & EventMask::smooth;
+  if (events == scattering.events()) return events;
+  for (const DiscreteOutcome& outcome : scattering.discrete()) {
+    events = events | mask_of(outcome.event);
+  }
+  return events;
+}
+
 class BoundTripletGuider final : public BoundGuider, public CameraGuider {
  public:
   BoundTripletGuider(std::shared_ptr<const TripletModel> model,
@@ -16,7 +26,7 @@ class BoundTripletGuider final : public BoundGuider, public CameraGuider {
 
   const GuidingDistribution* query(const GuidingQuery& query, Arena& arena) const override {
     const std::span<const NextVertex> next =
-        model_->next_vertices(query, query.scattering.events(), arena);
+        model_->next_vertices(query, possible_events(query.scattering), arena);
     if (next.empty()) return nullptr;
     const std::uint32_t cell = model_->region_at(query.current.position);
     constexpr float kLeastDistance = 1e-6f;  // of the cell's edge

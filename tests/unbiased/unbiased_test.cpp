@@ -257,6 +257,13 @@ TEST_CASE("unbiased: vertex triplets in fog, with paths from lights") {
   compare_proof("fog-box", {triplet_methods(1).back()});
 }
 
+TEST_CASE("unbiased: a guide of spatial Gaussians, by what vertex triplets learned") {
+  Method method = triplets(Triplets::plain, "projected", 0.25f, false, "discard");
+  method.name = "p1 of triplets";
+  method.settings[1] = "guider=p1";
+  compare_proof("strip-lights", {method});
+}
+
 TEST_CASE("unbiased: every proof variant has a case below") {
   std::vector<std::string> found;
   for (const auto& entry : std::filesystem::directory_iterator(PHAROS_PROOF_CONFIGS)) {

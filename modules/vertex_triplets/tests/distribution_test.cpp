@@ -32,27 +32,6 @@ class Cone final : public PhaseFunction {
   float stated_cosine_;
 };
 
-/// Reflects and transmits as a mirror and a window do.
-class Pane final : public Bsdf {
- public:
-  EventMask events() const override { return EventMask::discrete; }
-  ScatterValue evaluate(const SurfacePoint&, Vec3, Vec3, ScatterOptions) const override {
-    return {};
-  }
-  std::optional<ScatterSample> sample(const SurfacePoint&, Vec3, float, Vec2,
-                                      ScatterOptions) const override {
-    return std::nullopt;
-  }
-  DiscreteOutcomes discrete(const SurfacePoint&, Vec3 wo, ScatterOptions) const override {
-    DiscreteOutcomes outcomes;
-    outcomes.add({Event::discrete_reflect, {-wo.x, -wo.y, wo.z}, Rgb(0.3f), 0.3f});
-    outcomes.add({Event::discrete_transmit, -wo, Rgb(0.7f), 0.7f});
-    return outcomes;
-  }
-  float roughness(const SurfacePoint&) const override { return 0; }
-  Rgb albedo(const SurfacePoint&) const override { return Rgb(1); }
-};
-
 constexpr Vec3 kBack{0, 0, -1};  // where the path came from: it flies along +z
 
 NextVertex next_vertex(const Gaussian<3>& g, float share, Event event, VertexKind kind) {

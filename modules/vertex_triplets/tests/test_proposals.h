@@ -5,6 +5,7 @@
 
 #include <pharos/guiding/distribution.h>
 #include <pharos/sampling/keyed_numbers.h>
+#include <pharos/scene/local_scattering.h>
 
 #include "test_gaussians.h"
 
@@ -27,6 +28,33 @@ inline std::optional<Proposal> propose(const GuidingDistribution& guide, RandomS
   const SampleStream stream(numbers, {.seed = 5, .index = random()});
   return guide.propose(VertexStream(stream, 1));
 }
+
+/// Reflects and transmits as a mirror and a window do, or where reflection is total.
+class Pane final : public Bsdf {
+ public:
+  explicit Pane(bool total = false) : total_(total) {}
+  EventMask events() const override { return EventMask::discrete; }
+  ScatterValue evaluate(const SurfacePoint&, Vec3, Vec3, ScatterOptions) const override {
+    return {};
+  }
+  std::optional<ScatterSample> sample(const SurfacePoint&, Vec3, float, Vec2,
+                                      ScatterOptions) const override {
+    return std::nullopt;
+  }
+  DiscreteOutcomes discrete(const SurfacePoint&, Vec3 wo, ScatterOptions) const override {
+    const float reflectance = total_ ? 1.0f : 0.3f;
+    DiscreteOutcomes outcomes;
+    outcomes.add({Event::discrete_reflect, {-wo.x, -wo.y, wo.z}, Rgb(reflectance), reflectance});
+    if (total_) return outcomes;
+    outcomes.add({Event::discrete_transmit, -wo, Rgb(0.7f), 0.7f});
+    return outcomes;
+  }
+  float roughness(const SurfacePoint&) const override { return 0; }
+  Rgb albedo(const SurfacePoint&) const override { return Rgb(1); }
+
+ private:
+  bool total_;
+};
 
 /// Gaussians ahead of the origin.
 inline std::vector<Gaussian<3>> any_gaussians(int count, std::uint64_t seed) {

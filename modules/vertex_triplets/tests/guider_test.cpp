@@ -1,0 +1,61 @@
+#include "../guider.h"
+
+#include <doctest/doctest.h>
+
+#include "../triplet_model.h"
+#include "test_proposals.h"
+
+namespace pharos::triplets {
+namespace {
+
+using namespace testing;
+
+/// Pairs around the origin: light comes from above, a quarter of it reflected.
+std::shared_ptr<const TripletModel> pairs_at_a_pane() {
+  Gaussian<6> gaussian{Vector<6>::Zero(), 0.1 * Matrix<6>::Identity()};
+  gaussian.mean[5] = 2;
+  CellKnowledge cell;
+  cell.share = 1;
+  for (const auto& [event, share] :
+       {std::pair{Event::discrete_reflect, 0.25f}, {Event::discrete_transmit, 0.75f}}) {
+    cell.pairs.push_back({Mode{VertexKind::surface, event, VertexKind::surface},
+                          {make_component<3>(share, gaussian)}});
+  }
+  return std::make_shared<TripletModel>(
+      ModelKind{.prefix = Prefix::pair}, Octree({{}, 4}), std::vector<CellKnowledge>{cell},
+      CameraMixture(std::vector<FirstVertex>{}), std::vector<std::uint32_t>{0}, 0);
+}
+
+TEST_CASE("guides: where reflection is total, nothing aims at transmission") {
+  const auto bound = TripletGuider({}).bind(pairs_at_a_pane());
+  const SurfacePoint surface{.normal = {0, 0, 1}, .shading = Frame::from_normal({0, 0, 1})};
+  const Vec3 back = normalize(Vec3{0.6f, 0, 0.8f});
+  const GuidingVertex previous{.position = {1, 0, 1}};
+  for (const bool total : {false, true}) {
+    const Pane pane(total);
+    const LocalScattering scattering(surface, pane, back, Transport::radiance);
+    const GuidingQuery query{.previous = &previous,
+                             .current = {.position = {0, 0, 0}},
+                             .towards_previous = back,
+                             .scattering = scattering};
+    Arena arena;
+    const GuidingDistribution* guide = bound->query(query, arena);
+    REQUIRE(guide != nullptr);
+    const auto share = [&](Event event) {
+      return guide->density({.distance = 1, .kind = VertexKind::surface, .event = event}).value;
+    };
+    CHECK(share(Event::discrete_reflect) == doctest::Approx(total ? 1 : 0.25));
+    CHECK(share(Event::discrete_transmit) == doctest::Approx(total ? 0 : 0.75));
+    RandomStream random(13);
+    int reflected = 0;
+    for (int i = 0; i < 1000; ++i) {
+      const auto proposal = propose(*guide, random);
+      REQUIRE(proposal);
+      reflected += proposal->events == mask_of(Event::discrete_reflect) ? 1 : 0;
+    }
+    CHECK((reflected == 1000) == total);
+  }
+}
+
+}  // namespace
+}  // namespace pharos::triplets
