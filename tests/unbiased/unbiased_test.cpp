@@ -346,7 +346,7 @@ TEST_CASE("long: vertex triplets are unbiased in the proof variant mirror-chambe
   compare_proof("mirror-chamber", triplet_methods(1));
 }
 TEST_CASE("long: vertex triplets are unbiased in the proof variant pool") {
-  compare_proof("pool", triplet_methods(0));
+  compare_proof("pool", triplet_methods(0), {"budget={ spp: 96 }"});
 }
 TEST_CASE("long: vertex triplets are unbiased in the proof variant fog-box") {
   compare_proof("fog-box", triplet_methods(1));
