@@ -34,7 +34,7 @@ find_package(ZLIB REQUIRED)
 find_package(pugixml REQUIRED)
 # Optional: module open_pgl.
 find_package(openpgl 0.7 QUIET)
-# Written into every report page (framework/experiments/report).
+# Written into every report page (framework/pharos/experiments/report).
 find_file(PHAROS_CHART_JS chart.min.js PATHS /usr/share/javascript/chart.js
           DOC "Chart.js 3 as one minified file")
 if(NOT PHAROS_CHART_JS)

@@ -4,7 +4,7 @@ install(TARGETS pharos pharos_options EXPORT pharos-targets
         LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(TARGETS pharos_images LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(TARGETS pharos-program EXPORT pharos-targets RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-install(DIRECTORY framework/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pharos
+install(DIRECTORY framework/pharos DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
         FILES_MATCHING PATTERN "*.h" PATTERN "tests" EXCLUDE PATTERN "app" EXCLUDE)
 if(PHAROS_TESTS)
   install(TARGETS pharos-test-main EXPORT pharos-targets

@@ -1,6 +1,6 @@
 #include "guider.h"
 
-#include "focal_model.h"
+#include "model.h"
 
 namespace pharos::focal {
 namespace {

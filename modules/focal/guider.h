@@ -1,7 +1,7 @@
 #pragma once
 
 #include <pharos/config/registry.h>
-#include <pharos/guiding/guider.h>
+#include <pharos/guiding/contract/guider.h>
 
 namespace pharos::focal {
 

@@ -2,8 +2,8 @@
 
 #include <pharos/core/error.h>
 
-#include "focal_model.h"
 #include "learning_state.h"
+#include "model.h"
 
 namespace pharos::focal {
 
@@ -72,7 +72,7 @@ LearnerTraits FocalLearner::traits() const {
 }
 
 std::unique_ptr<LearningState> FocalLearner::begin(const LearningContext& context) const {
-  return std::make_unique<FocalState>(settings_, context);
+  return std::make_unique<FocalLearningState>(settings_, context);
 }
 
 std::shared_ptr<const GuidingModel> FocalLearner::load_model(std::istream& in) const {

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include <pharos/config/schema.h>
-#include <pharos/guiding/learner.h>
+#include <pharos/guiding/contract/learner.h>
 
 #include "splat.h"
 

@@ -8,7 +8,7 @@
 
 #include <pharos/core/binary_stream.h>
 
-#include "focal_model.h"
+#include "model.h"
 #include "octree_file.h"
 
 namespace pharos::focal {
@@ -116,7 +116,8 @@ Segment load_segment(std::istream& in) {
 
 }  // namespace
 
-FocalState::FocalState(const FocalSettings& settings, const LearningContext& context)
+FocalLearningState::FocalLearningState(const FocalSettings& settings,
+                                       const LearningContext& context)
     : settings_(settings),
       first_narrowing_(context.iterations -
                        std::min(context.iterations / 3,
@@ -133,11 +134,11 @@ FocalState::FocalState(const FocalSettings& settings, const LearningContext& con
   use_octrees();
 }
 
-bool FocalState::narrows(std::uint32_t iteration) const {
+bool FocalLearningState::narrows(std::uint32_t iteration) const {
   return iteration >= first_narrowing_;
 }
 
-void FocalState::absorb(const PathLog& log) {
+void FocalLearningState::absorb(const PathLog& log) {
   const ExtentRule rule{settings_.splat_extent, settings_.glossy_roughness};
   for (std::size_t i = 0; i < log.size(); ++i) {
     if (log[i].transport != Transport::radiance) continue;
@@ -147,7 +148,7 @@ void FocalState::absorb(const PathLog& log) {
   }
 }
 
-void FocalState::splat_waiting() {
+void FocalLearningState::splat_waiting() {
   const std::size_t count = (waiting_.size() + kGroup - 1) / kGroup;
   groups_.assign(count, FocalSums(density_));
   // Isolated: the thread that waits here must not take up rendering instead.
@@ -162,7 +163,7 @@ void FocalState::splat_waiting() {
   waiting_.clear();
 }
 
-void FocalState::splat(std::span<const Segment> segments, FocalSums& sums) const {
+void FocalLearningState::splat(std::span<const Segment> segments, FocalSums& sums) const {
   if (narrowing_) {
     splat_narrowed(segments, density_, settings_.mis_compensation, sums);
   } else {
@@ -171,7 +172,7 @@ void FocalState::splat(std::span<const Segment> segments, FocalSums& sums) const
   }
 }
 
-std::shared_ptr<const GuidingModel> FocalState::update(std::uint32_t iteration, bool last) {
+std::shared_ptr<const GuidingModel> FocalLearningState::update(std::uint32_t iteration, bool last) {
   splat_waiting();
   // An iteration that found no light is no reason to forget what earlier ones did.
   if (sums_.total() > 0) {
@@ -190,19 +191,19 @@ std::shared_ptr<const GuidingModel> FocalState::update(std::uint32_t iteration, 
   return knows_something_ ? model(last) : nullptr;
 }
 
-void FocalState::refine(double total_mass) {
+void FocalLearningState::refine(double total_mass) {
   const SplitRule rule{settings_.split_threshold, max_depth_, total_mass};
   converging_ = refined(converging_, rule);
   diverging_ = refined(diverging_, rule);
   use_octrees();
 }
 
-void FocalState::use_octrees() {
+void FocalLearningState::use_octrees() {
   density_ = {converging_.octree, diverging_.octree};
   sums_ = FocalSums(density_);
 }
 
-void FocalState::grow_region(double total_mass) {
+void FocalLearningState::grow_region(double total_mass) {
   const bool is_at_boundary =
       is_densest_at_boundary(density_.converging) || is_densest_at_boundary(density_.diverging);
   if (!is_at_boundary || max_depth_ + 1 >= Octree::kMostLevels) return;
@@ -213,14 +214,14 @@ void FocalState::grow_region(double total_mass) {
   refine(total_mass);
 }
 
-std::shared_ptr<const GuidingModel> FocalState::model(bool last) const {
+std::shared_ptr<const GuidingModel> FocalLearningState::model(bool last) const {
   if (!last || settings_.prune_ratio == 0) return std::make_shared<FocalModel>(density_);
   return std::make_shared<FocalModel>(
       FocalDensity{pruned(density_.converging, settings_.prune_ratio),
                    pruned(density_.diverging, settings_.prune_ratio)});
 }
 
-void FocalState::save(std::ostream& out) const {
+void FocalLearningState::save(std::ostream& out) const {
   save_heading(out, kHeading, kVersion);
   save_learned(converging_, out);
   save_learned(diverging_, out);
@@ -235,13 +236,13 @@ void FocalState::save(std::ostream& out) const {
   for (const Segment& segment : waiting_) save_segment(segment, out);
 }
 
-void FocalState::load(std::istream& in) {
-  FocalState loaded(*this);
+void FocalLearningState::load(std::istream& in) {
+  FocalLearningState loaded(*this);
   loaded.read(in);
   *this = std::move(loaded);
 }
 
-void FocalState::read(std::istream& in) {
+void FocalLearningState::read(std::istream& in) {
   expect_heading(in, kHeading, kVersion);
   converging_ = load_learned(in);
   diverging_ = load_learned(in);
@@ -261,8 +262,8 @@ void FocalState::read(std::istream& in) {
   }
 }
 
-void FocalState::merge(const LearningState& other) {
-  const auto& theirs = dynamic_cast<const FocalState&>(other);
+void FocalLearningState::merge(const LearningState& other) {
+  const auto& theirs = dynamic_cast<const FocalLearningState&>(other);
   if (theirs.converging_.octree != converging_.octree ||
       theirs.diverging_.octree != diverging_.octree || theirs.narrowing_ != narrowing_) {
     throw InputError("focal learning of another iteration or scene cannot be merged");

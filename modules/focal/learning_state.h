@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <pharos/guiding/learner.h>
+#include <pharos/guiding/contract/learner.h>
 
 #include "learner.h"
 #include "octree_refinement.h"
@@ -12,9 +12,9 @@
 namespace pharos::focal {
 
 /// What is learned during one render: two octrees that become finer where mass collects.
-class FocalState final : public LearningState {
+class FocalLearningState final : public LearningState {
  public:
-  FocalState(const FocalSettings& settings, const LearningContext& context);
+  FocalLearningState(const FocalSettings& settings, const LearningContext& context);
 
   void absorb(const PathLog& log) override;
   std::shared_ptr<const GuidingModel> update(std::uint32_t iteration, bool last) override;

@@ -13,7 +13,7 @@
 #include <pharos/core/bounds.h>
 #include <pharos/core/vec.h>
 
-#include "lanes.h"
+#include "quad.h"
 
 namespace pharos::focal {
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include <pharos/guiding/path_record.h>
+#include <pharos/guiding/record/path_record.h>
 
 #include "focal_density.h"
 

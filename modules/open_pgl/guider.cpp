@@ -4,15 +4,15 @@
 
 #include <tbb/enumerable_thread_specific.h>
 
-#include "pgl_model.h"
+#include "model.h"
 #include "query.h"
 
-namespace pharos::pgl {
+namespace pharos::open_pgl {
 namespace {
 
 class BoundPglGuider final : public BoundGuider {
  public:
-  BoundPglGuider(std::shared_ptr<const PglModel> model, const PglGuiderSettings& settings)
+  BoundPglGuider(std::shared_ptr<const OpenPglModel> model, const OpenPglGuiderSettings& settings)
       : model_(std::move(model)), settings_(settings), workplaces_(std::cref(model_->field())) {}
 
   const GuidingDistribution* query(const GuidingQuery& query, Arena& arena) const override;
@@ -25,15 +25,15 @@ class BoundPglGuider final : public BoundGuider {
   }
 
  private:
-  std::shared_ptr<const PglModel> model_;
-  PglGuiderSettings settings_;
+  std::shared_ptr<const OpenPglModel> model_;
+  OpenPglGuiderSettings settings_;
   mutable tbb::enumerable_thread_specific<Workplace> workplaces_;
 };
 
 /// An answered query. The library's own answer is made again where others came in between.
-class PglDistribution final : public GuidingDistribution {
+class OpenPglDistribution final : public GuidingDistribution {
  public:
-  PglDistribution(const BoundPglGuider& guider, const Query& query)
+  OpenPglDistribution(const BoundPglGuider& guider, const Query& query)
       : guider_(guider), query_(query) {}
 
   std::optional<Proposal> propose(const VertexStream& stream) const override {
@@ -59,24 +59,24 @@ const GuidingDistribution* BoundPglGuider::query(const GuidingQuery& query, Aren
     const Vec3 n = query.current.shading_normal;
     asked.cosine_about = dot(n, query.towards_previous) < 0 ? -n : n;
   }
-  return workplaces_.local().take(asked) ? arena.make<PglDistribution>(*this, asked) : nullptr;
+  return workplaces_.local().take(asked) ? arena.make<OpenPglDistribution>(*this, asked) : nullptr;
 }
 
 }  // namespace
 
-void PglGuiderSettings::describe(Schema<PglGuiderSettings>& s) {
-  s.field("cosine", &PglGuiderSettings::cosine,
+void OpenPglGuiderSettings::describe(Schema<OpenPglGuiderSettings>& s) {
+  s.field("cosine", &OpenPglGuiderSettings::cosine,
           "Multiply by the cosine on opaque surfaces, where the field's distributions can");
   s.example("{ cosine: false }");
 }
 
-GuiderTraits PglGuider::traits() const {
-  return {.model = PglModel::kName};
+GuiderTraits OpenPglGuider::traits() const {
+  return {.model = OpenPglModel::kName};
 }
 
-std::unique_ptr<const BoundGuider> PglGuider::bind(
+std::unique_ptr<const BoundGuider> OpenPglGuider::bind(
     std::shared_ptr<const GuidingModel> model) const {
-  return std::make_unique<BoundPglGuider>(bind_model<PglModel>(model, *this), settings_);
+  return std::make_unique<BoundPglGuider>(bind_model<OpenPglModel>(model, *this), settings_);
 }
 
-}  // namespace pharos::pgl
+}  // namespace pharos::open_pgl

@@ -1,20 +1,20 @@
 #pragma once
 
 #include <pharos/config/schema.h>
-#include <pharos/guiding/guider.h>
+#include <pharos/guiding/contract/guider.h>
 
-namespace pharos::pgl {
+namespace pharos::open_pgl {
 
-struct PglGuiderSettings {
+struct OpenPglGuiderSettings {
   bool cosine = true;
-  static void describe(Schema<PglGuiderSettings>& schema);
+  static void describe(Schema<OpenPglGuiderSettings>& schema);
 };
 
 /// Samples directions from a field of Open PGL.
-class PglGuider final : public Guider {
+class OpenPglGuider final : public Guider {
  public:
-  using Settings = PglGuiderSettings;
-  explicit PglGuider(const Settings& settings) : settings_(settings) {}
+  using Settings = OpenPglGuiderSettings;
+  explicit OpenPglGuider(const Settings& settings) : settings_(settings) {}
 
   GuiderTraits traits() const override;
   std::unique_ptr<const BoundGuider> bind(std::shared_ptr<const GuidingModel> model) const override;
@@ -23,4 +23,4 @@ class PglGuider final : public Guider {
   Settings settings_;
 };
 
-}  // namespace pharos::pgl
+}  // namespace pharos::open_pgl

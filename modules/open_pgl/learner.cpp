@@ -1,20 +1,20 @@
 #include "learner.h"
 
 #include "learning_state.h"
-#include "pgl_model.h"
+#include "model.h"
 
-namespace pharos::pgl {
+namespace pharos::open_pgl {
 
-void PglSettings::describe(Schema<PglSettings>& s) {
-  using S = PglSettings;
+void OpenPglSettings::describe(Schema<OpenPglSettings>& s) {
+  using S = OpenPglSettings;
   s.field("directions", &S::directions,
           "What cells hold: von Mises-Fisher mixtures with parallax or without, or quadtrees");
   s.field("cell_samples", &S::cell_samples, "Samples after which a cell is divided").at_least(64);
   s.field("max_depth", &S::max_depth, "Planes above the deepest cell at most")
       .at_least(1)
       .at_most(32);
-  s.field("neighbours", &S::neighbours,
-          "Sometimes take a neighbouring cell instead of a vertex's own, by its position");
+  s.field("neighbors", &S::neighbors,
+          "Sometimes take a neighboring cell instead of a vertex's own, by its position");
   s.field("batch_samples", &S::batch_samples,
           "Samples that wait at most (40 bytes each): when there are more, they are learned from "
           "before the iteration ends")
@@ -26,21 +26,21 @@ void PglSettings::describe(Schema<PglSettings>& s) {
           "Roughness below which a surface shows what is behind it: distances go on there")
       .at_least(0)
       .at_most(1);
-  s.example("{ directions: quadtree, neighbours: false }");
+  s.example("{ directions: quadtree, neighbors: false }");
 }
 
-LearnerTraits PglLearner::traits() const {
-  return {.model = PglModel::kName,
+LearnerTraits OpenPglLearner::traits() const {
+  return {.model = OpenPglModel::kName,
           .records = {.light_samples = true},
-          .model_version = PglModel::kVersion};
+          .model_version = OpenPglModel::kVersion};
 }
 
-std::unique_ptr<LearningState> PglLearner::begin(const LearningContext& context) const {
-  return std::make_unique<PglState>(settings_, context.region);
+std::unique_ptr<LearningState> OpenPglLearner::begin(const LearningContext& context) const {
+  return std::make_unique<OpenPglLearningState>(settings_, context.region);
 }
 
-std::shared_ptr<const GuidingModel> PglLearner::load_model(std::istream& in) const {
-  return std::make_shared<PglModel>(in);
+std::shared_ptr<const GuidingModel> OpenPglLearner::load_model(std::istream& in) const {
+  return std::make_shared<OpenPglModel>(in);
 }
 
-}  // namespace pharos::pgl
+}  // namespace pharos::open_pgl

@@ -5,10 +5,10 @@
 #include <utility>
 
 #include <pharos/config/schema.h>
-#include <pharos/guiding/learner.h>
+#include <pharos/guiding/contract/learner.h>
 
 namespace pharos {
-namespace pgl {
+namespace open_pgl {
 
 /// The library's kinds of distributions of directions.
 enum class Directions {
@@ -18,23 +18,23 @@ enum class Directions {
 };
 
 /// Parameters of the library's fields; what it does not let be set keeps its own values.
-struct PglSettings {
+struct OpenPglSettings {
   Directions directions = Directions::parallax_vmm;
   std::uint32_t cell_samples = 32000;
   std::uint32_t max_depth = 32;
-  bool neighbours = true;
+  bool neighbors = true;
   std::uint32_t batch_samples = 1u << 22;
   float least_pdf = 0.01f;
   float glossy = 0.3f;
 
-  static void describe(Schema<PglSettings>& schema);
+  static void describe(Schema<OpenPglSettings>& schema);
 };
 
 /// Learns where light comes from by Intel's library Open PGL.
-class PglLearner final : public Learner {
+class OpenPglLearner final : public Learner {
  public:
-  using Settings = PglSettings;
-  explicit PglLearner(const Settings& settings) : settings_(settings) {}
+  using Settings = OpenPglSettings;
+  explicit OpenPglLearner(const Settings& settings) : settings_(settings) {}
 
   LearnerTraits traits() const override;
   std::unique_ptr<LearningState> begin(const LearningContext& context) const override;
@@ -44,14 +44,14 @@ class PglLearner final : public Learner {
   Settings settings_;
 };
 
-}  // namespace pgl
+}  // namespace open_pgl
 
 template <>
-struct EnumNames<pgl::Directions> {
-  static constexpr std::array<std::pair<std::string_view, pgl::Directions>, 3> names{
-      {{"parallax_vmm", pgl::Directions::parallax_vmm},
-       {"vmm", pgl::Directions::vmm},
-       {"quadtree", pgl::Directions::quadtree}}};
+struct EnumNames<open_pgl::Directions> {
+  static constexpr std::array<std::pair<std::string_view, open_pgl::Directions>, 3> names{
+      {{"parallax_vmm", open_pgl::Directions::parallax_vmm},
+       {"vmm", open_pgl::Directions::vmm},
+       {"quadtree", open_pgl::Directions::quadtree}}};
 };
 
 }  // namespace pharos

@@ -2,9 +2,9 @@
 
 #include <pharos/core/binary_stream.h>
 
-#include "pgl_model.h"
+#include "model.h"
 
-namespace pharos::pgl {
+namespace pharos::open_pgl {
 namespace {
 
 constexpr const char* kHeading = "open_pgl_learning";
@@ -21,13 +21,14 @@ PGL_DIRECTIONAL_DISTRIBUTION_TYPE type_of(Directions directions) {
   }
 }
 
-std::unique_ptr<openpgl::cpp::Field> new_field(const PglSettings& settings, const Bounds3& region) {
+std::unique_ptr<openpgl::cpp::Field> new_field(const OpenPglSettings& settings,
+                                               const Bounds3& region) {
   openpgl::cpp::FieldConfig config;
   constexpr bool kDeterministic = true;
   config.Init(PGL_SPATIAL_STRUCTURE_KDTREE, type_of(settings.directions), kDeterministic,
               settings.cell_samples);
   config.SetSpatialStructureArgMaxDepth(settings.max_depth);
-  config.SetUseKnnLookup(settings.neighbours);
+  config.SetUseKnnLookup(settings.neighbors);
   auto field = std::make_unique<openpgl::cpp::Field>(&device(), config);
   if (region.empty()) return field;  // it takes the bounds of its first samples
   // The library knows nothing on the very bounds.
@@ -59,13 +60,13 @@ void add(const Sample& sample, openpgl::cpp::SampleStorage& storage) {
 
 }  // namespace
 
-PglState::PglState(const PglSettings& settings, const Bounds3& region)
+OpenPglLearningState::OpenPglLearningState(const OpenPglSettings& settings, const Bounds3& region)
     : settings_(settings), region_(region), field_(new_field(settings, region)) {
   rule_ = {.least_pdf = settings.least_pdf, .glossy = settings.glossy};
   if (region.diagonal() > 0) rule_.most_distance = 1e3f * region.diagonal();
 }
 
-void PglState::absorb(const PathLog& log) {
+void OpenPglLearningState::absorb(const PathLog& log) {
   for (std::size_t i = 0; i < log.size(); ++i) extract_samples(log[i], rule_, scratch_, samples_);
   if (samples_.size() >= settings_.batch_samples) {
     learn();
@@ -73,13 +74,13 @@ void PglState::absorb(const PathLog& log) {
   }
 }
 
-std::shared_ptr<const GuidingModel> PglState::update(std::uint32_t, bool) {
+std::shared_ptr<const GuidingModel> OpenPglLearningState::update(std::uint32_t, bool) {
   learn();
   learned_early_ = false;
-  return lessons_ == 0 ? nullptr : std::make_shared<PglModel>(bytes_of(*field_));
+  return lessons_ == 0 ? nullptr : std::make_shared<OpenPglModel>(bytes_of(*field_));
 }
 
-void PglState::learn() {
+void OpenPglLearningState::learn() {
   if (samples_.empty()) return;
   openpgl::cpp::SampleStorage storage;
   storage.Reserve(samples_.size(), samples_.size());
@@ -89,7 +90,7 @@ void PglState::learn() {
   ++lessons_;
 }
 
-void PglState::save(std::ostream& out) const {
+void OpenPglLearningState::save(std::ostream& out) const {
   save_heading(out, kHeading, kVersion);
   save_number(out, lessons_);
   save_number(out, static_cast<std::uint8_t>(learned_early_));
@@ -99,7 +100,7 @@ void PglState::save(std::ostream& out) const {
   for (const Sample& sample : samples_) save_sample(sample, out);
 }
 
-void PglState::load(std::istream& in) {
+void OpenPglLearningState::load(std::istream& in) {
   expect_heading(in, kHeading, kVersion);
   const auto lessons = load_number<std::uint64_t>(in);
   const bool learned_early = load_number<std::uint8_t>(in) != 0;
@@ -114,8 +115,8 @@ void PglState::load(std::istream& in) {
   samples_ = std::move(samples);
 }
 
-void PglState::merge(const LearningState& other) {
-  const auto& theirs = dynamic_cast<const PglState&>(other);
+void OpenPglLearningState::merge(const LearningState& other) {
+  const auto& theirs = dynamic_cast<const OpenPglLearningState&>(other);
   if (theirs.lessons_ != lessons_ || learned_early_ || theirs.learned_early_) {
     throw InputError(
         "learning of Open PGL in another iteration, or after more than `batch_samples`, cannot be "
@@ -124,4 +125,4 @@ void PglState::merge(const LearningState& other) {
   samples_.insert(samples_.end(), theirs.samples_.begin(), theirs.samples_.end());
 }
 
-}  // namespace pharos::pgl
+}  // namespace pharos::open_pgl

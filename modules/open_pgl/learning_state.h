@@ -10,13 +10,13 @@
 #include "pgl_field.h"
 #include "sample.h"
 
-namespace pharos::pgl {
+namespace pharos::open_pgl {
 
 /// A field that learns during one render. The models it gives away are copies, made by way of the
 /// library's files, as fields change in place.
-class PglState final : public LearningState {
+class OpenPglLearningState final : public LearningState {
  public:
-  PglState(const PglSettings& settings, const Bounds3& region);
+  OpenPglLearningState(const OpenPglSettings& settings, const Bounds3& region);
 
   void absorb(const PathLog& log) override;
   std::shared_ptr<const GuidingModel> update(std::uint32_t iteration, bool last) override;
@@ -29,7 +29,7 @@ class PglState final : public LearningState {
   /// many.
   void learn();
 
-  PglSettings settings_;
+  OpenPglSettings settings_;
   Bounds3 region_;
   SampleRule rule_;
   std::unique_ptr<openpgl::cpp::Field> field_;
@@ -39,4 +39,4 @@ class PglState final : public LearningState {
   PathScratch scratch_;
 };
 
-}  // namespace pharos::pgl
+}  // namespace pharos::open_pgl

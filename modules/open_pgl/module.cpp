@@ -5,8 +5,8 @@
 #include "pgl_field.h"
 
 PHAROS_MODULE(registry) {
-  using namespace pharos::pgl;
+  using namespace pharos::open_pgl;
   device();  // before any limit on threads is in force, which it would keep for ever
-  registry.add<PglLearner>("open_pgl", "Fields of the library Open PGL");
-  registry.add<PglGuider>("open_pgl", "Directions from fields of the library Open PGL");
+  registry.add<OpenPglLearner>("open_pgl", "Fields of the library Open PGL");
+  registry.add<OpenPglGuider>("open_pgl", "Directions from fields of the library Open PGL");
 }

@@ -9,7 +9,7 @@
 #include <pharos/core/binary_stream.h>
 #include <pharos/core/error.h>
 
-namespace pharos::pgl {
+namespace pharos::open_pgl {
 namespace {
 
 /// A file's name that is nobody else's, as long as the object lives.
@@ -89,4 +89,4 @@ std::string load_bytes(std::istream& in) {
   return bytes;
 }
 
-}  // namespace pharos::pgl
+}  // namespace pharos::open_pgl

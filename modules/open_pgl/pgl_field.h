@@ -8,7 +8,7 @@
 #include <pharos/core/vec.h>
 
 /// What the library's fields need here beyond what its own interface offers.
-namespace pharos::pgl {
+namespace pharos::open_pgl {
 
 inline pgl_point3f to_point(Point3 p) {
   return openpgl::cpp::Point3(p.x, p.y, p.z);
@@ -30,4 +30,4 @@ void save_bytes(const std::string& bytes, std::ostream& out);
 /// Throws InputError when anything else stands there or a bit of it is wrong.
 std::string load_bytes(std::istream& in);
 
-}  // namespace pharos::pgl
+}  // namespace pharos::open_pgl

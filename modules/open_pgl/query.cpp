@@ -4,12 +4,12 @@
 
 #include <pharos/core/random.h>
 
-namespace pharos::pgl {
+namespace pharos::open_pgl {
 namespace {
 
-/// The number in [0,1) by which the library picks one of the neighbouring cells. A function of the
+/// The number in [0,1) by which the library picks one of the neighboring cells. A function of the
 /// place alone: a vertex must be given the same cell whenever it is asked for.
-float neighbour_number(Point3 p) {
+float neighbor_number(Point3 p) {
   std::uint64_t hash = 0;
   for (int axis = 0; axis < 3; ++axis) {
     hash = hash_combine(hash, std::bit_cast<std::uint32_t>(p[axis] + 0.0f));  // -0 is 0
@@ -21,7 +21,7 @@ float neighbour_number(Point3 p) {
 
 bool Workplace::take(const Query& query) {
   if (holds_ && query == taken_) return true;
-  float number = neighbour_number(query.position);
+  float number = neighbor_number(query.position);
   const pgl_point3f at = to_point(query.position);
   holds_ = query.in_volume ? volume_.Init(&field_, at, number) : surface_.Init(&field_, at, number);
   if (!holds_) return false;
@@ -44,4 +44,4 @@ float Workplace::pdf(Vec3 direction) const {
   return taken_.in_volume ? volume_.PDF(w) : surface_.PDF(w);
 }
 
-}  // namespace pharos::pgl
+}  // namespace pharos::open_pgl

@@ -4,7 +4,7 @@
 
 #include "pgl_field.h"
 
-namespace pharos::pgl {
+namespace pharos::open_pgl {
 
 /// What the library is asked at a vertex.
 struct Query {
@@ -38,4 +38,4 @@ class Workplace {
   bool holds_ = false;  ///< the distribution of `taken_`
 };
 
-}  // namespace pharos::pgl
+}  // namespace pharos::open_pgl

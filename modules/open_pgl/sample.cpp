@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include <pharos/core/binary_stream.h>
-#include <pharos/guiding/guidable_steps.h>
-#include <pharos/guiding/image_distance.h>
+#include <pharos/guiding/toolkit/guidable_steps.h>
+#include <pharos/guiding/toolkit/image_distance.h>
 
-namespace pharos::pgl {
+namespace pharos::open_pgl {
 namespace {
 
 bool is_sound(const Sample& s) {
@@ -53,4 +53,4 @@ Sample load_sample(std::istream& in) {
   return sample;
 }
 
-}  // namespace pharos::pgl
+}  // namespace pharos::open_pgl

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include <pharos/core/vec.h>
-#include <pharos/guiding/path_record.h>
+#include <pharos/guiding/record/path_record.h>
 
-namespace pharos::pgl {
+namespace pharos::open_pgl {
 
 /// A step of a path that a guide could have sampled, and what came of it, as the library wants it.
 struct Sample {
@@ -40,4 +40,4 @@ void save_sample(const Sample& sample, std::ostream& out);
 /// Throws InputError for what save_sample() does not write.
 Sample load_sample(std::istream& in);
 
-}  // namespace pharos::pgl
+}  // namespace pharos::open_pgl

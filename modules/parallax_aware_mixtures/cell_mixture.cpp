@@ -10,7 +10,7 @@
 #include <pharos/core/binary_stream.h>
 #include <pharos/core/warp.h>
 
-namespace pharos::vmf {
+namespace pharos::parallax_aware_mixtures {
 namespace {
 
 constexpr const char* kHeading = "vmf_cell_mixture";
@@ -45,7 +45,8 @@ Direction load_vector(std::istream& in) {
 /// One update of a cell, step by step.
 class CellUpdate {
  public:
-  CellUpdate(CellMixture& cell, std::span<const Sample> samples, const VmfSettings& settings)
+  CellUpdate(CellMixture& cell, std::span<const Sample> samples,
+             const ParallaxAwareMixturesSettings& settings)
       : cell_(cell), settings_(settings) {
     if (!cell_.knows_something()) begin();
     move_pivot(samples);
@@ -139,7 +140,7 @@ class CellUpdate {
   }
 
   void fit(std::span<const std::size_t> changing) {
-    seen_ = vmf::fit(cell_.mixture_, directions_, rules(changing));
+    seen_ = parallax_aware_mixtures::fit(cell_.mixture_, directions_, rules(changing));
   }
 
   /// Merges the cheapest pair as long as one is cheap enough.
@@ -215,7 +216,8 @@ class CellUpdate {
   }
 
   std::vector<Assessment> assess() const {
-    return vmf::assess(cell_.mixture_, aimed_, settings_.least_density * warp::sphere_pdf());
+    return parallax_aware_mixtures::assess(cell_.mixture_, aimed_,
+                                           settings_.least_density * warp::sphere_pdf());
   }
 
   /// Halves what needs it, the worst first; returns the numbers of all halves.
@@ -262,7 +264,7 @@ class CellUpdate {
   }
 
   CellMixture& cell_;
-  const VmfSettings& settings_;
+  const ParallaxAwareMixturesSettings& settings_;
   std::vector<AimedSample> aimed_;
   std::vector<WeightedDirection> directions_;
   Bounds3 box_;                  ///< of the samples' origins
@@ -270,7 +272,8 @@ class CellUpdate {
   std::vector<Moments> seen_;    ///< of this one
 };
 
-void CellMixture::update(std::span<const Sample> samples, const VmfSettings& settings) {
+void CellMixture::update(std::span<const Sample> samples,
+                         const ParallaxAwareMixturesSettings& settings) {
   const auto finds = [](const Sample& s) { return s.weight > 0; };
   const auto found = static_cast<std::size_t>(std::count_if(samples.begin(), samples.end(), finds));
   if (found == 0) return;
@@ -355,4 +358,4 @@ CellMixture CellMixture::load(std::istream& in) {
   return cell;
 }
 
-}  // namespace pharos::vmf
+}  // namespace pharos::parallax_aware_mixtures

@@ -11,14 +11,14 @@
 #include "lobe_mixture.h"
 #include "sample.h"
 
-namespace pharos::vmf {
+namespace pharos::parallax_aware_mixtures {
 
 /// What one cell learns: a mixture of von Mises-Fisher lobes of the directions of its samples, as
 /// they are seen from a pivot, the mean of their origins.
 class CellMixture {
  public:
   /// Learns from the samples of one iteration, in their order.
-  void update(std::span<const Sample> samples, const VmfSettings& settings);
+  void update(std::span<const Sample> samples, const ParallaxAwareMixturesSettings& settings);
   bool knows_something() const { return !mixture_.empty(); }
   /// What was learned so far counts `factor` times as much as it did.
   void forget(double factor);
@@ -46,4 +46,4 @@ class CellMixture {
   std::vector<Sample> first_;            ///< kept until there are enough for a mixture
 };
 
-}  // namespace pharos::vmf
+}  // namespace pharos::parallax_aware_mixtures

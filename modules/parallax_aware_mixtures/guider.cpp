@@ -1,15 +1,16 @@
 #include "guider.h"
 
+#include "model.h"
 #include "scattering_lobes.h"
 #include "seen_lobes.h"
-#include "vmf_model.h"
 
-namespace pharos::vmf {
+namespace pharos::parallax_aware_mixtures {
 namespace {
 
-class VmfDistribution final : public GuidingDistribution {
+class ParallaxAwareMixturesDistribution final : public GuidingDistribution {
  public:
-  VmfDistribution(const SeenLobes& lobes, std::uint32_t region) : lobes_(lobes), region_(region) {}
+  ParallaxAwareMixturesDistribution(const SeenLobes& lobes, std::uint32_t region)
+      : lobes_(lobes), region_(region) {}
 
   std::optional<Proposal> propose(const VertexStream& stream) const override {
     return Proposal{.direction = lobes_.sample(stream.get_1d(Purpose::guide_choice),
@@ -27,17 +28,19 @@ class VmfDistribution final : public GuidingDistribution {
 
 class BoundVmfGuider final : public BoundGuider {
  public:
-  BoundVmfGuider(std::shared_ptr<const VmfModel> model, const VmfGuiderSettings& settings)
+  BoundVmfGuider(std::shared_ptr<const ParallaxAwareMixturesModel> model,
+                 const ParallaxAwareMixturesGuiderSettings& settings)
       : model_(std::move(model)), settings_(settings) {}
 
   const GuidingDistribution* query(const GuidingQuery& query, Arena& arena) const override {
     if (query.scattering.purely_discrete()) return nullptr;
-    const VmfModel::View view = model_->at(query.current.position);
+    const ParallaxAwareMixturesModel::View view = model_->at(query.current.position);
     if (view.groups.empty()) return nullptr;
     const ScatteringLobes factors = factors_at(query);
     const SeenLobes* seen =
         SeenLobes::make(view.groups, view.offset, {factors.lobes.data(), factors.count}, arena);
-    return seen == nullptr ? nullptr : arena.make<VmfDistribution>(*seen, view.cell);
+    return seen == nullptr ? nullptr
+                           : arena.make<ParallaxAwareMixturesDistribution>(*seen, view.cell);
   }
 
  private:
@@ -53,21 +56,21 @@ class BoundVmfGuider final : public BoundGuider {
     return {.lobes = {Factor{towards_path, kCosineKappa}}, .count = 1};
   }
 
-  std::shared_ptr<const VmfModel> model_;
-  VmfGuiderSettings settings_;
+  std::shared_ptr<const ParallaxAwareMixturesModel> model_;
+  ParallaxAwareMixturesGuiderSettings settings_;
 };
 
 }  // namespace
 
-void VmfGuiderSettings::describe(Schema<VmfGuiderSettings>& s) {
-  s.field("product", &VmfGuiderSettings::product,
+void ParallaxAwareMixturesGuiderSettings::describe(Schema<ParallaxAwareMixturesGuiderSettings>& s) {
+  s.field("product", &ParallaxAwareMixturesGuiderSettings::product,
           "What mixtures are multiplied by at a vertex: nothing, a lobe in place of the cosine, or "
           "lobes fitted to its BSDF or phase function");
-  s.field("bsdf_samples", &VmfGuiderSettings::bsdf_samples,
+  s.field("bsdf_samples", &ParallaxAwareMixturesGuiderSettings::bsdf_samples,
           "For `bsdf`: directions that these lobes are fitted to")
       .at_least(4)
       .at_most(kMostScatteringSamples);
-  s.field("bsdf_tail", &VmfGuiderSettings::bsdf_tail,
+  s.field("bsdf_tail", &ParallaxAwareMixturesGuiderSettings::bsdf_tail,
           "For `bsdf`: directions whose density is below this share of the largest make the second "
           "lobe")
       .above(0)
@@ -76,13 +79,14 @@ void VmfGuiderSettings::describe(Schema<VmfGuiderSettings>& s) {
   s.example("{ product: bsdf }");
 }
 
-GuiderTraits VmfGuider::traits() const {
-  return {.model = VmfModel::kName};
+GuiderTraits ParallaxAwareMixturesGuider::traits() const {
+  return {.model = ParallaxAwareMixturesModel::kName};
 }
 
-std::unique_ptr<const BoundGuider> VmfGuider::bind(
+std::unique_ptr<const BoundGuider> ParallaxAwareMixturesGuider::bind(
     std::shared_ptr<const GuidingModel> model) const {
-  return std::make_unique<BoundVmfGuider>(bind_model<VmfModel>(model, *this), settings_);
+  return std::make_unique<BoundVmfGuider>(bind_model<ParallaxAwareMixturesModel>(model, *this),
+                                          settings_);
 }
 
-}  // namespace pharos::vmf
+}  // namespace pharos::parallax_aware_mixtures

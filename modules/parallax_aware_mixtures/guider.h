@@ -5,10 +5,10 @@
 #include <utility>
 
 #include <pharos/config/schema.h>
-#include <pharos/guiding/guider.h>
+#include <pharos/guiding/contract/guider.h>
 
 namespace pharos {
-namespace vmf {
+namespace parallax_aware_mixtures {
 
 /// What the mixture of incident radiance is multiplied by.
 enum class ProductFactor {
@@ -17,18 +17,18 @@ enum class ProductFactor {
   bsdf     ///< lobes in place of BSDF and cosine, or of the phase function
 };
 
-struct VmfGuiderSettings {
+struct ParallaxAwareMixturesGuiderSettings {
   ProductFactor product = ProductFactor::cosine;
   std::uint32_t bsdf_samples = 16;
   float bsdf_tail = 0.1f;
-  static void describe(Schema<VmfGuiderSettings>& schema);
+  static void describe(Schema<ParallaxAwareMixturesGuiderSettings>& schema);
 };
 
 /// Samples directions in proportion to mixtures of von Mises-Fisher lobes (Ruppert et al. 2020).
-class VmfGuider final : public Guider {
+class ParallaxAwareMixturesGuider final : public Guider {
  public:
-  using Settings = VmfGuiderSettings;
-  explicit VmfGuider(const Settings& settings) : settings_(settings) {}
+  using Settings = ParallaxAwareMixturesGuiderSettings;
+  explicit ParallaxAwareMixturesGuider(const Settings& settings) : settings_(settings) {}
 
   GuiderTraits traits() const override;
   std::unique_ptr<const BoundGuider> bind(std::shared_ptr<const GuidingModel> model) const override;
@@ -37,14 +37,15 @@ class VmfGuider final : public Guider {
   Settings settings_;
 };
 
-}  // namespace vmf
+}  // namespace parallax_aware_mixtures
 
 template <>
-struct EnumNames<vmf::ProductFactor> {
-  static constexpr std::array<std::pair<std::string_view, vmf::ProductFactor>, 3> names{
-      {{"none", vmf::ProductFactor::none},
-       {"cosine", vmf::ProductFactor::cosine},
-       {"bsdf", vmf::ProductFactor::bsdf}}};
+struct EnumNames<parallax_aware_mixtures::ProductFactor> {
+  static constexpr std::array<std::pair<std::string_view, parallax_aware_mixtures::ProductFactor>,
+                              3>
+      names{{{"none", parallax_aware_mixtures::ProductFactor::none},
+             {"cosine", parallax_aware_mixtures::ProductFactor::cosine},
+             {"bsdf", parallax_aware_mixtures::ProductFactor::bsdf}}};
 };
 
 }  // namespace pharos

@@ -1,15 +1,15 @@
 #include "learner.h"
 
 #include <pharos/core/error.h>
-#include <pharos/guiding/kd_tree.h>
+#include <pharos/guiding/toolkit/kd_tree.h>
 
 #include "learning.h"
-#include "vmf_model.h"
+#include "model.h"
 
-namespace pharos::vmf {
+namespace pharos::parallax_aware_mixtures {
 
-void VmfSettings::describe(Schema<VmfSettings>& s) {
-  using S = VmfSettings;
+void ParallaxAwareMixturesSettings::describe(Schema<ParallaxAwareMixturesSettings>& s) {
+  using S = ParallaxAwareMixturesSettings;
   s.field("spatial", &S::spatial,
           "A mixture for each cell of a growing tree, or a single one for the whole scene");
   s.field("parallax", &S::parallax,
@@ -75,24 +75,27 @@ void VmfSettings::describe(Schema<VmfSettings>& s) {
   s.example("{ spatial: single, parallax: false, components: 5, most_components: 12 }");
 }
 
-VmfLearner::VmfLearner(const Settings& settings) : settings_(settings) {
+ParallaxAwareMixturesLearner::ParallaxAwareMixturesLearner(const Settings& settings)
+    : settings_(settings) {
   if (settings.components > settings.most_components) {
     throw InputError("expected at least as many `most_components` as `components`");
   }
 }
 
-LearnerTraits VmfLearner::traits() const {
-  return {.model = VmfModel::kName,
+LearnerTraits ParallaxAwareMixturesLearner::traits() const {
+  return {.model = ParallaxAwareMixturesModel::kName,
           .records = {.light_samples = true},
-          .model_version = VmfModel::kVersion};
+          .model_version = ParallaxAwareMixturesModel::kVersion};
 }
 
-std::unique_ptr<LearningState> VmfLearner::begin(const LearningContext&) const {
-  return std::make_unique<CellLearning<VmfLearning>>(VmfLearning(settings_));
+std::unique_ptr<LearningState> ParallaxAwareMixturesLearner::begin(const LearningContext&) const {
+  return std::make_unique<KdTreeLearning<ParallaxAwareMixturesLearning>>(
+      ParallaxAwareMixturesLearning(settings_));
 }
 
-std::shared_ptr<const GuidingModel> VmfLearner::load_model(std::istream& in) const {
-  return std::make_shared<VmfModel>(in);
+std::shared_ptr<const GuidingModel> ParallaxAwareMixturesLearner::load_model(
+    std::istream& in) const {
+  return std::make_shared<ParallaxAwareMixturesModel>(in);
 }
 
-}  // namespace pharos::vmf
+}  // namespace pharos::parallax_aware_mixtures

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <pharos/guiding/cell_learning.h>
+#include <pharos/guiding/toolkit/kd_tree_learning.h>
 
-namespace pharos::vmf {
+namespace pharos::parallax_aware_mixtures {
 
 /// Parameters of the method; docs and sources are in the README.
-struct VmfSettings {
+struct ParallaxAwareMixturesSettings {
   SpatialCells spatial = SpatialCells::kdtree;
   bool parallax = true;
   std::uint32_t cell_samples = 32768;
@@ -27,15 +27,15 @@ struct VmfSettings {
   float least_pdf = 0.1f;
   float glossy = 0.3f;
 
-  static void describe(Schema<VmfSettings>& schema);
+  static void describe(Schema<ParallaxAwareMixturesSettings>& schema);
 };
 
 /// Learns where light comes from as mixtures of von Mises-Fisher lobes (Ruppert et al. 2020).
-class VmfLearner final : public Learner {
+class ParallaxAwareMixturesLearner final : public Learner {
  public:
-  using Settings = VmfSettings;
+  using Settings = ParallaxAwareMixturesSettings;
   /// Throws InputError when there may be fewer lobes than there are at first.
-  explicit VmfLearner(const Settings& settings);
+  explicit ParallaxAwareMixturesLearner(const Settings& settings);
 
   LearnerTraits traits() const override;
   std::unique_ptr<LearningState> begin(const LearningContext& context) const override;
@@ -45,4 +45,4 @@ class VmfLearner final : public Learner {
   Settings settings_;
 };
 
-}  // namespace pharos::vmf
+}  // namespace pharos::parallax_aware_mixtures

@@ -5,34 +5,35 @@
 #include <span>
 #include <vector>
 
-#include <pharos/guiding/cell_learning.h>
+#include <pharos/guiding/toolkit/kd_tree_learning.h>
 
 #include "cell_mixture.h"
 
-namespace pharos::vmf {
+namespace pharos::parallax_aware_mixtures {
 
-/// How von Mises-Fisher mixtures are learned during one render, for CellLearning.
-class VmfLearning {
+/// How von Mises-Fisher mixtures are learned during one render, for KdTreeLearning.
+class ParallaxAwareMixturesLearning {
  public:
-  using Sample = vmf::Sample;
+  using Sample = parallax_aware_mixtures::Sample;
   using Cell = CellMixture;
   static constexpr const char* kHeading = "vmf_learning";
   static constexpr std::uint32_t kVersion = 1;
 
-  explicit VmfLearning(const VmfSettings& settings) : settings_(settings) {}
+  explicit ParallaxAwareMixturesLearning(const ParallaxAwareMixturesSettings& settings)
+      : settings_(settings) {}
 
-  const VmfSettings& settings() const { return settings_; }
+  const ParallaxAwareMixturesSettings& settings() const { return settings_; }
   void extract(const PathView& path, std::vector<Sample>& samples) {
     extract_samples(path, {settings_.least_pdf, settings_.glossy}, scratch_, samples);
   }
   void teach(CellMixture& cell, std::span<const Sample> samples, std::uint64_t, std::size_t) const {
     cell.update(samples, settings_);
   }
-  std::shared_ptr<const GuidingModel> model(const LearningCells<Sample, CellMixture>& cells) const;
+  std::shared_ptr<const GuidingModel> model(const KdTreeCells<Sample, CellMixture>& cells) const;
 
  private:
-  VmfSettings settings_;
+  ParallaxAwareMixturesSettings settings_;
   PathScratch scratch_;
 };
 
-}  // namespace pharos::vmf
+}  // namespace pharos::parallax_aware_mixtures

@@ -6,10 +6,10 @@
 #include <pharos/core/frame.h>
 #include <pharos/core/parallel.h>
 
-#include "lobe_lanes.h"
+#include "lobe_simd.h"
 #include "vmf.h"
 
-namespace pharos::vmf {
+namespace pharos::parallax_aware_mixtures {
 namespace {
 
 /// The integral of v_a v_b / v: of e^(kappa' cos theta) with norms, kappa' being the length of
@@ -213,4 +213,4 @@ std::vector<Assessment> assess(const Mixture& mixture, std::span<const AimedSamp
   return all;
 }
 
-}  // namespace pharos::vmf
+}  // namespace pharos::parallax_aware_mixtures

@@ -9,7 +9,7 @@
 
 /// What tells that a mixture has a lobe too many or too few, and where lobes' light comes from
 /// (Ruppert et al. 2020, sections 4.3 and 5).
-namespace pharos::vmf {
+namespace pharos::parallax_aware_mixtures {
 
 /// A lobe with the place that it shows.
 struct PlacedLobe {
@@ -68,4 +68,4 @@ struct Assessment {
 std::vector<Assessment> assess(const Mixture& mixture, std::span<const AimedSample> samples,
                                float least_density);
 
-}  // namespace pharos::vmf
+}  // namespace pharos::parallax_aware_mixtures

@@ -7,7 +7,7 @@
 
 #include "vmf.h"
 
-namespace pharos::vmf {
+namespace pharos::parallax_aware_mixtures {
 namespace {
 
 constexpr std::uint32_t kMostGroups = 1u << 20;
@@ -83,4 +83,4 @@ std::vector<LobeGroup> load_groups(std::istream& in) {
   return groups;
 }
 
-}  // namespace pharos::vmf
+}  // namespace pharos::parallax_aware_mixtures

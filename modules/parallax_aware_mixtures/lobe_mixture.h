@@ -4,10 +4,10 @@
 #include <span>
 #include <vector>
 
-#include "lobe_lanes.h"
+#include "lobe_simd.h"
 #include "vmf_fit.h"
 
-namespace pharos::vmf {
+namespace pharos::parallax_aware_mixtures {
 
 /// Eight lobes of a mixture as they are seen from its pivot; what is beyond the last one weighs
 /// nothing.
@@ -33,4 +33,4 @@ void save_groups(std::span<const LobeGroup> groups, std::ostream& out);
 /// Throws InputError when it is no mixture or damaged.
 std::vector<LobeGroup> load_groups(std::istream& in);
 
-}  // namespace pharos::vmf
+}  // namespace pharos::parallax_aware_mixtures

@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include <pharos/core/binary_stream.h>
-#include <pharos/guiding/guidable_steps.h>
-#include <pharos/guiding/image_distance.h>
+#include <pharos/guiding/toolkit/guidable_steps.h>
+#include <pharos/guiding/toolkit/image_distance.h>
 
-namespace pharos::vmf {
+namespace pharos::parallax_aware_mixtures {
 
 void extract_samples(const PathView& path, const SampleRule& rule, PathScratch& scratch,
                      std::vector<Sample>& samples) {
@@ -45,4 +45,4 @@ Sample Sample::load(std::istream& in) {
   return sample;
 }
 
-}  // namespace pharos::vmf
+}  // namespace pharos::parallax_aware_mixtures

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include <pharos/core/vec.h>
-#include <pharos/guiding/path_record.h>
+#include <pharos/guiding/record/path_record.h>
 
-namespace pharos::vmf {
+namespace pharos::parallax_aware_mixtures {
 
 /// A step of a path that a guide could have sampled, and what came of it.
 struct Sample {
@@ -39,4 +39,4 @@ struct PathScratch {
 void extract_samples(const PathView& path, const SampleRule& rule, PathScratch& scratch,
                      std::vector<Sample>& samples);
 
-}  // namespace pharos::vmf
+}  // namespace pharos::parallax_aware_mixtures

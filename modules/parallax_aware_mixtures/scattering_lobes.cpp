@@ -5,7 +5,7 @@
 
 #include "vmf.h"
 
-namespace pharos::vmf {
+namespace pharos::parallax_aware_mixtures {
 namespace {
 
 constexpr float kMostKappa = 1e4f;
@@ -85,4 +85,4 @@ ScatteringLobes fit_scattering(const LocalScattering& scattering, const Scatteri
   return result;
 }
 
-}  // namespace pharos::vmf
+}  // namespace pharos::parallax_aware_mixtures

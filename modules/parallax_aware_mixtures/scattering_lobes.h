@@ -6,7 +6,7 @@
 
 #include "seen_lobes.h"
 
-namespace pharos::vmf {
+namespace pharos::parallax_aware_mixtures {
 
 /// Concentration of the lobe that stands for a clamped cosine about the normal (Ruppert et al.
 /// 2020).
@@ -30,4 +30,4 @@ struct ScatteringFit {
 /// vertex. None where it draws nothing.
 ScatteringLobes fit_scattering(const LocalScattering& scattering, const ScatteringFit& rule);
 
-}  // namespace pharos::vmf
+}  // namespace pharos::parallax_aware_mixtures

@@ -2,7 +2,7 @@
 
 #include "vmf.h"
 
-namespace pharos::vmf {
+namespace pharos::parallax_aware_mixtures {
 namespace {
 
 /// The lobes' directions from elsewhere: mu / r + offset, to unit length, r being the distance.
@@ -101,7 +101,8 @@ Vec3 SeenLobes::sample(float choice, Vec2 u) const {
     choice -= share;
   }
   const SeenGroup& g = groups_[group];
-  return vmf::sample({g.mean[0][lane], g.mean[1][lane], g.mean[2][lane]}, g.kappa[lane], u);
+  return parallax_aware_mixtures::sample({g.mean[0][lane], g.mean[1][lane], g.mean[2][lane]},
+                                         g.kappa[lane], u);
 }
 
-}  // namespace pharos::vmf
+}  // namespace pharos::parallax_aware_mixtures

@@ -7,7 +7,7 @@
 
 #include "lobe_mixture.h"
 
-namespace pharos::vmf {
+namespace pharos::parallax_aware_mixtures {
 
 /// Eight lobes as they are seen from a vertex.
 struct SeenGroup {
@@ -47,4 +47,4 @@ class SeenLobes {
   std::span<const SeenGroup> groups_;
 };
 
-}  // namespace pharos::vmf
+}  // namespace pharos::parallax_aware_mixtures

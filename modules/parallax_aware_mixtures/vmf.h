@@ -8,7 +8,7 @@
 
 /// The von Mises-Fisher distribution of directions, kappa / (2 pi (1 - e^(-2 kappa)))
 /// e^(kappa (cos theta - 1)) [1/sr]: the form that is sound for any concentration kappa >= 0.
-namespace pharos::vmf {
+namespace pharos::parallax_aware_mixtures {
 
 inline constexpr double kTwoPi = 6.28318530717958648;
 
@@ -64,4 +64,4 @@ inline Vec3 sample(Vec3 mean, float kappa, Vec2 u) {
   return Frame::from_normal(mean).to_world({sine * p.direction.x, sine * p.direction.y, 1 - v});
 }
 
-}  // namespace pharos::vmf
+}  // namespace pharos::parallax_aware_mixtures

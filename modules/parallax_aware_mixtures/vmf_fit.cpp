@@ -6,10 +6,10 @@
 
 #include <pharos/core/parallel.h>
 
-#include "lobe_lanes.h"
+#include "lobe_simd.h"
 #include "vmf.h"
 
-namespace pharos::vmf {
+namespace pharos::parallax_aware_mixtures {
 namespace {
 
 /// Lobes in the form of the E step.
@@ -100,7 +100,7 @@ Expectation expectation(const Mixture& mixture, std::span<const WeightedDirectio
   return all;
 }
 
-void maximise(std::span<const Moments> moments, const FitRules& rules, Mixture& mixture) {
+void maximize(std::span<const Moments> moments, const FitRules& rules, Mixture& mixture) {
   const std::size_t count = rules.changing.empty() ? mixture.size() : rules.changing.size();
   double seen = 0;
   for (const Moments& m : moments) seen += m.weight;
@@ -151,7 +151,7 @@ std::vector<Moments> fit(Mixture& mixture, std::span<const WeightedDirection> di
     const double reached = objective(mixture, now.log_likelihood, seen, rules);
     std::vector<Moments> moments = now.moments;
     for (std::size_t k = 0; k < rules.frozen.size(); ++k) moments[k] += rules.frozen[k];
-    maximise(moments, rules, mixture);
+    maximize(moments, rules, mixture);
     result = std::move(now.moments);
     if (reached - last < rules.tolerance * weight) break;
     last = reached;
@@ -159,4 +159,4 @@ std::vector<Moments> fit(Mixture& mixture, std::span<const WeightedDirection> di
   return result;
 }
 
-}  // namespace pharos::vmf
+}  // namespace pharos::parallax_aware_mixtures

@@ -7,8 +7,8 @@
 #include <pharos/statistics/gaussian.h>
 
 /// Mixtures of von Mises-Fisher distributions and their fit to weighted directions by maximum a
-/// posteriori expectation-maximisation (Ruppert et al. 2020, section 4; supplemental).
-namespace pharos::vmf {
+/// posteriori expectation-maximization (Ruppert et al. 2020, section 4; supplemental).
+namespace pharos::parallax_aware_mixtures {
 
 using Direction = statistics::Vector<3>;
 
@@ -67,9 +67,9 @@ Expectation expectation(const Mixture& mixture, std::span<const WeightedDirectio
 
 /// The M step: the most probable lobes for these moments, rules.frozen not added. Lobes without
 /// weight stay where they are.
-void maximise(std::span<const Moments> moments, const FitRules& rules, Mixture& mixture);
+void maximize(std::span<const Moments> moments, const FitRules& rules, Mixture& mixture);
 
-/// What expectation-maximisation raises with every step: the logarithm of the directions'
+/// What expectation-maximization raises with every step: the logarithm of the directions'
 /// likelihood, of the frozen moments' (each with its own lobe), and of the prior, up to a constant.
 /// `seen` is the weight of all directions and frozen moments.
 double objective(const Mixture& mixture, double log_likelihood, double seen, const FitRules& rules);
@@ -79,4 +79,4 @@ double objective(const Mixture& mixture, double log_likelihood, double seen, con
 std::vector<Moments> fit(Mixture& mixture, std::span<const WeightedDirection> directions,
                          const FitRules& rules);
 
-}  // namespace pharos::vmf
+}  // namespace pharos::parallax_aware_mixtures

@@ -2,14 +2,14 @@
 
 #include <pharos/core/warp.h>
 
-#include "sd_tree.h"
+#include "model.h"
 
-namespace pharos::ppg {
+namespace pharos::practical_path_guiding {
 namespace {
 
-class SdTreeDistribution final : public GuidingDistribution {
+class PracticalPathGuidingDistribution final : public GuidingDistribution {
  public:
-  explicit SdTreeDistribution(const SdTree::View& view)
+  explicit PracticalPathGuidingDistribution(const PracticalPathGuidingModel::View& view)
       : density_(view.nodes), region_(view.cell) {}
 
   std::optional<Proposal> propose(const VertexStream& stream) const override {
@@ -29,27 +29,28 @@ class SdTreeDistribution final : public GuidingDistribution {
 
 class BoundSdTreeGuider final : public BoundGuider {
  public:
-  explicit BoundSdTreeGuider(std::shared_ptr<const SdTree> tree) : tree_(std::move(tree)) {}
+  explicit BoundSdTreeGuider(std::shared_ptr<const PracticalPathGuidingModel> tree)
+      : tree_(std::move(tree)) {}
 
   const GuidingDistribution* query(const GuidingQuery& query, Arena& arena) const override {
     if (query.scattering.purely_discrete()) return nullptr;
-    const SdTree::View view = tree_->at(query.current.position);
-    return view.nodes.empty() ? nullptr : arena.make<SdTreeDistribution>(view);
+    const PracticalPathGuidingModel::View view = tree_->at(query.current.position);
+    return view.nodes.empty() ? nullptr : arena.make<PracticalPathGuidingDistribution>(view);
   }
 
  private:
-  std::shared_ptr<const SdTree> tree_;
+  std::shared_ptr<const PracticalPathGuidingModel> tree_;
 };
 
 }  // namespace
 
-GuiderTraits SdTreeGuider::traits() const {
-  return {.model = SdTree::kName};
+GuiderTraits PracticalPathGuidingGuider::traits() const {
+  return {.model = PracticalPathGuidingModel::kName};
 }
 
-std::unique_ptr<const BoundGuider> SdTreeGuider::bind(
+std::unique_ptr<const BoundGuider> PracticalPathGuidingGuider::bind(
     std::shared_ptr<const GuidingModel> model) const {
-  return std::make_unique<BoundSdTreeGuider>(bind_model<SdTree>(model, *this));
+  return std::make_unique<BoundSdTreeGuider>(bind_model<PracticalPathGuidingModel>(model, *this));
 }
 
-}  // namespace pharos::ppg
+}  // namespace pharos::practical_path_guiding

@@ -1,12 +1,12 @@
 #include "learner.h"
 
 #include "learning_state.h"
-#include "sd_tree.h"
+#include "model.h"
 
-namespace pharos::ppg {
+namespace pharos::practical_path_guiding {
 
-void SdTreeSettings::describe(Schema<SdTreeSettings>& s) {
-  using S = SdTreeSettings;
+void PracticalPathGuidingSettings::describe(Schema<PracticalPathGuidingSettings>& s) {
+  using S = PracticalPathGuidingSettings;
   s.field("spatial_threshold", &S::spatial_threshold,
           "Records of an iteration, over the square root of half its samples a pixel, above which "
           "a cell is halved (c)")
@@ -42,18 +42,20 @@ void SdTreeSettings::describe(Schema<SdTreeSettings>& s) {
   s.example("{ target: relative, spatial_threshold: 500 }");
 }
 
-LearnerTraits SdTreeLearner::traits() const {
-  return {.model = SdTree::kName,
+LearnerTraits PracticalPathGuidingLearner::traits() const {
+  return {.model = PracticalPathGuidingModel::kName,
           .records = {.light_samples = true},
-          .model_version = SdTree::kVersion};
+          .model_version = PracticalPathGuidingModel::kVersion};
 }
 
-std::unique_ptr<LearningState> SdTreeLearner::begin(const LearningContext& context) const {
-  return std::make_unique<SdTreeState>(settings_, context);
+std::unique_ptr<LearningState> PracticalPathGuidingLearner::begin(
+    const LearningContext& context) const {
+  return std::make_unique<PracticalPathGuidingLearningState>(settings_, context);
 }
 
-std::shared_ptr<const GuidingModel> SdTreeLearner::load_model(std::istream& in) const {
-  return std::make_shared<SdTree>(in);
+std::shared_ptr<const GuidingModel> PracticalPathGuidingLearner::load_model(
+    std::istream& in) const {
+  return std::make_shared<PracticalPathGuidingModel>(in);
 }
 
-}  // namespace pharos::ppg
+}  // namespace pharos::practical_path_guiding

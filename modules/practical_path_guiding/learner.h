@@ -5,12 +5,12 @@
 #include <utility>
 
 #include <pharos/config/schema.h>
-#include <pharos/guiding/learner.h>
+#include <pharos/guiding/contract/learner.h>
 
 #include "records.h"
 
 namespace pharos {
-namespace ppg {
+namespace practical_path_guiding {
 
 enum class SpatialFilter {
   nearest,    ///< the cell that a record lies in
@@ -22,7 +22,7 @@ enum class DirectionalFilter {
 };
 
 /// Parameters of the method; docs and sources are in the README.
-struct SdTreeSettings {
+struct PracticalPathGuidingSettings {
   double spatial_threshold = 4000;
   int spatial_depth = 40;
   double directional_threshold = 0.01;
@@ -34,14 +34,14 @@ struct SdTreeSettings {
   double least_pixel = 0.01;
   std::uint32_t batch_records = 1u << 20;
 
-  static void describe(Schema<SdTreeSettings>& schema);
+  static void describe(Schema<PracticalPathGuidingSettings>& schema);
 };
 
 /// Learns an SD-tree (Mueller et al. 2017, with the improvements of 2019).
-class SdTreeLearner final : public Learner {
+class PracticalPathGuidingLearner final : public Learner {
  public:
-  using Settings = SdTreeSettings;
-  explicit SdTreeLearner(const Settings& settings) : settings_(settings) {}
+  using Settings = PracticalPathGuidingSettings;
+  explicit PracticalPathGuidingLearner(const Settings& settings) : settings_(settings) {}
 
   LearnerTraits traits() const override;
   std::unique_ptr<LearningState> begin(const LearningContext& context) const override;
@@ -51,17 +51,20 @@ class SdTreeLearner final : public Learner {
   Settings settings_;
 };
 
-}  // namespace ppg
+}  // namespace practical_path_guiding
 
 template <>
-struct EnumNames<ppg::SpatialFilter> {
-  static constexpr std::array<std::pair<std::string_view, ppg::SpatialFilter>, 2> names{
-      {{"nearest", ppg::SpatialFilter::nearest}, {"stochastic", ppg::SpatialFilter::stochastic}}};
+struct EnumNames<practical_path_guiding::SpatialFilter> {
+  static constexpr std::array<std::pair<std::string_view, practical_path_guiding::SpatialFilter>, 2>
+      names{{{"nearest", practical_path_guiding::SpatialFilter::nearest},
+             {"stochastic", practical_path_guiding::SpatialFilter::stochastic}}};
 };
 template <>
-struct EnumNames<ppg::DirectionalFilter> {
-  static constexpr std::array<std::pair<std::string_view, ppg::DirectionalFilter>, 2> names{
-      {{"nearest", ppg::DirectionalFilter::nearest}, {"box", ppg::DirectionalFilter::box}}};
+struct EnumNames<practical_path_guiding::DirectionalFilter> {
+  static constexpr std::array<
+      std::pair<std::string_view, practical_path_guiding::DirectionalFilter>, 2>
+      names{{{"nearest", practical_path_guiding::DirectionalFilter::nearest},
+             {"box", practical_path_guiding::DirectionalFilter::box}}};
 };
 
 }  // namespace pharos

@@ -8,9 +8,9 @@
 #include <pharos/core/binary_stream.h>
 #include <pharos/core/counting_sort.h>
 
-#include "sd_tree.h"
+#include "model.h"
 
-namespace pharos::ppg {
+namespace pharos::practical_path_guiding {
 namespace {
 
 constexpr const char* kHeading = "sd_tree_learning";
@@ -42,14 +42,15 @@ double value_of(const PathView& path, const std::vector<Rgb>& incident) {
 
 }  // namespace
 
-SdTreeState::SdTreeState(const SdTreeSettings& settings, const LearningContext& context)
+PracticalPathGuidingLearningState::PracticalPathGuidingLearningState(
+    const PracticalPathGuidingSettings& settings, const LearningContext& context)
     : settings_(settings),
       seed_(context.seed),
       film_pixels_(static_cast<double>(context.window.area())),
       cells_{{.box = cube_around(context.region), .learning = QuadTree(refinement())}},
       pixels_(settings.target == GuidingTarget::relative ? context.window : PixelRect{}) {}
 
-void SdTreeState::absorb(const PathLog& log) {
+void PracticalPathGuidingLearningState::absorb(const PathLog& log) {
   for (std::size_t i = 0; i < log.size(); ++i) {
     const PathView path = log[i];
     if (path.transport != Transport::radiance) continue;
@@ -62,7 +63,8 @@ void SdTreeState::absorb(const PathLog& log) {
   if (records_.size() >= settings_.batch_records) flush();
 }
 
-std::uint32_t SdTreeState::cell_for(const Record& record, RandomStream random) const {
+std::uint32_t PracticalPathGuidingLearningState::cell_for(const Record& record,
+                                                          RandomStream random) const {
   const std::uint32_t own = tree_.cell_at(record.position);
   if (settings_.spatial_filter == SpatialFilter::nearest) return own;
   const Bounds3& box = cells_[own].box;
@@ -73,7 +75,7 @@ std::uint32_t SdTreeState::cell_for(const Record& record, RandomStream random) c
   return tree_.cell_at(p);
 }
 
-void SdTreeState::flush() {
+void PracticalPathGuidingLearningState::flush() {
   const std::vector<std::size_t> first = sort_by_key(records_, cells_.size(), [&](std::size_t i) {
     return cell_for(records_[i], RandomStream(seed_, batches_, i));
   });
@@ -95,7 +97,7 @@ void SdTreeState::flush() {
   ++batches_;
 }
 
-std::shared_ptr<const GuidingModel> SdTreeState::update(std::uint32_t, bool) {
+std::shared_ptr<const GuidingModel> PracticalPathGuidingLearningState::update(std::uint32_t, bool) {
   flush();
   const double samples = paths_ / film_pixels_;  // a pixel
   const double threshold = settings_.spatial_threshold * std::sqrt(samples / 2);
@@ -114,7 +116,7 @@ std::shared_ptr<const GuidingModel> SdTreeState::update(std::uint32_t, bool) {
   return learned;
 }
 
-void SdTreeState::conclude(Cell& cell) const {
+void PracticalPathGuidingLearningState::conclude(Cell& cell) const {
   // Who found nothing keeps what is known.
   if (cell.learning.total() > 0) {
     cell.known = cell.learning.density(leaf_mass());
@@ -124,7 +126,8 @@ void SdTreeState::conclude(Cell& cell) const {
   cell.light = 0;
 }
 
-void SdTreeState::halve(std::uint32_t leaf, std::uint32_t cell, double threshold) {
+void PracticalPathGuidingLearningState::halve(std::uint32_t leaf, std::uint32_t cell,
+                                              double threshold) {
   if (!(cells_[cell].records > threshold) || cells_[cell].level >= settings_.spatial_depth) return;
   const int axis = cells_[cell].level % 3;
   const std::array<Bounds3, 2> parts = halves(cells_[cell].box, axis);
@@ -140,13 +143,13 @@ void SdTreeState::halve(std::uint32_t leaf, std::uint32_t cell, double threshold
   halve(places.high, added, threshold);
 }
 
-std::shared_ptr<const GuidingModel> SdTreeState::model() const {
-  std::vector<SdTree::Cell> cells;
+std::shared_ptr<const GuidingModel> PracticalPathGuidingLearningState::model() const {
+  std::vector<PracticalPathGuidingModel::Cell> cells;
   for (const Cell& cell : cells_) cells.push_back({cell.known, cell.known_light});
-  return std::make_shared<SdTree>(tree_, cells, origins_);
+  return std::make_shared<PracticalPathGuidingModel>(tree_, cells, origins_);
 }
 
-void SdTreeState::save(std::ostream& out) const {
+void PracticalPathGuidingLearningState::save(std::ostream& out) const {
   save_heading(out, kHeading, kVersion);
   tree_.save(out);
   for (std::size_t i = 0; i < cells_.size(); ++i) {
@@ -168,13 +171,13 @@ void SdTreeState::save(std::ostream& out) const {
   for (const Record& record : records_) save_record(record, out);
 }
 
-void SdTreeState::load(std::istream& in) {
-  SdTreeState loaded(*this);
+void PracticalPathGuidingLearningState::load(std::istream& in) {
+  PracticalPathGuidingLearningState loaded(*this);
   loaded.read(in);
   *this = std::move(loaded);
 }
 
-void SdTreeState::read(std::istream& in) {
+void PracticalPathGuidingLearningState::read(std::istream& in) {
   const auto expect = [](bool holds) {
     if (!holds) throw InputError("the learning of the SD-tree is damaged");
   };
@@ -208,8 +211,8 @@ void SdTreeState::read(std::istream& in) {
   }
 }
 
-void SdTreeState::merge(const LearningState& other) {
-  const auto& theirs = dynamic_cast<const SdTreeState&>(other);
+void PracticalPathGuidingLearningState::merge(const LearningState& other) {
+  const auto& theirs = dynamic_cast<const PracticalPathGuidingLearningState&>(other);
   bool is_alike = theirs.tree_ == tree_;
   for (std::size_t i = 0; is_alike && i < cells_.size(); ++i) {
     is_alike = cells_[i].learning.has_leaves_of(theirs.cells_[i].learning);
@@ -225,4 +228,4 @@ void SdTreeState::merge(const LearningState& other) {
   records_.insert(records_.end(), theirs.records_.begin(), theirs.records_.end());
 }
 
-}  // namespace pharos::ppg
+}  // namespace pharos::practical_path_guiding

@@ -5,20 +5,21 @@
 
 #include <pharos/core/bounds.h>
 #include <pharos/core/random.h>
-#include <pharos/guiding/kd_tree.h>
-#include <pharos/guiding/learner.h>
+#include <pharos/guiding/contract/learner.h>
+#include <pharos/guiding/toolkit/kd_tree.h>
 
 #include "learner.h"
 #include "pixel_estimates.h"
 #include "quad_tree.h"
 
-namespace pharos::ppg {
+namespace pharos::practical_path_guiding {
 
 /// What is learned during one render: a binary tree over a cube around the scene whose cells are
 /// halved where many records come, axis after axis, and a directional quadtree in each.
-class SdTreeState final : public LearningState {
+class PracticalPathGuidingLearningState final : public LearningState {
  public:
-  SdTreeState(const SdTreeSettings& settings, const LearningContext& context);
+  PracticalPathGuidingLearningState(const PracticalPathGuidingSettings& settings,
+                                    const LearningContext& context);
 
   void absorb(const PathLog& log) override;
   std::shared_ptr<const GuidingModel> update(std::uint32_t iteration, bool last) override;
@@ -54,7 +55,7 @@ class SdTreeState final : public LearningState {
   std::shared_ptr<const GuidingModel> model() const;
   void read(std::istream& in);
 
-  SdTreeSettings settings_;
+  PracticalPathGuidingSettings settings_;
   std::uint64_t seed_;
   double film_pixels_;
   KdTree tree_;
@@ -67,4 +68,4 @@ class SdTreeState final : public LearningState {
   std::vector<Rgb> incident_;    ///< scratch
 };
 
-}  // namespace pharos::ppg
+}  // namespace pharos::practical_path_guiding

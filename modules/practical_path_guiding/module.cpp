@@ -4,7 +4,9 @@
 #include "learner.h"
 
 PHAROS_MODULE(registry) {
-  using namespace pharos::ppg;
-  registry.add<SdTreeLearner>("sd_tree", "Directional quadtrees of radiance in a binary tree");
-  registry.add<SdTreeGuider>("sd_tree", "Directions in proportion to an SD-tree");
+  using namespace pharos::practical_path_guiding;
+  registry.add<PracticalPathGuidingLearner>("practical_path_guiding",
+                                            "Directional quadtrees of radiance in a binary tree");
+  registry.add<PracticalPathGuidingGuider>("practical_path_guiding",
+                                           "Directions in proportion to an SD-tree");
 }

@@ -5,7 +5,7 @@
 #include <pharos/core/binary_stream.h>
 #include <pharos/core/parallel.h>
 
-namespace pharos::ppg {
+namespace pharos::practical_path_guiding {
 
 PixelEstimates::PixelEstimates(const PixelRect& window)
     : window_(window),
@@ -99,4 +99,4 @@ void PixelEstimates::load(std::istream& in) {
   }
 }
 
-}  // namespace pharos::ppg
+}  // namespace pharos::practical_path_guiding

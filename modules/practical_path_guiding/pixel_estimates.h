@@ -6,7 +6,7 @@
 #include <pharos/core/pixel_rect.h>
 #include <pharos/core/vec.h>
 
-namespace pharos::ppg {
+namespace pharos::practical_path_guiding {
 
 /// What pixels look like so far: means over all paths, blurred, for a target that is relative to
 /// the image.
@@ -43,4 +43,4 @@ class PixelEstimates {
   std::vector<double> estimates_;
 };
 
-}  // namespace pharos::ppg
+}  // namespace pharos::practical_path_guiding

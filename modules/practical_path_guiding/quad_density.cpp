@@ -7,7 +7,7 @@
 
 #include "quad_links.h"
 
-namespace pharos::ppg {
+namespace pharos::practical_path_guiding {
 namespace {
 
 void expect(bool holds) {
@@ -107,4 +107,4 @@ std::vector<QuadNode> load_nodes(std::istream& in) {
   return nodes;
 }
 
-}  // namespace pharos::ppg
+}  // namespace pharos::practical_path_guiding

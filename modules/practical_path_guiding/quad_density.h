@@ -7,7 +7,7 @@
 
 #include <pharos/core/vec.h>
 
-namespace pharos::ppg {
+namespace pharos::practical_path_guiding {
 
 /// The quarters of a square: bit 0 of their number says that x is in the upper half, bit 1 that y
 /// is.
@@ -39,4 +39,4 @@ void save_nodes(std::span<const QuadNode> nodes, std::ostream& out);
 /// Throws InputError when it is no density or damaged.
 std::vector<QuadNode> load_nodes(std::istream& in);
 
-}  // namespace pharos::ppg
+}  // namespace pharos::practical_path_guiding

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pharos::ppg {
+namespace pharos::practical_path_guiding {
 
 /// More nodes than that no tree has: a larger count is damage.
 inline constexpr std::uint32_t kMostNodes = 1u << 24;
@@ -26,4 +26,4 @@ bool is_quadtree(const std::vector<Node>& nodes, int levels) {
   return true;
 }
 
-}  // namespace pharos::ppg
+}  // namespace pharos::practical_path_guiding

@@ -7,7 +7,7 @@
 
 #include "quad_links.h"
 
-namespace pharos::ppg {
+namespace pharos::practical_path_guiding {
 namespace {
 
 double sum_of(const double (&masses)[4]) {
@@ -198,4 +198,4 @@ QuadTree QuadTree::load(std::istream& in) {
   return tree;
 }
 
-}  // namespace pharos::ppg
+}  // namespace pharos::practical_path_guiding

@@ -6,7 +6,7 @@
 
 #include "quad_density.h"
 
-namespace pharos::ppg {
+namespace pharos::practical_path_guiding {
 
 /// What the leaves of a quadtree are given weight by.
 enum class LeafMass {
@@ -77,4 +77,4 @@ class QuadTree {
   std::vector<Node> nodes_;
 };
 
-}  // namespace pharos::ppg
+}  // namespace pharos::practical_path_guiding

@@ -4,9 +4,9 @@
 
 #include <pharos/core/binary_stream.h>
 #include <pharos/core/warp.h>
-#include <pharos/guiding/guidable_steps.h>
+#include <pharos/guiding/toolkit/guidable_steps.h>
 
-namespace pharos::ppg {
+namespace pharos::practical_path_guiding {
 namespace {
 
 double value_of(const GuidableStep& step, GuidingTarget target, double pixel) {
@@ -51,4 +51,4 @@ Record load_record(std::istream& in) {
   return record;
 }
 
-}  // namespace pharos::ppg
+}  // namespace pharos::practical_path_guiding

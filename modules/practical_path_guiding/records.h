@@ -7,12 +7,12 @@
 #include <vector>
 
 #include <pharos/config/values.h>
-#include <pharos/guiding/path_record.h>
+#include <pharos/guiding/record/path_record.h>
 
 #include "pixel_estimates.h"
 
 namespace pharos {
-namespace ppg {
+namespace practical_path_guiding {
 
 /// What directions are to be sampled in proportion to.
 enum class GuidingTarget {
@@ -40,14 +40,14 @@ void save_record(const Record& record, std::ostream& out);
 /// Throws InputError for what save_record() does not write.
 Record load_record(std::istream& in);
 
-}  // namespace ppg
+}  // namespace practical_path_guiding
 
 template <>
-struct EnumNames<ppg::GuidingTarget> {
-  static constexpr std::array<std::pair<std::string_view, ppg::GuidingTarget>, 3> names{
-      {{"radiance", ppg::GuidingTarget::radiance},
-       {"product", ppg::GuidingTarget::product},
-       {"relative", ppg::GuidingTarget::relative}}};
+struct EnumNames<practical_path_guiding::GuidingTarget> {
+  static constexpr std::array<std::pair<std::string_view, practical_path_guiding::GuidingTarget>, 3>
+      names{{{"radiance", practical_path_guiding::GuidingTarget::radiance},
+             {"product", practical_path_guiding::GuidingTarget::product},
+             {"relative", practical_path_guiding::GuidingTarget::relative}}};
 };
 
 }  // namespace pharos

@@ -10,7 +10,7 @@
 #include <pharos/core/random.h>
 #include <pharos/core/warp.h>
 
-namespace pharos::gaussians {
+namespace pharos::spatial_gaussians {
 
 using statistics::Matrix;
 using statistics::MixtureFit;
@@ -69,7 +69,7 @@ std::vector<Vector<3>> spread_centers(const WeightedPoints<3>& points, std::size
   return centers;
 }
 
-/// Moments of the points nearest to each centre.
+/// Moments of the points nearest to each center.
 std::vector<Moments3> moments_about(const std::vector<Vector<3>>& centers,
                                     const WeightedPoints<3>& points) {
   std::vector<Moments3> moments(centers.size());
@@ -106,8 +106,8 @@ Matrix<3> load_matrix(std::istream& in) {
 /// One update of a cell, step by step.
 class CellUpdate {
  public:
-  CellUpdate(CellMixture& cell, std::span<const Sample> samples, const GaussianSettings& settings,
-             double scene_size)
+  CellUpdate(CellMixture& cell, std::span<const Sample> samples,
+             const SpatialGaussiansSettings& settings, double scene_size)
       : cell_(cell),
         samples_(samples),
         settings_(settings),
@@ -173,7 +173,7 @@ class CellUpdate {
     cell_.tests_.assign(count, {});
     frozen_.clear();
     floors_.clear();
-    statistics::maximise<3>(moments, rules({}), cell_.mixture_);
+    statistics::maximize<3>(moments, rules({}), cell_.mixture_);
   }
 
   void fit(std::span<const std::size_t> changing) {
@@ -182,10 +182,10 @@ class CellUpdate {
   }
 
   /// The mixture that follows from the moments, for these components.
-  void maximise(std::span<const std::size_t> changing) {
+  void maximize(std::span<const std::size_t> changing) {
     std::vector<Moments3> moments = seen_;
     for (std::size_t k = 0; k < moments.size(); ++k) moments[k] += frozen_[k];
-    statistics::maximise<3>(moments, rules(changing), cell_.mixture_);
+    statistics::maximize<3>(moments, rules(changing), cell_.mixture_);
   }
 
   /// Merges the cheapest pair as long as one is cheap enough.
@@ -224,7 +224,7 @@ class CellUpdate {
     erase(cell_.moments_);
     erase(floors_);
     const std::size_t changed[] = {i};
-    maximise(changed);
+    maximize(changed);
   }
 
   /// Splits components that the samples' directions contradict, and fits their halves, until none
@@ -301,7 +301,7 @@ class CellUpdate {
 
   CellMixture& cell_;
   std::span<const Sample> samples_;
-  const GaussianSettings& settings_;
+  const SpatialGaussiansSettings& settings_;
   double least_size_;
   Vector<3> middle_ = Vector<3>::Zero();  ///< of the samples' origins, from the pivot
   WeightedPoints<3> points_;
@@ -310,7 +310,7 @@ class CellUpdate {
   std::vector<Moments3> seen_;    ///< of this one
 };
 
-void CellMixture::update(std::span<const Sample> samples, const GaussianSettings& settings,
+void CellMixture::update(std::span<const Sample> samples, const SpatialGaussiansSettings& settings,
                          double scene_size, RandomStream random) {
   const auto finds = [](const Sample& s) { return s.weight > 0; };
   const auto found = static_cast<std::size_t>(std::count_if(samples.begin(), samples.end(), finds));
@@ -397,4 +397,4 @@ CellMixture CellMixture::load(std::istream& in) {
   return cell;
 }
 
-}  // namespace pharos::gaussians
+}  // namespace pharos::spatial_gaussians

@@ -6,12 +6,12 @@
 #include <vector>
 
 #include <pharos/core/random.h>
-#include <pharos/guiding/spatial_mixture.h>
+#include <pharos/guiding/contract/spatial_mixture.h>
 
 #include "learner.h"
 #include "mixture_changes.h"
 
-namespace pharos::gaussians {
+namespace pharos::spatial_gaussians {
 
 /// What one cell learns: a mixture of Gaussians of the targets of its samples. What it remembers of
 /// them are the moments of each component, which add up over iterations.
@@ -19,8 +19,8 @@ class CellMixture {
  public:
   /// Learns from the samples of one iteration, in their order. `scene_size` [scene units] is the
   /// same for the whole render.
-  void update(std::span<const Sample> samples, const GaussianSettings& settings, double scene_size,
-              RandomStream random);
+  void update(std::span<const Sample> samples, const SpatialGaussiansSettings& settings,
+              double scene_size, RandomStream random);
   bool knows_something() const { return mixture_.size() > 0; }
   /// What was learned so far counts `factor` times as much as it did.
   void forget(double factor);
@@ -47,4 +47,4 @@ class CellMixture {
   std::vector<DirectionTest> tests_;  ///< of each component since it was made
 };
 
-}  // namespace pharos::gaussians
+}  // namespace pharos::spatial_gaussians

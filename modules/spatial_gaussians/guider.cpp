@@ -1,6 +1,6 @@
 #include "guider.h"
 
-namespace pharos::gaussians {
+namespace pharos::spatial_gaussians {
 namespace {
 
 class SeenDistribution final : public GuidingDistribution {
@@ -77,4 +77,4 @@ std::unique_ptr<const BoundGuider> MixtureGuider::bind(
                                               technique_);
 }
 
-}  // namespace pharos::gaussians
+}  // namespace pharos::spatial_gaussians

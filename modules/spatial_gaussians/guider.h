@@ -3,11 +3,11 @@
 #include <memory>
 
 #include <pharos/config/schema.h>
-#include <pharos/guiding/guider.h>
+#include <pharos/guiding/contract/guider.h>
 
 #include "seen_mixture.h"
 
-namespace pharos::gaussians {
+namespace pharos::spatial_gaussians {
 
 /// What all three guiders are told.
 struct SeenSettings {
@@ -33,16 +33,16 @@ class MixtureGuider : public Guider {
 };
 
 /// Exactly the points' directions.
-struct ExactGuider final : MixtureGuider {
-  explicit ExactGuider(const Settings& s) : MixtureGuider(s, Technique::exact) {}
+struct P0Guider final : MixtureGuider {
+  explicit P0Guider(const Settings& s) : MixtureGuider(s, Technique::exact) {}
 };
 /// Those that look away from the mean turned around.
-struct FlippedGuider final : MixtureGuider {
-  explicit FlippedGuider(const Settings& s) : MixtureGuider(s, Technique::flipped) {}
+struct P1Guider final : MixtureGuider {
+  explicit P1Guider(const Settings& s) : MixtureGuider(s, Technique::flipped) {}
 };
 /// Directions to the points' feet in the planes through the means.
 struct ProjectedGuider final : MixtureGuider {
   explicit ProjectedGuider(const Settings& s) : MixtureGuider(s, Technique::plane) {}
 };
 
-}  // namespace pharos::gaussians
+}  // namespace pharos::spatial_gaussians

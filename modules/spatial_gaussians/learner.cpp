@@ -1,15 +1,15 @@
 #include "learner.h"
 
 #include <pharos/core/error.h>
-#include <pharos/guiding/spatial_mixture.h>
+#include <pharos/guiding/contract/spatial_mixture.h>
 
-#include "gaussian_model.h"
 #include "learning.h"
+#include "model.h"
 
-namespace pharos::gaussians {
+namespace pharos::spatial_gaussians {
 
-void GaussianSettings::describe(Schema<GaussianSettings>& s) {
-  using S = GaussianSettings;
+void SpatialGaussiansSettings::describe(Schema<SpatialGaussiansSettings>& s) {
+  using S = SpatialGaussiansSettings;
   s.field("spatial", &S::spatial,
           "A mixture for each cell of a growing tree, or a single one for the whole scene");
   s.field("cell_samples", &S::cell_samples,
@@ -80,22 +80,24 @@ void GaussianSettings::describe(Schema<GaussianSettings>& s) {
       .above(0);
 }
 
-GaussianLearner::GaussianLearner(const Settings& settings) : settings_(settings) {
+SpatialGaussiansLearner::SpatialGaussiansLearner(const Settings& settings) : settings_(settings) {
   if (settings.components > settings.most_components) {
     throw InputError("expected at least as many `most_components` as `components`");
   }
 }
 
-LearnerTraits GaussianLearner::traits() const {
+LearnerTraits SpatialGaussiansLearner::traits() const {
   return {.model = std::string(kSpatialMixtureModel), .records = {.light_samples = true}};
 }
 
-std::unique_ptr<LearningState> GaussianLearner::begin(const LearningContext& context) const {
-  return std::make_unique<CellLearning<GaussianLearning>>(GaussianLearning(settings_, context));
+std::unique_ptr<LearningState> SpatialGaussiansLearner::begin(
+    const LearningContext& context) const {
+  return std::make_unique<KdTreeLearning<SpatialGaussiansLearning>>(
+      SpatialGaussiansLearning(settings_, context));
 }
 
-std::shared_ptr<const GuidingModel> GaussianLearner::load_model(std::istream& in) const {
-  return std::make_shared<GaussianModel>(in);
+std::shared_ptr<const GuidingModel> SpatialGaussiansLearner::load_model(std::istream& in) const {
+  return std::make_shared<SpatialGaussiansModel>(in);
 }
 
-}  // namespace pharos::gaussians
+}  // namespace pharos::spatial_gaussians

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <pharos/guiding/cell_learning.h>
+#include <pharos/guiding/toolkit/kd_tree_learning.h>
 
-namespace pharos::gaussians {
+namespace pharos::spatial_gaussians {
 
 /// Parameters of the method. The paper states none; docs and sources are in the README.
-struct GaussianSettings {
+struct SpatialGaussiansSettings {
   SpatialCells spatial = SpatialCells::kdtree;
   std::uint32_t cell_samples = 32768;
   int max_depth = 32;
@@ -26,15 +26,15 @@ struct GaussianSettings {
   float least_pdf = 0.1f;
   float environment_distance = 10;
 
-  static void describe(Schema<GaussianSettings>& schema);
+  static void describe(Schema<SpatialGaussiansSettings>& schema);
 };
 
 /// Learns where the light that reaches a place comes from (Lelyakin et al. 2025).
-class GaussianLearner final : public Learner {
+class SpatialGaussiansLearner final : public Learner {
  public:
-  using Settings = GaussianSettings;
+  using Settings = SpatialGaussiansSettings;
   /// Throws InputError when there may be fewer components than there are at first.
-  explicit GaussianLearner(const Settings& settings);
+  explicit SpatialGaussiansLearner(const Settings& settings);
 
   LearnerTraits traits() const override;
   std::unique_ptr<LearningState> begin(const LearningContext& context) const override;
@@ -44,4 +44,4 @@ class GaussianLearner final : public Learner {
   Settings settings_;
 };
 
-}  // namespace pharos::gaussians
+}  // namespace pharos::spatial_gaussians

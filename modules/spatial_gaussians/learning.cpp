@@ -1,8 +1,8 @@
 #include "learning.h"
 
-#include "gaussian_model.h"
+#include "model.h"
 
-namespace pharos::gaussians {
+namespace pharos::spatial_gaussians {
 namespace {
 
 /// A scene without extent is taken to be of size one.
@@ -12,20 +12,21 @@ double size_of(const Bounds3& region) {
 
 }  // namespace
 
-GaussianLearning::GaussianLearning(const GaussianSettings& settings, const LearningContext& context)
+SpatialGaussiansLearning::SpatialGaussiansLearning(const SpatialGaussiansSettings& settings,
+                                                   const LearningContext& context)
     : settings_(settings),
       rule_{settings.least_pdf,
             settings.environment_distance * static_cast<float>(size_of(context.region))},
       scene_size_(size_of(context.region)),
       seed_(context.seed) {}
 
-std::shared_ptr<const GuidingModel> GaussianLearning::model(
-    const LearningCells<Sample, CellMixture>& cells) const {
-  std::vector<GaussianModel::Cell> contents;
+std::shared_ptr<const GuidingModel> SpatialGaussiansLearning::model(
+    const KdTreeCells<Sample, CellMixture>& cells) const {
+  std::vector<SpatialGaussiansModel::Cell> contents;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     contents.push_back({cells[i].components(), static_cast<float>(cells[i].samples())});
   }
-  return std::make_shared<GaussianModel>(cells.tree(), contents, cells.origins());
+  return std::make_shared<SpatialGaussiansModel>(cells.tree(), contents, cells.origins());
 }
 
-}  // namespace pharos::gaussians
+}  // namespace pharos::spatial_gaussians

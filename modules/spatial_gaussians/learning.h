@@ -5,23 +5,24 @@
 #include <span>
 #include <vector>
 
-#include <pharos/guiding/cell_learning.h>
+#include <pharos/guiding/toolkit/kd_tree_learning.h>
 
 #include "cell_mixture.h"
 
-namespace pharos::gaussians {
+namespace pharos::spatial_gaussians {
 
-/// How Gaussians are learned during one render, for CellLearning.
-class GaussianLearning {
+/// How Gaussians are learned during one render, for KdTreeLearning.
+class SpatialGaussiansLearning {
  public:
-  using Sample = gaussians::Sample;
+  using Sample = spatial_gaussians::Sample;
   using Cell = CellMixture;
   static constexpr const char* kHeading = "gaussian_learning";
   static constexpr std::uint32_t kVersion = 2;
 
-  GaussianLearning(const GaussianSettings& settings, const LearningContext& context);
+  SpatialGaussiansLearning(const SpatialGaussiansSettings& settings,
+                           const LearningContext& context);
 
-  const GaussianSettings& settings() const { return settings_; }
+  const SpatialGaussiansSettings& settings() const { return settings_; }
   void extract(const PathView& path, std::vector<Sample>& samples) {
     extract_samples(path, rule_, incident_, samples);
   }
@@ -29,14 +30,14 @@ class GaussianLearning {
              std::size_t number) const {
     cell.update(samples, settings_, scene_size_, RandomStream(seed_, lesson, number));
   }
-  std::shared_ptr<const GuidingModel> model(const LearningCells<Sample, CellMixture>& cells) const;
+  std::shared_ptr<const GuidingModel> model(const KdTreeCells<Sample, CellMixture>& cells) const;
 
  private:
-  GaussianSettings settings_;
+  SpatialGaussiansSettings settings_;
   SampleRule rule_;
   double scene_size_;  ///< diagonal [scene units]
   std::uint64_t seed_;
   std::vector<Rgb> incident_;  ///< scratch
 };
 
-}  // namespace pharos::gaussians
+}  // namespace pharos::spatial_gaussians

@@ -5,9 +5,9 @@
 #include <limits>
 
 #include <pharos/core/parallel.h>
-#include <pharos/guiding/ray_integrals.h>
+#include <pharos/guiding/toolkit/ray_integrals.h>
 
-namespace pharos::gaussians {
+namespace pharos::spatial_gaussians {
 namespace {
 
 using statistics::Matrix;
@@ -155,4 +155,4 @@ std::vector<DirectionTest> test_directions(const Mixture& mixture, const Vector<
   return tests;
 }
 
-}  // namespace pharos::gaussians
+}  // namespace pharos::spatial_gaussians

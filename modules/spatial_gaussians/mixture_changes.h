@@ -8,7 +8,7 @@
 #include "sample.h"
 
 /// What tells that a mixture has a component too many or too few.
-namespace pharos::gaussians {
+namespace pharos::spatial_gaussians {
 
 using Mixture = statistics::GaussianMixture<3>;
 using Moments3 = statistics::Moments<3>;
@@ -41,4 +41,4 @@ std::vector<DirectionTest> test_directions(const Mixture& mixture,
                                            const statistics::Vector<3>& pivot,
                                            std::span<const Sample> samples, float least_density);
 
-}  // namespace pharos::gaussians
+}  // namespace pharos::spatial_gaussians

@@ -4,11 +4,11 @@
 #include "learner.h"
 
 PHAROS_MODULE(registry) {
-  using namespace pharos::gaussians;
-  registry.add<GaussianLearner>("spatial_gaussians",
-                                "Mixtures of 3D Gaussians of where light comes from");
-  registry.add<ExactGuider>("p0", "Directions to points of spatial Gaussians");
-  registry.add<FlippedGuider>(
+  using namespace pharos::spatial_gaussians;
+  registry.add<SpatialGaussiansLearner>("spatial_gaussians",
+                                        "Mixtures of 3D Gaussians of where light comes from");
+  registry.add<P0Guider>("p0", "Directions to points of spatial Gaussians");
+  registry.add<P1Guider>(
       "p1", "Directions to points of spatial Gaussians, turned to the side of each mean");
   registry.add<ProjectedGuider>(
       "projected", "Directions to spatial Gaussians projected on planes through their means");

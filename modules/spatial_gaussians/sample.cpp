@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include <pharos/core/binary_stream.h>
-#include <pharos/guiding/guidable_steps.h>
+#include <pharos/guiding/toolkit/guidable_steps.h>
 
-namespace pharos::gaussians {
+namespace pharos::spatial_gaussians {
 
 void extract_samples(const PathView& path, const SampleRule& rule, std::vector<Rgb>& incident,
                      std::vector<Sample>& samples) {
@@ -45,4 +45,4 @@ Sample Sample::load(std::istream& in) {
   return sample;
 }
 
-}  // namespace pharos::gaussians
+}  // namespace pharos::spatial_gaussians

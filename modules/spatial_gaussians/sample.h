@@ -4,9 +4,9 @@
 #include <vector>
 
 #include <pharos/core/vec.h>
-#include <pharos/guiding/path_record.h>
+#include <pharos/guiding/record/path_record.h>
 
-namespace pharos::gaussians {
+namespace pharos::spatial_gaussians {
 
 /// A step of a path that a guide could have sampled, and what came of it.
 struct Sample {
@@ -31,4 +31,4 @@ struct SampleRule {
 void extract_samples(const PathView& path, const SampleRule& rule, std::vector<Rgb>& incident,
                      std::vector<Sample>& samples);
 
-}  // namespace pharos::gaussians
+}  // namespace pharos::spatial_gaussians

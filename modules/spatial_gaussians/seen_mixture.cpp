@@ -6,9 +6,9 @@
 #include <cstring>
 
 #include <pharos/core/warp.h>
-#include <pharos/guiding/ray_integrals.h>
+#include <pharos/guiding/toolkit/ray_integrals.h>
 
-namespace pharos::gaussians {
+namespace pharos::spatial_gaussians {
 namespace {
 
 constexpr std::size_t kGroup = 8;
@@ -308,4 +308,4 @@ std::optional<Vec3> SeenMixture::sample(float choice, Vec2 u, float v) const {
   return turns ? -direction : direction;
 }
 
-}  // namespace pharos::gaussians
+}  // namespace pharos::spatial_gaussians

@@ -5,11 +5,11 @@
 #include <span>
 
 #include <pharos/core/arena.h>
-#include <pharos/core/lanes.h>
+#include <pharos/core/simd.h>
 #include <pharos/core/vec.h>
-#include <pharos/guiding/spatial_mixture.h>
+#include <pharos/guiding/contract/spatial_mixture.h>
 
-namespace pharos::gaussians {
+namespace pharos::spatial_gaussians {
 
 /// How a direction is made from a point of a Gaussian, seen_gaussian.h has the densities.
 enum class Technique {
@@ -70,4 +70,4 @@ class SeenMixture {
   Technique technique_;
 };
 
-}  // namespace pharos::gaussians
+}  // namespace pharos::spatial_gaussians

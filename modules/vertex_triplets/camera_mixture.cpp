@@ -8,7 +8,7 @@
 
 #include "truncated_normal.h"
 
-namespace pharos::triplets {
+namespace pharos::vertex_triplets {
 namespace {
 
 /// By the mean along an axis; by all else where means are level, so that the order before does not
@@ -107,4 +107,4 @@ CameraMixture CameraMixture::load(std::istream& in) {
   return CameraMixture(std::move(components));
 }
 
-}  // namespace pharos::triplets
+}  // namespace pharos::vertex_triplets

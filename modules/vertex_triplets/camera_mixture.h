@@ -6,10 +6,10 @@
 #include <vector>
 
 #include <pharos/core/bounds.h>
-#include <pharos/guiding/spatial_mixture.h>
+#include <pharos/guiding/contract/spatial_mixture.h>
 #include <pharos/scene/events.h>
 
-namespace pharos::triplets {
+namespace pharos::vertex_triplets {
 
 /// A component of where paths from the sensor have their first vertices. The weight is its share.
 struct FirstVertex {
@@ -78,4 +78,4 @@ class CameraMixture {
 /// mean.
 Bounds3 box_around(const SpatialGaussian& gaussian);
 
-}  // namespace pharos::triplets
+}  // namespace pharos::vertex_triplets

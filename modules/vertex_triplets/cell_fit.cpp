@@ -2,7 +2,7 @@
 
 #include <map>
 
-namespace pharos::triplets {
+namespace pharos::vertex_triplets {
 namespace {
 
 /// The coordinates that points of D dimensions have of a triplet, and their units.
@@ -148,4 +148,4 @@ CellFit fit_cell(const Reservoir& reservoir, const Cube& cell, const FitRule& ru
   return fit;
 }
 
-}  // namespace pharos::triplets
+}  // namespace pharos::vertex_triplets

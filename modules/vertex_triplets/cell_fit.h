@@ -5,10 +5,10 @@
 #include <pharos/statistics/varopt.h>
 
 #include "clustering.h"
+#include "model.h"
 #include "octree.h"
-#include "triplet_model.h"
 
-namespace pharos::triplets {
+namespace pharos::vertex_triplets {
 
 using Reservoir = statistics::VarOptReservoir<Triplet>;
 
@@ -29,4 +29,4 @@ struct FitRule {
 /// in its distance: what a single sample says of a direction to there is an angle.
 CellFit fit_cell(const Reservoir& reservoir, const Cube& cell, const FitRule& rule);
 
-}  // namespace pharos::triplets
+}  // namespace pharos::vertex_triplets

@@ -5,7 +5,7 @@
 #include <optional>
 #include <queue>
 
-namespace pharos::triplets {
+namespace pharos::vertex_triplets {
 namespace {
 
 /// Parameters of a mixture of two Gaussians beyond those of a single one: a mean, a covariance and
@@ -60,13 +60,13 @@ struct Cluster {
   Gaussian<D> gaussian;
   double log_likelihood = 0;  ///< as Expectation's
 
-  Cluster(Points<D> all, const Regularisation& rule) : points(std::move(all)) {
+  Cluster(Points<D> all, const Regularization& rule) : points(std::move(all)) {
     // About the mean in the end: first about any point.
     for (int i = 0; i < D; ++i) center[i] = points.registers()[0].x[i][0];
     center = rounded<D>(widened<D>(center) + sums_of_all().offset());
     sums = sums_of_all();
     gaussian = {widened<D>(center) + sums.offset(),
-                regularised<D>(sums.covariance(), sums.count(), rule)};
+                regularized<D>(sums.covariance(), sums.count(), rule)};
     log_likelihood = mean_log_density<D>(sums.covariance(), gaussian.covariance);
   }
 
@@ -85,7 +85,7 @@ struct Cluster {
 /// The mixture of two Gaussians for the points on both sides of the plane across an eigenvector
 /// that separates them best. Empty when none separates them.
 template <int D>
-std::optional<Mixture<D>> best_halves(const Cluster<D>& cluster, const Regularisation& rule) {
+std::optional<Mixture<D>> best_halves(const Cluster<D>& cluster, const Regularization& rule) {
   std::optional<Mixture<D>> best;
   double best_score = -std::numeric_limits<double>::infinity();
   const Eigen::SelfAdjointEigenSolver<Matrix<D>> eigen(cluster.sums.covariance());
@@ -101,7 +101,7 @@ std::optional<Mixture<D>> best_halves(const Cluster<D>& cluster, const Regularis
       constexpr double kLeastShare = 1e-6;
       const double share = half.weight / cluster.sums.weight;
       if (!(share > kLeastShare) || !(half.squared_weight > 0)) break;
-      const Matrix<D> covariance = regularised<D>(half.covariance(), half.count(), rule);
+      const Matrix<D> covariance = regularized<D>(half.covariance(), half.count(), rule);
       score += share * (std::log(share) + mean_log_density<D>(half.covariance(), covariance));
       halves.weights.push_back(share);
       halves.components.push_back({widened<D>(cluster.center) + half.offset(), covariance});
@@ -119,7 +119,7 @@ std::optional<Mixture<D>> best_halves(const Cluster<D>& cluster, const Regularis
 template <int D>
 std::vector<Cluster<D>> split(const Cluster<D>& cluster, const FitSettings& settings) {
   if (cluster.points.size() < 2) return {};
-  const std::optional<Mixture<D>> halves = best_halves(cluster, settings.regularisation);
+  const std::optional<Mixture<D>> halves = best_halves(cluster, settings.regularization);
   if (!halves) return {};
   const Fit<D> two = fit(*halves, cluster.points, settings);
   const double gain = cluster.sums.count() * (two.log_likelihood - cluster.log_likelihood);
@@ -128,15 +128,15 @@ std::vector<Cluster<D>> split(const Cluster<D>& cluster, const FitSettings& sett
   std::array<Points<D>, 2> parts;
   for (std::size_t i = 0; i < owners.size(); ++i) parts[owners[i]].add(cluster.points, i);
   if (parts[0].size() == 0 || parts[1].size() == 0) return {};
-  return {Cluster<D>(std::move(parts[0]), settings.regularisation),
-          Cluster<D>(std::move(parts[1]), settings.regularisation)};
+  return {Cluster<D>(std::move(parts[0]), settings.regularization),
+          Cluster<D>(std::move(parts[1]), settings.regularization)};
 }
 
 }  // namespace
 
 template <int D>
 Clusters<D> find_clusters(const Points<D>& points, const ClusterSettings& settings) {
-  std::vector<Cluster<D>> clusters{Cluster<D>(points, settings.fit.regularisation)};
+  std::vector<Cluster<D>> clusters{Cluster<D>(points, settings.fit.regularization)};
   const auto is_better = [&](std::size_t a, std::size_t b) {
     return clusters[a].log_likelihood > clusters[b].log_likelihood;
   };
@@ -177,4 +177,4 @@ PHAROS_FOR_DIMENSION(6)
 PHAROS_FOR_DIMENSION(9)
 #undef PHAROS_FOR_DIMENSION
 
-}  // namespace pharos::triplets
+}  // namespace pharos::vertex_triplets

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "expectation_maximisation.h"
+#include "expectation_maximization.h"
 
-namespace pharos::triplets {
+namespace pharos::vertex_triplets {
 
 struct ClusterSettings {
   std::size_t most_components = 128;
@@ -11,9 +11,9 @@ struct ClusterSettings {
 
 /// A mixture for points, of as many components as they bear: clusters are split in two, the worst
 /// fitted first, at planes through their means across each eigenvector of their covariances, the
-/// best of which two-component expectation-maximisation refines (PCA-Part, Su and Dy 2007;
+/// best of which two-component expectation-maximization refines (PCA-Part, Su and Dy 2007;
 /// Schuessler et al. 2022, section 6.3), while Akaike's information criterion gains; then
-/// expectation-maximisation of all. At least one point.
+/// expectation-maximization of all. At least one point.
 template <int D>
 Mixture<D> fit_clusters(const Points<D>& points, const ClusterSettings& settings);
 
@@ -26,4 +26,4 @@ struct Clusters {
 template <int D>
 Clusters<D> find_clusters(const Points<D>& points, const ClusterSettings& settings);
 
-}  // namespace pharos::triplets
+}  // namespace pharos::vertex_triplets

@@ -7,7 +7,7 @@
 
 #include <pharos/core/binary_stream.h>
 
-namespace pharos::triplets {
+namespace pharos::vertex_triplets {
 namespace {
 
 /// From the factor L of a covariance; entries above its diagonal are not looked at.
@@ -98,4 +98,4 @@ template struct Component<6>;
 template Component<3> make_component<3>(double, const statistics::Gaussian<6>&);
 template Component<6> make_component<6>(double, const statistics::Gaussian<9>&);
 
-}  // namespace pharos::triplets
+}  // namespace pharos::vertex_triplets

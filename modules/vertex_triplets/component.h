@@ -7,7 +7,7 @@
 
 #include "triplet.h"
 
-namespace pharos::triplets {
+namespace pharos::vertex_triplets {
 
 /// Number of entries in the lower triangle of a matrix of so many rows.
 constexpr int triangle(int rows) {
@@ -43,4 +43,4 @@ Component<P> make_component(double weight, const statistics::Gaussian<P + 3>& ga
 /// The component for the way back: its prefix is (x_3, x_2) where this one's is (x_1, x_2).
 Component<6> reversed(const Component<6>& component);
 
-}  // namespace pharos::triplets
+}  // namespace pharos::vertex_triplets

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace pharos::triplets {
+namespace pharos::vertex_triplets {
 namespace {
 
 constexpr float kNever = -std::numeric_limits<float>::infinity();
@@ -195,4 +195,4 @@ std::span<const NextVertex> ConditionalMixtures<P>::given(std::size_t index,
 template class ConditionalMixtures<3>;
 template class ConditionalMixtures<6>;
 
-}  // namespace pharos::triplets
+}  // namespace pharos::vertex_triplets

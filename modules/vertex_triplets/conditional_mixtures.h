@@ -6,13 +6,13 @@
 #include <vector>
 
 #include <pharos/core/arena.h>
-#include <pharos/core/lanes.h>
-#include <pharos/guiding/spatial_mixture.h>
+#include <pharos/core/simd.h>
+#include <pharos/guiding/contract/spatial_mixture.h>
 
 #include "component.h"
 #include "truncated_normal.h"
 
-namespace pharos::triplets {
+namespace pharos::vertex_triplets {
 
 /// Where a path stands and what is known of it. Along paths from lights `previous` lies towards the
 /// light.
@@ -96,4 +96,4 @@ class ConditionalMixtures {
   std::vector<Next> next_;
 };
 
-}  // namespace pharos::triplets
+}  // namespace pharos::vertex_triplets

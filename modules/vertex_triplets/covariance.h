@@ -4,7 +4,7 @@
 
 #include <pharos/statistics/gaussian.h>
 
-namespace pharos::triplets {
+namespace pharos::vertex_triplets {
 
 using statistics::Gaussian;
 using statistics::Matrix;
@@ -12,7 +12,7 @@ using statistics::Vector;
 
 /// How covariances of few points are completed (Schuessler et al. 2022, section 6.2). Lengths are
 /// in the unit of the points: edges of the cell.
-struct Regularisation {
+struct Regularization {
   bool is_on = true;
   double deviation = 0.1;         ///< of a single point, r in eq. 40
   double least_deviation = 1e-4;  ///< eigenvalues are raised to its square
@@ -36,7 +36,7 @@ Matrix<D> isotropic_blocks(const Matrix<D>& sample) {
 /// (eq. 39 to 44). As printed both shares would be the wrong way round: here more points mean more
 /// of `sample`, and 9 is the number of dimensions.
 template <int D>
-Matrix<D> regularised(const Matrix<D>& sample, double count, const Regularisation& rule) {
+Matrix<D> regularized(const Matrix<D>& sample, double count, const Regularization& rule) {
   if (!rule.is_on) return sample;
   const double degrees = std::max(count - 1, 0.0);
   const double of_sample = degrees / (degrees + D);
@@ -49,4 +49,4 @@ Matrix<D> regularised(const Matrix<D>& sample, double count, const Regularisatio
                                                completed);
 }
 
-}  // namespace pharos::triplets
+}  // namespace pharos::vertex_triplets

@@ -2,7 +2,7 @@
 
 #include "truncated_normal.h"
 
-namespace pharos::triplets {
+namespace pharos::vertex_triplets {
 
 std::optional<Proposal> FirstDistribution::propose(const VertexStream& stream) const {
   const std::size_t k = mixture_.choose(stream.get_1d(Purpose::guide_choice));
@@ -41,4 +41,4 @@ Density FirstDistribution::density(const ResolvedVertex& vertex) const {
   return {total, measure_of(vertex.event, vertex.kind)};
 }
 
-}  // namespace pharos::triplets
+}  // namespace pharos::vertex_triplets

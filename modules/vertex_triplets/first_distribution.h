@@ -1,10 +1,10 @@
 #pragma once
 
-#include <pharos/guiding/distribution.h>
+#include <pharos/guiding/contract/distribution.h>
 
 #include "camera_mixture.h"
 
-namespace pharos::triplets {
+namespace pharos::vertex_triplets {
 
 /// First vertices of paths from one point of the lens (Schuessler et al. 2022, section 5.4).
 /// Vertices on surfaces are sampled as all others, in the plane through a component's mean; what is
@@ -22,4 +22,4 @@ class FirstDistribution final : public GuidingDistribution {
   Point3 lens_;
 };
 
-}  // namespace pharos::triplets
+}  // namespace pharos::vertex_triplets

@@ -1,9 +1,9 @@
 #include "guider.h"
 
 #include "first_distribution.h"
-#include "triplet_model.h"
+#include "model.h"
 
-namespace pharos::triplets {
+namespace pharos::vertex_triplets {
 namespace {
 
 /// Events that something comes of: total reflection, for one, leaves nothing of transmission.
@@ -18,8 +18,8 @@ EventMask possible_events(const LocalScattering& scattering) {
 
 class BoundTripletGuider final : public BoundGuider, public CameraGuider {
  public:
-  BoundTripletGuider(std::shared_ptr<const TripletModel> model,
-                     const TripletGuiderSettings& settings)
+  BoundTripletGuider(std::shared_ptr<const VertexTripletsModel> model,
+                     const VertexTripletsGuiderSettings& settings)
       : model_(std::move(model)),
         rules_{settings.surfaces, settings.specular_roughness},
         guides_camera_(settings.guide_camera) {}
@@ -43,36 +43,37 @@ class BoundTripletGuider final : public BoundGuider, public CameraGuider {
   }
 
  private:
-  std::shared_ptr<const TripletModel> model_;
+  std::shared_ptr<const VertexTripletsModel> model_;
   StepRules rules_;
   bool guides_camera_;
 };
 
 }  // namespace
 
-void TripletGuiderSettings::describe(Schema<TripletGuiderSettings>& s) {
-  s.field("surfaces", &TripletGuiderSettings::surfaces,
+void VertexTripletsGuiderSettings::describe(Schema<VertexTripletsGuiderSettings>& s) {
+  s.field("surfaces", &VertexTripletsGuiderSettings::surfaces,
           "How directions to surfaces and the environment are made from Gaussians: projected on a "
           "plane (the paper), or to their points (p0, p1)");
-  s.field("specular_roughness", &TripletGuiderSettings::specular_roughness,
+  s.field("specular_roughness", &VertexTripletsGuiderSettings::specular_roughness,
           "Below this square root of GGX alpha, or of 1 - |g|, directions are more and more left "
           "to BSDF and phase function")
       .above(0);
-  s.field("guide_camera", &TripletGuiderSettings::guide_camera,
+  s.field("guide_camera", &VertexTripletsGuiderSettings::guide_camera,
           "Whether first vertices, and so pixels, are guided");
 }
 
-GuiderTraits TripletGuider::traits() const {
-  return {.model = TripletModel::kName,
+GuiderTraits VertexTripletsGuider::traits() const {
+  return {.model = VertexTripletsModel::kName,
           .steers_distance = true,
           .steers_events = true,
           .guides_camera = settings_.guide_camera,
           .guides_light_paths = true};
 }
 
-std::unique_ptr<const BoundGuider> TripletGuider::bind(
+std::unique_ptr<const BoundGuider> VertexTripletsGuider::bind(
     std::shared_ptr<const GuidingModel> model) const {
-  return std::make_unique<BoundTripletGuider>(bind_model<TripletModel>(model, *this), settings_);
+  return std::make_unique<BoundTripletGuider>(bind_model<VertexTripletsModel>(model, *this),
+                                              settings_);
 }
 
-}  // namespace pharos::triplets
+}  // namespace pharos::vertex_triplets

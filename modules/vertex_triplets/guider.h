@@ -2,25 +2,25 @@
 
 #include <memory>
 
-#include <pharos/guiding/guider.h>
+#include <pharos/guiding/contract/guider.h>
 
 #include "next_distribution.h"
 
-namespace pharos::triplets {
+namespace pharos::vertex_triplets {
 
-struct TripletGuiderSettings {
+struct VertexTripletsGuiderSettings {
   SurfaceTechnique surfaces = SurfaceTechnique::projected;
   float specular_roughness = 0.2f;
   bool guide_camera = true;
-  static void describe(Schema<TripletGuiderSettings>& schema);
+  static void describe(Schema<VertexTripletsGuiderSettings>& schema);
 };
 
 /// Samples models of vertex triplets or pairs: next vertices on surfaces and in media, discrete
 /// events, distances, and first vertices (Schuessler et al. 2022, section 5).
-class TripletGuider final : public Guider {
+class VertexTripletsGuider final : public Guider {
  public:
-  using Settings = TripletGuiderSettings;
-  explicit TripletGuider(const Settings& settings) : settings_(settings) {}
+  using Settings = VertexTripletsGuiderSettings;
+  explicit VertexTripletsGuider(const Settings& settings) : settings_(settings) {}
 
   GuiderTraits traits() const override;
   std::unique_ptr<const BoundGuider> bind(std::shared_ptr<const GuidingModel> model) const override;
@@ -29,4 +29,4 @@ class TripletGuider final : public Guider {
   Settings settings_;
 };
 
-}  // namespace pharos::triplets
+}  // namespace pharos::vertex_triplets

@@ -2,13 +2,13 @@
 
 #include <pharos/core/error.h>
 
-#include "learning.h"
-#include "triplet_model.h"
+#include "learning_state.h"
+#include "model.h"
 
-namespace pharos::triplets {
+namespace pharos::vertex_triplets {
 
-void TripletSettings::describe(Schema<TripletSettings>& s) {
-  using S = TripletSettings;
+void VertexTripletsSettings::describe(Schema<VertexTripletsSettings>& s) {
+  using S = VertexTripletsSettings;
   s.field("vertices", &S::vertices,
           "What mixtures are over: a vertex and the next one, or the one before them too");
   s.field("light_paths", &S::light_paths,
@@ -42,25 +42,25 @@ void TripletSettings::describe(Schema<TripletSettings>& s) {
   s.example("{ vertices: pairs }");
 }
 
-TripletLearner::TripletLearner(const Settings& settings) : settings_(settings) {
+VertexTripletsLearner::VertexTripletsLearner(const Settings& settings) : settings_(settings) {
   if (settings.light_paths && settings.vertices == Prefix::pair) {
     throw InputError("'light_paths' needs 'vertices: triplets': pairs know one way only");
   }
 }
 
-LearnerTraits TripletLearner::traits() const {
-  return {.model = TripletModel::kName,
+LearnerTraits VertexTripletsLearner::traits() const {
+  return {.model = VertexTripletsModel::kName,
           .records = {.light_samples = true, .light_paths = settings_.light_paths},
-          .model_version = TripletModel::kVersion,
+          .model_version = VertexTripletsModel::kVersion,
           .also = std::string(kSpatialMixtureModel)};
 }
 
-std::unique_ptr<LearningState> TripletLearner::begin(const LearningContext& context) const {
-  return std::make_unique<TripletLearning>(settings_, context);
+std::unique_ptr<LearningState> VertexTripletsLearner::begin(const LearningContext& context) const {
+  return std::make_unique<VertexTripletsLearningState>(settings_, context);
 }
 
-std::shared_ptr<const GuidingModel> TripletLearner::load_model(std::istream& in) const {
-  return std::make_shared<TripletModel>(in);
+std::shared_ptr<const GuidingModel> VertexTripletsLearner::load_model(std::istream& in) const {
+  return std::make_shared<VertexTripletsModel>(in);
 }
 
-}  // namespace pharos::triplets
+}  // namespace pharos::vertex_triplets

@@ -5,14 +5,14 @@
 #include <utility>
 
 #include <pharos/config/schema.h>
-#include <pharos/guiding/learner.h>
+#include <pharos/guiding/contract/learner.h>
 
 #include "triplet.h"
 
-namespace pharos::triplets {
+namespace pharos::vertex_triplets {
 
 /// Parameters of the method; the README says where they come from.
-struct TripletSettings {
+struct VertexTripletsSettings {
   Prefix vertices = Prefix::triplet;
   bool light_paths = false;
   std::uint32_t cells = 64;
@@ -25,15 +25,15 @@ struct TripletSettings {
   double em_tolerance = 1e-3;
   float environment_distance = 5;
 
-  static void describe(Schema<TripletSettings>& schema);
+  static void describe(Schema<VertexTripletsSettings>& schema);
 };
 
 /// Learns where whole paths go on to, given where they come from (Schuessler et al. 2022).
-class TripletLearner final : public Learner {
+class VertexTripletsLearner final : public Learner {
  public:
-  using Settings = TripletSettings;
+  using Settings = VertexTripletsSettings;
   /// Throws InputError for pairs of paths from lights, which would not know their way back.
-  explicit TripletLearner(const Settings& settings);
+  explicit VertexTripletsLearner(const Settings& settings);
 
   LearnerTraits traits() const override;
   std::unique_ptr<LearningState> begin(const LearningContext& context) const override;
@@ -43,12 +43,12 @@ class TripletLearner final : public Learner {
   Settings settings_;
 };
 
-}  // namespace pharos::triplets
+}  // namespace pharos::vertex_triplets
 
 namespace pharos {
 template <>
-struct EnumNames<triplets::Prefix> {
-  static constexpr std::array<std::pair<std::string_view, triplets::Prefix>, 2> names{
-      {{"pairs", triplets::Prefix::pair}, {"triplets", triplets::Prefix::triplet}}};
+struct EnumNames<vertex_triplets::Prefix> {
+  static constexpr std::array<std::pair<std::string_view, vertex_triplets::Prefix>, 2> names{
+      {{"pairs", vertex_triplets::Prefix::pair}, {"triplets", vertex_triplets::Prefix::triplet}}};
 };
 }  // namespace pharos

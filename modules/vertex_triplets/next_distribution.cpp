@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include <pharos/guiding/seen_gaussian.h>
+#include <pharos/guiding/toolkit/seen_gaussian.h>
 
-namespace pharos::triplets {
+namespace pharos::vertex_triplets {
 namespace {
 
 /// P_BSDF (eq. 22 and 23) of smooth events. No roughness at all is that of discrete events, which
@@ -162,4 +162,4 @@ Density NextDistribution::density(const ResolvedVertex& vertex) const {
   return {total, measure_of(vertex.event, vertex.kind)};
 }
 
-}  // namespace pharos::triplets
+}  // namespace pharos::vertex_triplets

@@ -6,13 +6,13 @@
 #include <utility>
 
 #include <pharos/config/schema.h>
-#include <pharos/guiding/distribution.h>
+#include <pharos/guiding/contract/distribution.h>
 #include <pharos/scene/local_scattering.h>
 
 #include "conditional_mixtures.h"
 #include "truncated_normal.h"
 
-namespace pharos::triplets {
+namespace pharos::vertex_triplets {
 
 /// How directions to surfaces are made from Gaussians.
 enum class SurfaceTechnique {
@@ -74,14 +74,14 @@ class NextDistribution final : public GuidingDistribution {
   std::uint32_t region_;
 };
 
-}  // namespace pharos::triplets
+}  // namespace pharos::vertex_triplets
 
 namespace pharos {
 template <>
-struct EnumNames<triplets::SurfaceTechnique> {
-  static constexpr std::array<std::pair<std::string_view, triplets::SurfaceTechnique>, 3> names{
-      {{"projected", triplets::SurfaceTechnique::projected},
-       {"p0", triplets::SurfaceTechnique::p0},
-       {"p1", triplets::SurfaceTechnique::p1}}};
+struct EnumNames<vertex_triplets::SurfaceTechnique> {
+  static constexpr std::array<std::pair<std::string_view, vertex_triplets::SurfaceTechnique>, 3>
+      names{{{"projected", vertex_triplets::SurfaceTechnique::projected},
+             {"p0", vertex_triplets::SurfaceTechnique::p0},
+             {"p1", vertex_triplets::SurfaceTechnique::p1}}};
 };
 }  // namespace pharos

@@ -6,7 +6,7 @@
 
 #include <pharos/core/binary_stream.h>
 
-namespace pharos::triplets {
+namespace pharos::vertex_triplets {
 
 Cube Cube::part(unsigned c) const {
   Cube half{center, 0.5f * size};
@@ -142,4 +142,4 @@ Octree Octree::load(std::istream& in) {
   return tree;
 }
 
-}  // namespace pharos::triplets
+}  // namespace pharos::vertex_triplets

@@ -8,7 +8,7 @@
 
 #include <pharos/core/vec.h>
 
-namespace pharos::triplets {
+namespace pharos::vertex_triplets {
 
 /// A cube [scene units].
 struct Cube {
@@ -99,4 +99,4 @@ class Octree {
   std::vector<std::uint32_t> cells_{0};     ///< their nodes
 };
 
-}  // namespace pharos::triplets
+}  // namespace pharos::vertex_triplets

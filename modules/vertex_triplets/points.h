@@ -4,10 +4,10 @@
 #include <cstddef>
 #include <vector>
 
-#include <pharos/core/lanes.h>
+#include <pharos/core/simd.h>
 #include <pharos/statistics/gaussian.h>
 
-namespace pharos::triplets {
+namespace pharos::vertex_triplets {
 
 using statistics::Matrix;
 using statistics::Vector;
@@ -107,4 +107,4 @@ struct Sums8 {
   }
 };
 
-}  // namespace pharos::triplets
+}  // namespace pharos::vertex_triplets

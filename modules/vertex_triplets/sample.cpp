@@ -6,7 +6,7 @@
 
 #include <pharos/core/binary_stream.h>
 
-namespace pharos::triplets {
+namespace pharos::vertex_triplets {
 namespace {
 
 /// An outer vertex of a triplet.
@@ -128,4 +128,4 @@ Sample Sample::load(std::istream& in) {
   return sample;
 }
 
-}  // namespace pharos::triplets
+}  // namespace pharos::vertex_triplets

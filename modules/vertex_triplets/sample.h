@@ -3,11 +3,11 @@
 #include <iosfwd>
 #include <vector>
 
-#include <pharos/guiding/path_record.h>
+#include <pharos/guiding/record/path_record.h>
 
 #include "triplet.h"
 
-namespace pharos::triplets {
+namespace pharos::vertex_triplets {
 
 /// A triplet of a recorded path with the sum of f/p of the path's completions through it: their
 /// luminance, part of the mean over all pixels, each way by its MIS weight among the ways that
@@ -38,4 +38,4 @@ void save_triplet(const Triplet& triplet, std::ostream& out);
 /// Throws InputError when it is damaged.
 Triplet load_triplet(std::istream& in);
 
-}  // namespace pharos::triplets
+}  // namespace pharos::vertex_triplets

@@ -6,7 +6,7 @@
 #include <pharos/core/vec.h>
 #include <pharos/scene/events.h>
 
-namespace pharos::triplets {
+namespace pharos::vertex_triplets {
 
 /// The kind of light transport around a vertex (Schuessler et al. 2022, section 4.1): what the
 /// vertices before and after it lie on (VertexKind::light: any light that no step can meet), seen
@@ -44,4 +44,4 @@ constexpr int prefix_dimensions(Prefix prefix) {
   return prefix == Prefix::pair ? 3 : 6;
 }
 
-}  // namespace pharos::triplets
+}  // namespace pharos::vertex_triplets

@@ -2,7 +2,7 @@
 
 #include <pharos/core/frame.h>
 
-namespace pharos::triplets {
+namespace pharos::vertex_triplets {
 
 Projection::Projection(const SpatialGaussian& g, Point3 origin) {
   const Vec3 offset = g.mean - origin;
@@ -46,4 +46,4 @@ float Projection::density(Vec3 direction) const {
   return static_cast<float>(across * scale * scale / (cosine * cholesky_[0] * cholesky_[2]));
 }
 
-}  // namespace pharos::triplets
+}  // namespace pharos::vertex_triplets

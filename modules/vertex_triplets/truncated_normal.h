@@ -5,11 +5,11 @@
 
 #include <pharos/core/vec.h>
 #include <pharos/core/warp.h>
-#include <pharos/guiding/spatial_mixture.h>
+#include <pharos/guiding/contract/spatial_mixture.h>
 
 /// Gaussians that end (Schuessler et al. 2022, section 4.3): along each axis of the Cholesky factor
 /// a unit normal number within [-4, 4], zero beyond. They integrate to one by construction.
-namespace pharos::triplets {
+namespace pharos::vertex_triplets {
 
 inline constexpr float kTruncation = 4;
 /// Probability that a unit normal number lies within.
@@ -121,4 +121,4 @@ class Projection {
   float cholesky_[3] = {};  ///< of the projected covariance: l00, l10, l11
 };
 
-}  // namespace pharos::triplets
+}  // namespace pharos::vertex_triplets

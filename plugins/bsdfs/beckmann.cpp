@@ -18,7 +18,7 @@ float gaussian_slope(float above) {
 //
 //     (cosine + x sine) exp(-x^2 - y^2) / pi,    x > -cosine / sine,
 //
-// which is not normalised yet: y is Gaussian, and x is independent of it (Heitz and d'Eon 2014,
+// which is not normalized yet: y is Gaussian, and x is independent of it (Heitz and d'Eon 2014,
 // "Importance Sampling Microfacet-Based BSDFs using the Distribution of Visible Normals"; Jakob
 // 2014, "An Improved Visible Normal Sampling Routine for the Beckmann Distribution").
 

@@ -1,5 +1,5 @@
 // bump_map: a material that is shaded as if its surface were displaced along the shading normal by
-// `height` times the mean colour of `texture` (Blinn 1978, "Simulation of Wrinkled Surfaces"). The
+// `height` times the mean color of `texture` (Blinn 1978, "Simulation of Wrinkled Surfaces"). The
 // surface itself stays where it is: outlines and shadows do not change. With h the displacement,
 // the normal n is tilted to n - grad h, the gradient taken along the surface from the derivatives
 // of h and of the position by the texture coordinates; the curvature of the surface is left out, as
@@ -23,7 +23,7 @@ namespace pharos {
 
 void BumpMap::Settings::describe(Schema<Settings>& s) {
   s.field("bsdf", &Settings::bsdf, "Material that is tilted").otherwise("{ type: diffuse }");
-  s.field("texture", &Settings::texture, "Its mean colour is the displacement").required();
+  s.field("texture", &Settings::texture, "Its mean color is the displacement").required();
   s.field("height", &Settings::height, "Factor on the texture").unit("scene units");
   s.field("step", &Settings::step, "To both sides in uv, to find slopes").above(0).at_most(0.25);
   s.example("{ texture: { type: bitmap, file: example.png }, height: 0.1, step: 0.01 }");

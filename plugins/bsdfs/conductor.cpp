@@ -1,5 +1,5 @@
 // conductor: a polished metal, a mirror of the share F of Fresnel's equations for a complex index
-// eta - i k in each colour channel (in vacuum). `material` names a measured metal (metals.cpp says
+// eta - i k in each color channel (in vacuum). `material` names a measured metal (metals.cpp says
 // where its numbers come from) or `ideal`, which reflects everything; any other metal is given by
 // `eta` and `k` instead. Light is mirrored on the side of the shading normal only; the other side
 // is black.

@@ -16,7 +16,7 @@ namespace pharos {
 class DiffuseBase {
  public:
   /// `transmittance`: the mean T' [1]; `ior` of the coat over outside, at least 1. Without
-  /// `nonlinear` the base's colour does not deepen with every reflection: s(a) = a.
+  /// `nonlinear` the base's color does not deepen with every reflection: s(a) = a.
   DiffuseBase(float transmittance, float ior, bool nonlinear)
       : transmittance_(transmittance),
         escaping_(transmittance / (ior * ior)),

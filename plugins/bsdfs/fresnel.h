@@ -10,7 +10,7 @@
 
 namespace pharos {
 
-/// What a smooth interface does with unpolarised light.
+/// What a smooth interface does with unpolarized light.
 struct DielectricFresnel {
   float reflectance = 1;      ///< [1]; 1 for total internal reflection
   float cos_transmitted = 0;  ///< of the refracted direction to the normal, >= 0
@@ -34,7 +34,7 @@ inline float average_dielectric_fresnel(float eta) {
   return hemisphere_mean([eta](float c) { return dielectric_fresnel(c, eta).reflectance; });
 }
 
-/// Exact reflectance [1] of a conductor of complex index eta - i k seen from vacuum, unpolarised;
+/// Exact reflectance [1] of a conductor of complex index eta - i k seen from vacuum, unpolarized;
 /// `cos_incident` in [0, 1]. Real-valued form of the Fresnel equations with
 /// n_t cos_t = a - i b (Born and Wolf 1999, section 14.2).
 inline float conductor_fresnel(float cos_incident, float eta, float k) {
@@ -53,7 +53,7 @@ inline float conductor_fresnel(float cos_incident, float eta, float k) {
   return std::clamp(0.5f * (s + p), 0.0f, 1.0f);
 }
 
-/// Per colour channel.
+/// Per color channel.
 inline Rgb conductor_fresnel(float cos_incident, Rgb eta, Rgb k) {
   return {conductor_fresnel(cos_incident, eta.r, k.r), conductor_fresnel(cos_incident, eta.g, k.g),
           conductor_fresnel(cos_incident, eta.b, k.b)};

@@ -1,6 +1,6 @@
 // mask: a material with holes, such as leaves cut out of a rectangle, or lace. The share 1 -
 // opacity of light passes straight through, as if nothing were there (the event `pass_through`);
-// the rest meets the nested material. In colour it filters what passes. Paths see light through the
+// the rest meets the nested material. In color it filters what passes. Paths see light through the
 // holes; light samples do not, as to them every surface is closed. Holes in glass upset the balance
 // of energy: light that comes in through one is inside without having been refracted.
 //

@@ -6,7 +6,7 @@
 // Constants of Metal Films", Appl. Opt. 34, 4755), all as tabulated by refractiveindex.info.
 // Each channel's eta and k are means over wavelength, weighted by the channel's response to
 // daylight: from 380 to 720 nm in steps of 10 nm, with linear interpolation of the measurements,
-// the CIE 1931 colour matching functions (fit of Wyman, Sloan and Shirley 2013, "Simple Analytic
+// the CIE 1931 color matching functions (fit of Wyman, Sloan and Shirley 2013, "Simple Analytic
 // Approximations to the CIE XYZ Color Matching Functions") times illuminant D65, taken to linear
 // Rec.709 and scaled to total weight one. The reflectance at normal incidence that follows is that
 // of the whole spectrum in daylight to 0.013, but for gold, whose red is out of Rec.709's gamut

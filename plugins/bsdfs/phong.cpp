@@ -9,7 +9,7 @@
 // each channel, unless `rescale_to` is given: then both are multiplied by one factor, so that the
 // largest sum is that number (Mitsuba 0.6 takes 0.99). sample() chooses between cosine law and lobe
 // by the means of their channels; draws below the surface are samples of value zero. Of an exponent
-// in colour the mean of the channels counts. Light is scattered on the side of the shading normal
+// in color the mean of the channels counts. Light is scattered on the side of the shading normal
 // only; the other side is black.
 //
 //     { type: phong, diffuse_reflectance: [0.5, 0.1, 0.1], specular_reflectance: 0.3, exponent: 80

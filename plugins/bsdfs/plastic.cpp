@@ -5,7 +5,7 @@
 //     f = (1 - F(o)) (1 - F(i)) / (pi eta^2)  a / (1 - a F'),
 //
 // with F' the mean reflectance of the coat's inner side, so that a white base reflects all light
-// (see diffuse_base.h). With `nonlinear: false` the a below the line is 1: colours do not get more
+// (see diffuse_base.h). With `nonlinear: false` the a below the line is 1: colors do not get more
 // saturated by repeated reflection. sample() chooses coat and base in proportion to the mean
 // of the channels of what they reflect. Light is scattered on the side of the normal only.
 //
@@ -27,7 +27,7 @@ void Plastic::Settings::describe(Schema<Settings>& s) {
                  "0.5");
   describe_factor(s, "specular_reflectance", &Settings::specular_reflectance,
                   "Factor on what the coat reflects");
-  s.field("nonlinear", &Settings::nonlinear, "Whether repeated reflection deepens the colour");
+  s.field("nonlinear", &Settings::nonlinear, "Whether repeated reflection deepens the color");
   s.example("{ reflectance: 1, nonlinear: true }");
   s.example("{ ior: 1.9, reflectance: [0.8, 0.4, 0.05], nonlinear: true }");
   s.example("{ ior: 1.3, reflectance: [0.1, 0.2, 0.9], specular_reflectance: 0.5 }");

@@ -12,7 +12,7 @@
 //     where d is the angle between i and m; `flatness` blends in
 //     1.25 (s (1/(cos(o) + cos(i)) - 1/2) + 1/2),
 //     s = (1 + (r/2 - 1) w(o)) (1 + (r/2 - 1) w(i)),
-//   sheen: (1 - metallic) sheen w(cos(d)), coloured by `sheen_tint` of the tint,
+//   sheen: (1 - metallic) sheen w(cos(d)), colored by `sheen_tint` of the tint,
 //   a clearcoat: clearcoat / 4 F D G with Schlick's F of 0.04, Burley's GTR distribution D of
 //     exponent one, whose alpha goes from 0.1 to 0.001 by `clearcoat_gloss`, and G of GGX of alpha
 //     0.25, separable. (Burley divides by 4 cos(o) cos(i) here; Mitsuba does not, nor do we.)
@@ -23,7 +23,7 @@
 // its separable masking is `masking: separable`. Of textures for numbers the mean of the channels
 // counts.
 //
-// The lobes do not know of each other, so light colours scatter more than arrives: a white base of
+// The lobes do not know of each other, so light colors scatter more than arrives: a white base of
 // roughness 0.5 4% too much seen from above and 22% at grazing angles, of roughness 1 up to 61%;
 // flatness, sheen, clearcoat and tints add to that. Such furnaces have no end; a base_color of at
 // most 0.6 without these keeps the balance, and so do metals and clear materials without them.
@@ -177,7 +177,7 @@ float stated_index(const Principled::Settings& settings) {
 }  // namespace
 
 void Principled::Settings::describe(Schema<Settings>& s) {
-  describe_share(s, "base_color", &Settings::base_color, "Colour of the material", "0.5");
+  describe_share(s, "base_color", &Settings::base_color, "Color of the material", "0.5");
   describe_share(s, "roughness", &Settings::roughness, "Square root of the GGX alpha", "0.5");
   describe_share(s, "metallic", &Settings::metallic, "How much it is a metal", "0");
   s.field("specular", &Settings::specular, "Strength of reflection, instead of ior; 0.5 is 1.5")

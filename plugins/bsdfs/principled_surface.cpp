@@ -41,7 +41,7 @@ Vec3 CoatDistribution::sample(Vec2 u) const {
   return normalize(Vec3{sine * std::cos(phi), sine * std::sin(phi), safe_sqrt(1 - sine_squared)});
 }
 
-/// The base colour at a luminance of one.
+/// The base color at a luminance of one.
 Rgb PrincipledSurface::tint() const {
   const float brightness = luminance(base_color);
   return brightness > 0 ? base_color / brightness : Rgb(1);

@@ -2,7 +2,7 @@
 //
 //     f = F(o.m) D(m) G2(o, i) / (4 cos(o) cos(i)),  m the unit half vector,
 //
-// with the exact Fresnel term of a complex index eta - i k in each colour channel (in vacuum).
+// with the exact Fresnel term of a complex index eta - i k in each color channel (in vacuum).
 // `material` names a measured metal (metals.cpp says where its numbers come from) or `ideal`, which
 // reflects everything; any other metal is given by `eta` and `k` instead.
 // Light is scattered on the side of the shading normal only, once: what bounces between facets is

@@ -9,7 +9,7 @@
 // The second line is light that two facets have reflected. `use_fast_approx` takes the same paper's
 // qualitative model instead, f = r / pi (A + B max(0, cos(p)) sin(a) tan(b)), which does without it
 // and is darker. `alpha` is the roughness of microfacets, their root mean square slope, from which
-// s = alpha / sqrt(2) as in Mitsuba; at 0 the surface is `diffuse`. Of textures in colour the mean
+// s = alpha / sqrt(2) as in Mitsuba; at 0 the surface is `diffuse`. Of textures in color the mean
 // of the channels counts. sample() follows the cosine law,
 // or `warp` as in `diffuse`.
 //

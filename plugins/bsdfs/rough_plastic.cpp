@@ -28,7 +28,7 @@ void RoughPlastic::Settings::describe(Schema<Settings>& s) {
                  "0.5");
   describe_factor(s, "specular_reflectance", &Settings::specular_reflectance,
                   "Factor on what the coat reflects");
-  s.field("nonlinear", &Settings::nonlinear, "Whether repeated reflection deepens the colour");
+  s.field("nonlinear", &Settings::nonlinear, "Whether repeated reflection deepens the color");
   s.example("{ alpha: 0.02, reflectance: 1, nonlinear: true }");
   s.example(
       "{ alpha: 0.4, distribution: beckmann, ior: 1.9, reflectance: [0.8, 0.4, 0.05], nonlinear: "

@@ -1,5 +1,5 @@
 // area: a shape shines. Every point sends `scale` times the texture `radiance` [W/(m^2 sr)] into
-// every direction on the side of its normal and nothing to the other side. A colour or a number
+// every direction on the side of its normal and nothing to the other side. A color or a number
 // may stand for the texture.
 //
 //     type: quad

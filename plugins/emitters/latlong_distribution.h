@@ -48,7 +48,7 @@ class LatLongDistribution {
   void add_bands();
 
   const LatLongImage& image_;
-  /// Integral over u from the centre of column 0 to that of each column, row by row, in units of a
+  /// Integral over u from the center of column 0 to that of each column, row by row, in units of a
   /// column's width. Summed in double and rounded: a step lost by that is one that a primary number
   /// of 24 bits could not hit either.
   std::vector<float> cumulative_;

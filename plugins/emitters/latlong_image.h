@@ -27,7 +27,7 @@ struct LatLong {
 };
 
 /// The bilinear cell that a coordinate lies in: between pixel centres `low` and `low + 1`, at the
-/// fraction `t` in [0, 1] of the way. `low` is -1 before the first centre, and never names a pixel
+/// fraction `t` in [0, 1] of the way. `low` is -1 before the first center, and never names a pixel
 /// further outside, whatever the coordinate, NaN included.
 struct PixelPair {
   int low = 0;
@@ -40,11 +40,11 @@ struct PixelPair {
   }
 };
 
-/// A colour for every direction: an image that wraps around in u and is clamped in v, bilinear
+/// A color for every direction: an image that wraps around in u and is clamped in v, bilinear
 /// between pixel centres ((column + 0.5) / width, (row + 0.5) / height).
 class LatLongImage {
  public:
-  /// Reads an image file; the colour is that of channels R, G, B or else Y, without such names that
+  /// Reads an image file; the color is that of channels R, G, B or else Y, without such names that
   /// of the first three channels or of the only one. Throws InputError as read_image() does, and
   /// for values that are negative or not finite.
   explicit LatLongImage(const std::filesystem::path& file);

@@ -13,9 +13,9 @@ constexpr double kLuminancePerRadiance = 683.002 * 106.856895;
 
 /// A share of the sun's light that the atmosphere lets through depends on these.
 struct SpectralRow {
-  double sun;           ///< radiance outside the atmosphere [W/(m^2 sr nm)]
-  double ozone;         ///< absorption [1/cm]
-  double water_vapour;  ///< absorption [1/cm]
+  double sun;          ///< radiance outside the atmosphere [W/(m^2 sr nm)]
+  double ozone;        ///< absorption [1/cm]
+  double water_vapor;  ///< absorption [1/cm]
 };
 
 constexpr double kFirstWavelength = 380, kWavelengthStep = 10;  // [nm]
@@ -44,7 +44,7 @@ double transmittance(const SpectralRow& row, double wavelength, double mass, dou
   constexpr double kOzone = 0.35, kWater = 2, kAerosolExponent = 1.3;  // [cm], [cm], [1]
   const double micrometres = wavelength / 1000;
   const double aerosol = 0.04608365822050 * turbidity - 0.04586025928522;
-  const double wet = row.water_vapour * kWater * mass;
+  const double wet = row.water_vapor * kWater * mass;
   return std::exp(-0.008735 * std::pow(micrometres, -4.08) * mass -
                   aerosol * std::pow(micrometres, -kAerosolExponent) * mass -
                   row.ozone * kOzone * mass - 0.2385 * wet / std::pow(1 + 20.07 * wet, 0.45));

@@ -6,7 +6,7 @@
 
 /// Daylight by Preetham, Shirley and Smits 1999, "A Practical Analytic Model for Daylight".
 /// Angles are in radians, radiances in W/(m^2 sr nm) as means over wavelength, weighted by the
-/// colour matching functions.
+/// color matching functions.
 namespace pharos {
 
 /// The clear sky of one turbidity and height of the sun.

@@ -1,5 +1,5 @@
 // sun: the sun's disk as it is seen from the ground, of the same radiance all over. Its light has
-// come through Rayleigh's scattering, aerosols, ozone and water vapour as in Preetham, Shirley and
+// come through Rayleigh's scattering, aerosols, ozone and water vapor as in Preetham, Shirley and
 // Smits 1999 ("A Practical Analytic Model for Daylight", appendix), by the paper's tables from 380
 // to 750 nm in steps of 10, weighted by the CIE 1931 matching functions and taken to linear
 // Rec.709. `sky` of the same parameters is the rest of the daylight; see there for the units, the

@@ -23,7 +23,7 @@ inline Xyz xyz_from_xyy(double x, double y, double luminance) {
   return (luminance / y) * Xyz{x, y, std::max(0.0, 1 - x - y)};
 }
 
-/// The nearest colour in linear Rec.709: what lies outside its gamut is cut off at zero.
+/// The nearest color in linear Rec.709: what lies outside its gamut is cut off at zero.
 inline Rgb rgb_from_xyz(Xyz c) {
   const auto channel = [](double v) { return static_cast<float>(std::max(0.0, v)); };
   return {channel(3.2404542 * c.x - 1.5371385 * c.y - 0.4985314 * c.z),
@@ -31,7 +31,7 @@ inline Rgb rgb_from_xyz(Xyz c) {
           channel(0.0556434 * c.x - 0.2040259 * c.y + 1.0572252 * c.z)};
 }
 
-/// The CIE 1931 colour matching functions at a wavelength [nm] (multi-lobe fit of Wyman, Sloan and
+/// The CIE 1931 color matching functions at a wavelength [nm] (multi-lobe fit of Wyman, Sloan and
 /// Shirley 2013, "Simple Analytic Approximations to the CIE XYZ Color Matching Functions").
 inline Xyz matching_functions(double wavelength) {
   const auto lobe = [&](double mean, double left, double right) {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <pharos/config/registry.h>
-#include <pharos/guiding/learner.h>
+#include <pharos/guiding/contract/learner.h>
 
 namespace pharos {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <pharos/guiding/model.h>
+#include <pharos/guiding/contract/model.h>
 
 namespace pharos {
 

@@ -2,7 +2,7 @@
 // what stands for each object; docs/mitsuba.md lists what is supported, approximated and refused.
 #include "mitsuba_importer.h"
 
-#include "mapping.h"
+#include "mapping/mapping.h"
 
 namespace pharos {
 

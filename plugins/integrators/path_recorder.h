@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include <pharos/guiding/path_record.h>
+#include <pharos/guiding/record/path_record.h>
 #include <pharos/rendering/scatter_step.h>
 #include <pharos/scene/emitter.h>
 #include <pharos/scene/sensor.h>

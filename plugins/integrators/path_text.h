@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include <pharos/guiding/path_record.h>
+#include <pharos/guiding/record/path_record.h>
 
 namespace pharos {
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include <pharos/guiding/guider.h>
+#include <pharos/guiding/contract/guider.h>
 #include <pharos/scene/local_scattering.h>
 #include <pharos/scene/scene.h>
 

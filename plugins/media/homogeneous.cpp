@@ -1,6 +1,6 @@
-// homogeneous: a medium that is the same everywhere, such as fog, smoke or coloured water. Per
+// homogeneous: a medium that is the same everywhere, such as fog, smoke or colored water. Per
 // scene unit of a ray a share `scattering` of the light is scattered and a share `absorption` lost,
-// each with its colour and times `scale`; after a distance t exp(-(scattering + absorption) t) is
+// each with its color and times `scale`; after a distance t exp(-(scattering + absorption) t) is
 // left.
 //
 // Distances are drawn for one channel, chosen in proportion to what the path carries in each, and

@@ -7,7 +7,7 @@
 
 PHAROS_MODULE(registry) {
   using namespace pharos;
-  registry.add<HomogeneousMedium>("homogeneous", "The same everywhere, with its own colours");
+  registry.add<HomogeneousMedium>("homogeneous", "The same everywhere, with its own colors");
   registry.add<IsotropicPhase>("isotropic", "Evenly into all directions");
   registry.add<HenyeyGreensteinPhase>("henyey_greenstein", "More or less forwards or backwards");
   registry.add<RayleighPhase>("rayleigh", "By particles much smaller than a wavelength, like air");

@@ -1,10 +1,10 @@
-// rayleigh: what particles much smaller than a wavelength do with unpolarised light, as much
+// rayleigh: what particles much smaller than a wavelength do with unpolarized light, as much
 // forwards as backwards, half as much aside. With the angle t between the directions of flight
 // before and after:
 //
 //     p(t) = 3 / (16 pi) (1 + cos^2 t)  [1/sr]
 //
-// The colour of such scattering, as of the sky, is for the medium's coefficients to say.
+// The color of such scattering, as of the sky, is for the medium's coefficients to say.
 //
 //     phase: rayleigh
 

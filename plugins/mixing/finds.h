@@ -60,7 +60,7 @@ class Finds {
 };
 
 /// The derivative of the objective with respect to the share, at a share `a` in (0, 1):
-/// kl minimises the mean of -log q, variance that of 1 / q.
+/// kl minimizes the mean of -log q, variance that of 1 / q.
 double objective_slope(const std::vector<Finds::Term>& terms, double a, MixingObjective objective);
 
 }  // namespace pharos

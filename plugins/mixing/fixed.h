@@ -1,7 +1,7 @@
 #pragma once
 
 #include <pharos/config/schema.h>
-#include <pharos/guiding/mixing.h>
+#include <pharos/guiding/contract/mixing.h>
 
 namespace pharos {
 

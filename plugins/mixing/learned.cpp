@@ -9,7 +9,7 @@
 //     a (1 - a) E[ -x   (B - G) / q   ] / E[x]     objective kl,
 //     a (1 - a) E[ -x^2 (B - G) / q^2 ] / E[x^2]   objective variance,       q = a B + (1 - a) G,
 //
-// (B, G and q relative to p) plus `regularisation` times theta's distance from its start, by Adam.
+// (B, G and q relative to p) plus `regularization` times theta's distance from its start, by Adam.
 // An iteration's steps are summed up (finds.h); its end takes the steps of descent. Regions that a
 // region is refined into begin with its theta and its moments.
 //
@@ -18,7 +18,7 @@
 // is the same for any number of threads, and what several states absorbed adds up; each second
 // sample (`batch`) still earns a step, up to `steps` an iteration, but along the slope of all
 // samples. The slope is divided by E[x] or E[x^2], so that the unit of radiance does not matter
-// beside `regularisation`. Theta is drawn back to `initial` rather than to one half, and held where
+// beside `regularization`. Theta is drawn back to `initial` rather than to one half, and held where
 // the share and its complement are at least `least` (published: |theta| < 20), so that no sample
 // weighs more than 1 / least times what unguided sampling alone would make of it.
 //
@@ -135,7 +135,7 @@ class LearnedState final : public MixingState {
     for (std::uint64_t step = std::min<std::uint64_t>(earned, settings_.steps); step > 0; --step) {
       const double a = share_of(region.theta);
       const double gradient = a * (1 - a) * objective_slope(terms, a, settings_.objective) +
-                              settings_.regularisation * (region.theta - start);
+                              settings_.regularization * (region.theta - start);
       const double theta = region.theta + region.adam.step(gradient, rates);
       region.theta = std::clamp(theta, -limit(), limit());
     }
@@ -204,7 +204,7 @@ void LearnedState::merge(const MixingState& other) {
 
 void LearnedMixing::Settings::describe(Schema<Settings>& s) {
   s.field("objective", &Settings::objective,
-          "What is minimised: divergence from what is sought, or variance of what is found");
+          "What is minimized: divergence from what is sought, or variance of what is found");
   s.field("initial", &Settings::initial, "Share of unguided samples to start from")
       .above(0)
       .below(1);
@@ -216,7 +216,7 @@ void LearnedMixing::Settings::describe(Schema<Settings>& s) {
   s.field("mean_decay", &Settings::mean_decay, "beta_1 of Adam").at_least(0).below(1);
   s.field("square_decay", &Settings::square_decay, "beta_2 of Adam").at_least(0).below(1);
   s.field("epsilon", &Settings::epsilon, "Of Adam: smaller gradients move nothing").above(0);
-  s.field("regularisation", &Settings::regularisation, "Pull towards the initial share")
+  s.field("regularization", &Settings::regularization, "Pull towards the initial share")
       .at_least(0);
   s.field("batch", &Settings::batch, "Samples that earn a region one step").at_least(1);
   s.field("steps", &Settings::steps, "Most steps an iteration").at_least(1).at_most(100'000);

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include <pharos/config/schema.h>
-#include <pharos/guiding/mixing.h>
+#include <pharos/guiding/contract/mixing.h>
 
 #include "finds.h"
 
@@ -28,7 +28,7 @@ class LearnedMixing final : public MixingPolicy {
     double mean_decay = 0.9;
     double square_decay = 0.999;
     double epsilon = 1e-8;
-    double regularisation = 0.01;
+    double regularization = 0.01;
     std::uint32_t batch = 2;
     std::uint32_t steps = 500;
     std::uint32_t bins = 32;

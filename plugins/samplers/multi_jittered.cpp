@@ -3,7 +3,7 @@
 // a grid of m columns and k rows, and also one each in n intervals of equal length of x, and of y:
 // within its column a point's place is that of its row after a permutation of the rows, the same
 // one for all columns; within its row it is that of its column before the columns are permuted.
-// Sharing the permutations keeps neighbours apart. Each dimension of a pixel has permutations,
+// Sharing the permutations keeps neighbors apart. Each dimension of a pixel has permutations,
 // jitter and an order of the cells of its own; samples beyond a set belong to the next one, with
 // permutations of its own.
 //

@@ -6,7 +6,7 @@
 // points out of each other's way (blue_noise.h), for blocks of 4 up to 256 points, then the
 // sequence goes on from these. It stays a random (0,2)-sequence, used like those of `pmj02`.
 //
-// Mean distances to the nearest neighbour grow by about a tenth up to 256 points, and hardly beyond
+// Mean distances to the nearest neighbor grow by about a tenth up to 256 points, and hardly beyond
 // that. Nets have far fewer degrees of freedom than points: true blue noise is out of reach.
 //
 //     { type: pmj02bn }

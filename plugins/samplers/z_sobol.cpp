@@ -2,7 +2,7 @@
 // z-order curve (Ahmed and Wonka 2020, "Screen-Space Blue-Noise Diffusion of Monte Carlo Sampling
 // Error via Hierarchical Ordering of Pixels"). Each pixel takes the next n numbers, n a power of
 // two. So the samples of any aligned square of 2^k by 2^k pixels together, and those of a pixel
-// alone, are stratified in every elementary interval: errors of neighbours cancel, and the image's
+// alone, are stratified in every elementary interval: errors of neighbors cancel, and the image's
 // error looks like blue noise. Each dimension has an order, its (0,2)-sequence an Owen scramble of
 // its own.
 //
@@ -15,7 +15,7 @@
 //
 // `samples` is rounded up to a power of two; a pixel that takes fewer uses a prefix. Where the
 // number of samples is unknown (a time budget) sets of 16, or those stated, follow each other:
-// within each set neighbours fit together, different sets are unrelated.
+// within each set neighbors fit together, different sets are unrelated.
 //
 //     { type: z_sobol }
 #include "z_sobol.h"

@@ -25,7 +25,7 @@ class PreparedOrthographic : public PreparedSensor {
         center_{.position = to_world_.point({}), .normal = normalize(to_world_.vector({0, 0, 1}))} {
   }
 
-  /// The centre stands for all points: a film position has its own.
+  /// The center stands for all points: a film position has its own.
   LensPoint sample_lens(Vec2) const override { return center_; }
 
   Ray ray(const LensPoint& lens, Vec2 film) const override {

@@ -43,7 +43,7 @@ class PreparedThinLens : public PreparedSensor {
   }
 
  private:
-  /// How much smaller the slopes of directions are from this lens point than from the centre.
+  /// How much smaller the slopes of directions are from this lens point than from the center.
   Vec2 shift(const LensPoint& lens) const {
     if (settings_.aperture_radius == 0) return {};
     const Point3 local = settings_.to_world.inverse_point(lens.position);

@@ -106,7 +106,7 @@ SurfacePoint Cylinder::surface_point(const Ray& ray, const PrimitiveHit& hit) co
 SurfacePoint Cylinder::surface_near(Double3 local) const {
   const double scale = 1 / std::hypot(local.x, local.y);
   const Double3 outward = (scale * local.x) * side_ + (scale * local.y) * across_;
-  // As with triangles, rays start off the rims so as not to slip past a neighbour that meets them.
+  // As with triangles, rays start off the rims so as not to slip past a neighbor that meets them.
   const double margin = std::min(double{error_}, 0.5 * height_);
   const double height = std::clamp(local.z, margin, height_ - margin);
   SurfacePoint point;

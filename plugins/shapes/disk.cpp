@@ -50,7 +50,7 @@ Disk::Disk(const Settings& settings)
   const double product = dot(normal_, normal_);
   area_ = static_cast<float>(double{kPi} * std::sqrt(product));
   if (!is_finite(center_) || !(area_ > 0) || !std::isfinite(area_)) {
-    throw InputError("disk: centre and radius are beyond what a float can hold");
+    throw InputError("disk: center and radius are beyond what a float can hold");
   }
   dual_x_ = (1 / product) * cross(y, normal_);
   dual_y_ = (1 / product) * cross(normal_, x);
@@ -87,7 +87,7 @@ SurfacePoint Disk::surface_point(const Ray&, const PrimitiveHit& hit) const {
 
 SurfacePoint Disk::surface_at(Vec2 local) const {
   const float radius = std::hypot(local.x, local.y);
-  // As with triangles, rays start off the rim so as not to slip past a neighbour that meets it.
+  // As with triangles, rays start off the rim so as not to slip past a neighbor that meets it.
   const Vec2 inside = radius > largest_radius_ ? largest_radius_ / radius * local : local;
   SurfacePoint point = common_;
   point.position = Vec3(Double3(center_) + (double{inside.x} * Double3(axis_x_) +

@@ -28,7 +28,7 @@ class GltfAccessor {
   std::uint64_t size() const { return size_; }
   /// Whether its numbers are unsigned integers, as indices must be.
   bool is_unsigned() const;
-  /// Vector `i`, with zeros for what its type lacks; integers that are normalised in [0,1] or
+  /// Vector `i`, with zeros for what its type lacks; integers that are normalized in [0,1] or
   /// [-1,1].
   Vec3 vector(std::uint64_t i) const;
   /// The only number of vector `i`, of accessors that are unsigned.

@@ -1,5 +1,5 @@
 // heightfield: a landscape over the square [-1,1]^2, as triangles. At each of `resolution` = [nx,
-// ny] corners of a regular grid local z is `height` times the mean colour of `texture`, which is
+// ny] corners of a regular grid local z is `height` times the mean color of `texture`, which is
 // asked at the corner's texture coordinates: [0,1]^2 with local x and y, as on a quad. It faces
 // local +z. `smooth` interpolates normals, which central differences of the heights give; else
 // facets.
@@ -64,7 +64,7 @@ class Grid {
     const Vec2 t = uv(x, y);
     return {2 * t.x - 1, 2 * t.y - 1, heights_[index(x, y)]};
   }
-  /// The slopes between the neighbours on both sides, at the border between one and the corner.
+  /// The slopes between the neighbors on both sides, at the border between one and the corner.
   Vec3 normal(int x, int y) const {
     const Vec3 along_x = position(std::min(x + 1, nx_ - 1), y) - position(std::max(x - 1, 0), y);
     const Vec3 along_y = position(x, std::min(y + 1, ny_ - 1)) - position(x, std::max(y - 1, 0));
@@ -83,7 +83,7 @@ class Grid {
 }  // namespace
 
 void Heightfield::Settings::describe(Schema<Settings>& s) {
-  s.field("texture", &Settings::texture, "Its mean colour is the height").required();
+  s.field("texture", &Settings::texture, "Its mean color is the height").required();
   s.field("resolution", &Settings::resolution, "Corners along local x and y")
       .at_least(2)
       .check("two numbers", [](const std::vector<int>& v) { return v.size() == 2; });

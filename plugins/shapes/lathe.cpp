@@ -1,12 +1,12 @@
 // lathe: a surface of revolution, as triangles. `profile` lists points [r, z], distance from the z
-// axis and height; each pair of neighbours becomes a band of `segments` facets around the axis,
+// axis and height; each pair of neighbors becomes a band of `segments` facets around the axis,
 // with corners on the exact circle. Listed from bottom to top, the outer side faces away from the
 // axis; in general it lies on the right of the way along the profile. A profile that starts and
 // ends on the axis, or returns to its first point (counter-clockwise, r to the right and z up),
 // encloses a solid without gaps.
 //
 // With `interpolation: catmull_rom` a smooth curve runs through the points, cut into `subdivisions`
-// pieces between neighbours. `smooth` interpolates normals around the axis and along the profile,
+// pieces between neighbors. `smooth` interpolates normals around the axis and along the profile,
 // but for corners sharper than `crease`. Texture coordinates are (azimuth / 2 pi, arc length along
 // the profile in [0, 1]).
 //

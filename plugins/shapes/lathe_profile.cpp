@@ -25,12 +25,12 @@ Vec2 mirrored(Vec2 p) {
 }
 
 /// What a profile goes on to beyond its end.
-Vec2 reflected(Vec2 end, Vec2 neighbour) {
-  return end.x == 0 ? mirrored(neighbour) : 2 * end - neighbour;
+Vec2 reflected(Vec2 end, Vec2 neighbor) {
+  return end.x == 0 ? mirrored(neighbor) : 2 * end - neighbor;
 }
 
 /// The points with one more on either side, which gives the first and last piece their bend.
-std::vector<Vec2> with_neighbours(const std::vector<Vec2>& points) {
+std::vector<Vec2> with_neighbors(const std::vector<Vec2>& points) {
   const std::size_t n = points.size();
   const bool closed = is_closed(points);
   std::vector<Vec2> all{closed ? points[n - 2] : reflected(points[0], points[1])};
@@ -62,14 +62,14 @@ Vec2 normal_of(Vec2 a, Vec2 b) {
   return 1 / length(along) * Vec2{along.y, -along.x};
 }
 
-/// The normal of the piece from a to b where it meets `neighbour`, the far end of the next piece or
+/// The normal of the piece from a to b where it meets `neighbor`, the far end of the next piece or
 /// the one before. Both normals count by the inverse of the pieces' lengths, which is exact to
 /// second order for points on a smooth curve.
-Vec2 joint_normal(Vec2 a, Vec2 b, Vec2 joint, Vec2 neighbour, float least_cosine) {
+Vec2 joint_normal(Vec2 a, Vec2 b, Vec2 joint, Vec2 neighbor, float least_cosine) {
   const Vec2 own = normal_of(a, b);
-  const Vec2 other = joint == b ? normal_of(b, neighbour) : normal_of(neighbour, a);
+  const Vec2 other = joint == b ? normal_of(b, neighbor) : normal_of(neighbor, a);
   if (own.x * other.x + own.y * other.y < least_cosine) return own;
-  const Vec2 sum = 1 / length(b - a) * own + 1 / length(neighbour - joint) * other;
+  const Vec2 sum = 1 / length(b - a) * own + 1 / length(neighbor - joint) * other;
   const float size = length(sum);
   return size > 0 ? 1 / size * sum : own;
 }
@@ -92,7 +92,7 @@ void check_profile(const std::vector<Vec2>& points) {
 }
 
 std::vector<Vec2> catmull_rom(const std::vector<Vec2>& points, int subdivisions) {
-  const std::vector<Vec2> all = with_neighbours(points);
+  const std::vector<Vec2> all = with_neighbors(points);
   std::vector<Vec2> curve{points.front()};
   const auto append = [&](Vec2 p) {  // but for what rounding makes equal
     if (p != curve.back()) curve.push_back(p);
@@ -109,7 +109,7 @@ std::vector<Vec2> catmull_rom(const std::vector<Vec2>& points, int subdivisions)
 }
 
 std::vector<ProfilePiece> profile_pieces(const std::vector<Vec2>& points, float crease) {
-  const std::vector<Vec2> all = with_neighbours(points);
+  const std::vector<Vec2> all = with_neighbors(points);
   const float least_cosine = std::cos(radians(crease));
   std::vector<ProfilePiece> pieces;
   float whole = 0;

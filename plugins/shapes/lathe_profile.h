@@ -19,15 +19,15 @@ struct ProfilePiece {
 void check_profile(const std::vector<Vec2>& points);
 
 /// The Catmull-Rom spline through all points, as `subdivisions` straight pieces for each pair of
-/// neighbours. In centripetal form it has no cusps or loops between neighbours (Yuksel, Schaefer
+/// neighbors. In centripetal form it has no cusps or loops between neighbors (Yuksel, Schaefer
 /// and Keyser 2011, "Parameterization and Applications of Catmull-Rom Curves"). Closed profiles
 /// stay smooth at the seam, and ends on the axis meet it at a right angle. Distances that would be
 /// negative become zero.
 std::vector<Vec2> catmull_rom(const std::vector<Vec2>& points, int subdivisions);
 
-/// The pieces between neighbouring points but for those along the axis, which have no area. Where
+/// The pieces between neighboring points but for those along the axis, which have no area. Where
 /// pieces meet at an angle of at most `crease` [degrees] their normals agree; on the axis a
-/// piece's neighbour is its own mirror image.
+/// piece's neighbor is its own mirror image.
 std::vector<ProfilePiece> profile_pieces(const std::vector<Vec2>& points, float crease);
 
 }  // namespace pharos

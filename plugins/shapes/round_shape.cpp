@@ -27,7 +27,7 @@ std::optional<std::array<double, 2>> distance_roots(Double3 origin, Double3 dire
                                                     double radius) {
   const double a = dot(direction, direction), b = dot(origin, direction);
   if (a == 0) return std::nullopt;
-  // The discriminant from the distance between line and centre: b^2 - a c would cancel far away
+  // The discriminant from the distance between line and center: b^2 - a c would cancel far away
   // (Haines et al. 2019, "Precision Improvements for Ray/Sphere Intersection").
   const Double3 closest = origin + (-b / a) * direction;
   const double discriminant = radius * radius - dot(closest, closest);

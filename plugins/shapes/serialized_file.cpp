@@ -22,7 +22,7 @@
 //     flags                                     32 bits
 //     name                                      version 4: up to a byte 0
 //     numbers of vertices and triangles         64 bits each
-//     positions, normals, uvs, colours          of all vertices, the last three as the flags say
+//     positions, normals, uvs, colors          of all vertices, the last three as the flags say
 //     three vertices of every triangle          32 bits each
 //
 // all little-endian, as the manual of Mitsuba 0.6 describes it under `serialized`.
@@ -90,7 +90,7 @@ class MeshReader {
     read_vectors(mesh.positions, vertices, "position");
     if (has(kHasNormals)) read_vectors(mesh.normals, vertices, "normal");
     if (has(kHasUvs)) read_uvs(mesh.uvs, vertices);
-    if (has(kHasColors)) read_floats<3>(vertices, "colour", [](const auto&) {});
+    if (has(kHasColors)) read_floats<3>(vertices, "color", [](const auto&) {});
     read_triangles(mesh, triangles);
     char beyond;
     stream_.read(&beyond, 1);  // so that the stream's end is reached, where its checksum is

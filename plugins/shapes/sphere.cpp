@@ -29,7 +29,7 @@ float world_radius(const Sphere::Settings& settings) {
 }  // namespace
 
 void Sphere::Settings::describe(Schema<Settings>& s) {
-  s.field("center", &Settings::center, "Centre, before to_world").unit("scene units");
+  s.field("center", &Settings::center, "Center, before to_world").unit("scene units");
   s.field("radius", &Settings::radius, "Radius, before to_world").unit("scene units").above(0);
   s.field("to_world", &Settings::to_world, "From local to world space; no shear, even scale");
   s.field("flip_normals", &Settings::flip_normals, "Normals point inwards");
@@ -45,7 +45,7 @@ Sphere::Sphere(const Settings& settings)
       to_world_(settings.to_world),
       flip_normals_(settings.flip_normals) {
   if (!is_finite(center_) || !(area() > 0) || !std::isfinite(area())) {
-    throw InputError("sphere: centre and radius are beyond what a float can hold");
+    throw InputError("sphere: center and radius are beyond what a float can hold");
   }
 }
 
@@ -126,7 +126,7 @@ ShapeSample Sphere::sample_from(Point3 from, Vec2 u) const {
   const double distance = length(away);
   const Frame frame = Frame::from_normal(Vec3((-1 / distance) * away));
   const Vec3 local = warp::cone_from_square(u, *one_minus_cos);
-  // The hit lies in the plane of the direction and the centre: at angle theta from the axis, the
+  // The hit lies in the plane of the direction and the center: at angle theta from the axis, the
   // ray enters after `along`, whence the hit's components along the axis and beside it.
   const double sin2 = double{local.x} * local.x + double{local.y} * local.y;
   const double cosine = std::sqrt(1 - sin2);
@@ -134,7 +134,7 @@ ShapeSample Sphere::sample_from(Point3 from, Vec2 u) const {
       std::sqrt(std::max(0.0, double{radius_} * radius_ - distance * distance * sin2));
   const double along = distance * cosine - half_chord;
   const double beside_x = along * local.x, beside_y = along * local.y;
-  const double forward = along * cosine - distance;  // from the centre, along the axis
+  const double forward = along * cosine - distance;  // from the center, along the axis
   const Double3 outward =
       beside_x * Double3(frame.s) + beside_y * Double3(frame.t) + forward * Double3(frame.n);
   return {.point = surface_towards(outward), .pdf = warp::cone_pdf(*one_minus_cos)};

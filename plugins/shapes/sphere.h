@@ -39,7 +39,7 @@ class Sphere : public Shape {
  private:
   /// Both parameters at which the ray's line meets the sphere, ascending.
   std::optional<std::array<double, 2>> roots(const Ray& ray) const;
-  /// The surface in the direction `outward` (of any length) from the centre.
+  /// The surface in the direction `outward` (of any length) from the center.
   SurfacePoint surface_towards(Double3 outward) const;
   Double3 from_center(Point3 p) const { return Double3(p) - Double3(center_); }
   /// 1 - cos of the half-angle of the cone of directions that meet the sphere; empty from inside

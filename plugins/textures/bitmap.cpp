@@ -1,6 +1,6 @@
 // bitmap: an image file stretched over the unit square of texture coordinates, (0, 0) at the lower
 // left corner of the picture and (1, 1) at the upper right. Texel centres lie half a texel inside.
-// The colour is that of channels R, G, B or else Y, whatever their order; without such names that
+// The color is that of channels R, G, B or else Y, whatever their order; without such names that
 // of the first three channels, or of the first alone when there are fewer.
 //
 //     { type: bitmap, file: wood.png, filter: bilinear, wrap: repeat, uv_scale: [2, 2] }
@@ -51,7 +51,7 @@ Rgb Bitmap::evaluate(const SurfacePoint& point) const {
   return settings_.filter == BitmapFilter::nearest ? nearest(x, y) : bilinear(x, y);
 }
 
-/// The place in [0, 1] whose colour belongs to a coordinate anywhere.
+/// The place in [0, 1] whose color belongs to a coordinate anywhere.
 float Bitmap::wrapped(float coordinate) const {
   switch (settings_.wrap) {
     case BitmapWrap::repeat:
@@ -67,7 +67,7 @@ float Bitmap::wrapped(float coordinate) const {
 }
 
 /// The texel at an index that is at most one outside.
-int Bitmap::neighbour(int index, int size) const {
+int Bitmap::neighbor(int index, int size) const {
   if (settings_.wrap == BitmapWrap::repeat) return index < 0 ? size - 1 : index < size ? index : 0;
   return std::clamp(index, 0, size - 1);
 }
@@ -80,10 +80,10 @@ Rgb Bitmap::nearest(float x, float y) const {
 Rgb Bitmap::bilinear(float x, float y) const {
   const float left = std::floor(x - 0.5f), top = std::floor(y - 0.5f);
   const float a = x - 0.5f - left, b = y - 0.5f - top;
-  const int x0 = neighbour(static_cast<int>(left), width_);
-  const int x1 = neighbour(static_cast<int>(left) + 1, width_);
-  const int y0 = neighbour(static_cast<int>(top), height_);
-  const int y1 = neighbour(static_cast<int>(top) + 1, height_);
+  const int x0 = neighbor(static_cast<int>(left), width_);
+  const int x1 = neighbor(static_cast<int>(left) + 1, width_);
+  const int y0 = neighbor(static_cast<int>(top), height_);
+  const int y1 = neighbor(static_cast<int>(top) + 1, height_);
   return (1 - b) * ((1 - a) * texel(x0, y0) + a * texel(x1, y0)) +
          b * ((1 - a) * texel(x0, y1) + a * texel(x1, y1));
 }

@@ -51,7 +51,7 @@ class Bitmap final : public Texture {
 
  private:
   float wrapped(float coordinate) const;
-  int neighbour(int index, int size) const;
+  int neighbor(int index, int size) const;
   Rgb texel(int x, int y) const { return texels_[static_cast<std::size_t>(y) * width_ + x]; }
   Rgb nearest(float x, float y) const;
   Rgb bilinear(float x, float y) const;

@@ -1,4 +1,4 @@
-// constant: the same colour everywhere. What a bare number or list of three stands for wherever a
+// constant: the same color everywhere. What a bare number or list of three stands for wherever a
 // texture is expected.
 //
 //     { type: constant, value: [0.2, 0.5, 0.8] }
@@ -7,7 +7,7 @@
 namespace pharos {
 
 void ConstantTexture::Settings::describe(Schema<Settings>& s) {
-  s.field("value", &Settings::value, "The colour").at_least(0);
+  s.field("value", &Settings::value, "The color").at_least(0);
   s.example("{ value: [0.2, 0.5, 0.8] }");
 }
 

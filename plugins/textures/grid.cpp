@@ -8,8 +8,8 @@
 namespace pharos {
 
 void GridTexture::Settings::describe(Schema<Settings>& s) {
-  s.field("color0", &Settings::color0, "Colour of the ground").at_least(0);
-  s.field("color1", &Settings::color1, "Colour of the lines").at_least(0);
+  s.field("color0", &Settings::color0, "Color of the ground").at_least(0);
+  s.field("color1", &Settings::color1, "Color of the lines").at_least(0);
   s.field("line_width", &Settings::line_width, "Reach of a line to either side, of a cell's width")
       .at_least(0)
       .at_most(0.5);

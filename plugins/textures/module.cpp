@@ -8,8 +8,8 @@
 #include "uv_map.h"
 
 PHAROS_MODULE(registry) {
-  registry.add<pharos::ConstantTexture>("constant", "The same colour everywhere");
-  registry.add<pharos::Checkerboard>("checkerboard", "Two colours in squares");
+  registry.add<pharos::ConstantTexture>("constant", "The same color everywhere");
+  registry.add<pharos::Checkerboard>("checkerboard", "Two colors in squares");
   registry.add<pharos::GridTexture>("grid", "Lines on a ground");
   registry.add<pharos::ScaleTexture>("scale", "The product of two textures");
   registry.add<pharos::Bitmap>("bitmap", "An image file");

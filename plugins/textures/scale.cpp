@@ -1,4 +1,4 @@
-// scale: the product of two textures, channel by channel. A number or a colour as `factor` tints or
+// scale: the product of two textures, channel by channel. A number or a color as `factor` tints or
 // dims a texture; an image of shades darkens it in places.
 //
 // What it tells about itself: its maximum is the product of both maxima, a bound that is reached

@@ -54,10 +54,10 @@ void Floor::check_irradiance(double expected, const std::vector<Strategy>& strat
   const std::string scene = fmt::format(
       R"(scene:
   materials:
-    grey: {{ type: diffuse, reflectance: {} }}
+    gray: {{ type: diffuse, reflectance: {} }}
     black: {{ type: diffuse, reflectance: 0 }}
   shapes:
-    - {{ type: quad, material: grey, to_world: [ {{ scale: 2 }}, {{ translate: [0.6, 0, 0] }} ] }}
+    - {{ type: quad, material: gray, to_world: [ {{ scale: 2 }}, {{ translate: [0.6, 0, 0] }} ] }}
 {}  emitters:
 {}  sensor:
     type: perspective

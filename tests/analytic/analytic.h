@@ -47,7 +47,7 @@ inline const std::vector<Strategy> kLightSampling{{"one", "light_selection: one"
 /// that angle.
 double polygon_irradiance(const Transform& quad);
 
-/// A floor seen from close by in a spot of half a millimetre about the origin, with +z as its
+/// A floor seen from close by in a spot of half a millimeter about the origin, with +z as its
 /// normal and a reflectance of 0.5.
 class Floor {
  public:

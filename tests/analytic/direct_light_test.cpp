@@ -30,8 +30,8 @@ Transform overhead(float h, Vec3 scale) {
          Transform::scale(scale);
 }
 
-/// polygon_irradiance() of a rectangle of half-edges a and b parallel to the floor, centred at
-/// height h: pi times four times the view factor of a quarter (Howell, catalogue of configuration
+/// polygon_irradiance() of a rectangle of half-edges a and b parallel to the floor, centered at
+/// height h: pi times four times the view factor of a quarter (Howell, catalog of configuration
 /// factors, B-4).
 double rectangle_irradiance(double a, double b, double h) {
   const double x = a / h, y = b / h;

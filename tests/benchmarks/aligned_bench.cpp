@@ -9,7 +9,7 @@
 // of configs/convergence/aligned.yaml has on the one edge over that of aligned points.
 
 #include <algorithm>
-#include <aligned_sampling/synthesis.h>
+#include <aligned/synthesis.h>
 #include <chrono>
 #include <string_view>
 

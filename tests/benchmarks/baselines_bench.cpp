@@ -148,7 +148,7 @@ class BaselineMeter {
 
 std::string lobes(int count) {
   return fmt::format(
-      "{{ type: vmf_mixtures, spatial: single, components: {0}, most_components: {0}, "
+      "{{ type: parallax_aware_mixtures, spatial: single, components: {0}, most_components: {0}, "
       "merge_threshold: 0 }}",
       count);
 }
@@ -162,18 +162,19 @@ std::vector<Measurement> bench_baselines(int repeats) {
   const RenderConfig loaded = build_render_config(parse_yaml(config, "benchmark"), registry).config;
   const Scene scene(loaded.scene);
   BaselineMeter meter(registry, scene, repeats);
-  meter.answers("sd_tree", "sd_tree", "ppg.pdf_ns", "ppg.sample_ns", "ppg.query_ns");
-  meter.updates("ppg", "sd_tree");
-  const std::string plain = "{ type: vmf_mixtures, product: none }";
+  meter.answers("practical_path_guiding", "practical_path_guiding", "ppg.pdf_ns", "ppg.sample_ns",
+                "ppg.query_ns");
+  meter.updates("ppg", "practical_path_guiding");
+  const std::string plain = "{ type: parallax_aware_mixtures, product: none }";
   meter.answers(lobes(16), plain, "pavmm.pdf_ns.k16", "pavmm.sample_ns.k16", "pavmm.query_ns");
-  meter.answers(lobes(16), "vmf_mixtures", "", "", "pavmm.query_cosine_ns");
-  meter.answers(lobes(16), "{ type: vmf_mixtures, product: bsdf }", "pavmm.product_pdf_ns.k16", "",
-                "pavmm.query_product_ns");
+  meter.answers(lobes(16), "parallax_aware_mixtures", "", "", "pavmm.query_cosine_ns");
+  meter.answers(lobes(16), "{ type: parallax_aware_mixtures, product: bsdf }",
+                "pavmm.product_pdf_ns.k16", "", "pavmm.query_product_ns");
   meter.answers(lobes(32), plain, "pavmm.pdf_ns.k32", "pavmm.sample_ns.k32", "pavmm.query_ns.k32");
-  meter.updates("pavmm", "vmf_mixtures");
+  meter.updates("pavmm", "parallax_aware_mixtures");
   if (registry.find(Learner::contract_name, "open_pgl") != nullptr) {
-    // No look-ups of neighbours, as ours make none; its cells are not told.
-    const std::string field = "{ type: open_pgl, neighbours: false }";
+    // No look-ups of neighbors, as ours make none; its cells are not told.
+    const std::string field = "{ type: open_pgl, neighbors: false }";
     meter.answers(field, "{ type: open_pgl, cosine: false }", "open_pgl.pdf_ns",
                   "open_pgl.sample_ns", "open_pgl.query_ns");
     meter.answers(field, "open_pgl", "", "", "open_pgl.query_cosine_ns");

@@ -7,7 +7,7 @@
 
 #include <pharos/config/module_loader.h>
 #include <pharos/conformance/guided.h>
-#include <pharos/guiding/spatial_mixture.h>
+#include <pharos/guiding/contract/spatial_mixture.h>
 #include <pharos/rendering/render_config.h>
 
 #include "bench.h"

@@ -29,7 +29,7 @@ double clock_ns() {
   return (thread_ns() - start) / kTimes;
 }
 
-/// Keeps results from being optimised away.
+/// Keeps results from being optimized away.
 volatile float sink;
 
 class CostMeter {

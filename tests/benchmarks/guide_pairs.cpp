@@ -1,8 +1,8 @@
 #include "guide_pairs.h"
 
 #include <pharos/conformance/subjects.h>
-#include <pharos/guiding/guider.h>
-#include <pharos/guiding/learner.h>
+#include <pharos/guiding/contract/guider.h>
+#include <pharos/guiding/contract/learner.h>
 
 namespace pharos::bench {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include <pharos/conformance/guide_stage.h>
-#include <pharos/guiding/guiding.h>
+#include <pharos/guiding/pipeline/guiding.h>
 
 namespace pharos::bench {
 

@@ -17,7 +17,7 @@ inline constexpr SamplePlan kTimedPlan{.seed = 1, .samples_per_pixel = 64};
 /// Processor time of this thread [ns]: what other programs take does not count.
 double thread_ns();
 
-/// Keeps a result from being optimised away.
+/// Keeps a result from being optimized away.
 void keep(float result);
 
 /// The mean time [ns] of paths, of which `use` makes a number from the path's stream. They run

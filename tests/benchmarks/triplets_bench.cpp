@@ -1,12 +1,12 @@
-// What vertex triplets cost: a step of expectation-maximisation on one thread, a guide's answers by
+// What vertex triplets cost: a step of expectation-maximization on one thread, a guide's answers by
 // the number of components, and of renders of half a minute of the scenes that they are for the
 // share of learning in training, rays a second against an unguided render, and memory. On two
 // threads, but for the first two.
 
 #include <chrono>
-#include <vertex_triplets/expectation_maximisation.h>
+#include <vertex_triplets/expectation_maximization.h>
 #include <vertex_triplets/guider.h>
-#include <vertex_triplets/triplet_model.h>
+#include <vertex_triplets/model.h>
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>
@@ -24,7 +24,7 @@
 namespace pharos::bench {
 namespace {
 
-using namespace triplets;
+using namespace vertex_triplets;
 
 constexpr std::size_t kVertices = 20'000;
 constexpr int kThreads = 2;
@@ -59,7 +59,7 @@ Measurement em_step(int repeats) {
   for (int i = 0; i < repeats; ++i) {
     Mixture<9> at = mixture;
     const auto start = std::chrono::steady_clock::now();
-    for (int s = 0; s < kSteps; ++s) at = maximisation(at, expectation(at, points), {});
+    for (int s = 0; s < kSteps; ++s) at = maximization(at, expectation(at, points), {});
     const std::chrono::duration<double, std::milli> elapsed =
         std::chrono::steady_clock::now() - start;
     step.runs.push_back(elapsed.count() / kSteps);
@@ -68,7 +68,7 @@ Measurement em_step(int repeats) {
 }
 
 /// A model of one cell whose components all have a part in every step through the scene.
-std::shared_ptr<const TripletModel> broad_model(const Bounds3& bounds, int count) {
+std::shared_ptr<const VertexTripletsModel> broad_model(const Bounds3& bounds, int count) {
   RandomStream random(2);
   CellKnowledge cell{.share = 1};
   const float size = bounds.diagonal();
@@ -87,15 +87,16 @@ std::shared_ptr<const TripletModel> broad_model(const Bounds3& bounds, int count
     cell.triplets.push_back(std::move(run));
   }
   const ModelKind kind{.environment = {10 * size}};
-  return std::make_shared<TripletModel>(kind, Octree({bounds.center(), size}), std::vector{cell},
-                                        CameraMixture(), std::vector<std::uint32_t>{0}, 0);
+  return std::make_shared<VertexTripletsModel>(kind, Octree({bounds.center(), size}),
+                                               std::vector{cell}, CameraMixture(),
+                                               std::vector<std::uint32_t>{0}, 0);
 }
 
 std::vector<Measurement> answers(const Registry& registry, int count, int repeats) {
   const std::string config = scene_entry("cornell-box") + "\nbudget: { spp: 1 }\n";
   const RenderConfig loaded = build_render_config(parse_yaml(config, "benchmark"), registry).config;
   const Scene scene(loaded.scene);
-  const TripletGuider guider({});
+  const VertexTripletsGuider guider({});
   const auto model = broad_model(scene.bounds(), count);
   const auto queries = guide_queries(scene, conformance::frame_of(guider, model), kVertices);
   const auto bound = guider.bind(model);

@@ -136,7 +136,7 @@ TEST_CASE("images") {
   check_image_refused("/dev/zero", {}, {place, "/dev/zero", "pipe or device"});
 }
 
-TEST_CASE("images that are no colours") {
+TEST_CASE("images that are no colors") {
   for (const float value :
        {-1.0f, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
     check_image_refused("values.exr",

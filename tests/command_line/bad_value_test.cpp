@@ -80,7 +80,7 @@ TEST_CASE("types") {
   check_refused(config_with("sampler: { type: [sobol] }\n"), {"bad.yaml:5:18: error: "});
 }
 
-TEST_CASE("vectors, colours and transforms") {
+TEST_CASE("vectors, colors and transforms") {
   check_refused(config_with_shape("{ type: sphere, center: [1, 2] }"),
                 {"bad.yaml:4:31: error: ", "3 numbers [x, y, z]"});
   check_refused(config_with_shape("{ type: sphere, center: [1, 2, up] }"),
@@ -108,15 +108,15 @@ TEST_CASE("vectors, colours and transforms") {
   check_refused(shape_with("{ matrix: [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,1,0] }"),
                 {"bad.yaml:4:", "last row"});
   check_refused(shape_with("{ matrix: [1,0,0,0, 0,1,0,0, 1,1,0,0] }"), {"bad.yaml:4:", "inverted"});
-  const auto colour = [](const char* value) {
+  const auto color = [](const char* value) {
     return config_with_shape(
         "{ type: quad, material: { type: diffuse, reflectance: " + std::string(value) + " } }");
   };
-  check_refused(colour("[1, 0]"), {"bad.yaml:4:", "a colour"});
-  check_refused(colour("[0.1, 0.2, 1.5]"), {"bad.yaml:4:", "reflectance must be at most 1"});
-  check_refused(colour("-0.5"), {"bad.yaml:4:", ">= 0"});
-  check_refused(colour(".nan"), {"bad.yaml:4:", "error: "});
-  check_refused(colour("red"), {"bad.yaml:4:", "unknown texture 'red'"});
+  check_refused(color("[1, 0]"), {"bad.yaml:4:", "a color"});
+  check_refused(color("[0.1, 0.2, 1.5]"), {"bad.yaml:4:", "reflectance must be at most 1"});
+  check_refused(color("-0.5"), {"bad.yaml:4:", ">= 0"});
+  check_refused(color(".nan"), {"bad.yaml:4:", "error: "});
+  check_refused(color("red"), {"bad.yaml:4:", "unknown texture 'red'"});
 }
 
 TEST_CASE("film, budget and output") {

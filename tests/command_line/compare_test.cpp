@@ -150,13 +150,13 @@ TEST_CASE("compare: images that cannot be compared") {
                        f.write("text.exr", "not an image");
                      }},
                 {"text.exr"});
-  check_refused({.arguments = "compare grey.exr --reference ref.exr",
+  check_refused({.arguments = "compare gray.exr --reference ref.exr",
                  .prepare =
                      [](const ScratchFolder& f) {
                        write_images(f);
-                       write_exr(Image(20, 10, {"Y"}), f.path() / "grey.exr");
+                       write_exr(Image(20, 10, {"Y"}), f.path() / "gray.exr");
                      }},
-                {"grey.exr: error: ", "R, G and B", "'Y'"});
+                {"gray.exr: error: ", "R, G and B", "'Y'"});
   check_refused({.arguments = "compare ref.exr nan.exr --reference ref.exr --json out.json",
                  .prepare =
                      [](const ScratchFolder& f) {

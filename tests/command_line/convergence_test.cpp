@@ -15,7 +15,7 @@ std::string file(int line = 0, const std::string& text = "") {
                                  "samplers:",
                                  "  - { name: random, sampler: independent }",
                                  "samples: { from: 4, to: 8 }",
-                                 "realisations: 32"};
+                                 "realizations: 32"};
   if (line > 0) lines[static_cast<std::size_t>(line) - 1] = text;
   std::string yaml;
   for (const std::string& each : lines) yaml += each + "\n";
@@ -63,7 +63,7 @@ TEST_CASE("convergence: keys and values") {
                 {"bad.yaml:6:25: error: ", "at most 16", "2^16 points"});
   check_refused(wrong(6, "fit: { from: 3, to: 9 }"),
                 {"bad.yaml:6:6: error: ", "4 to 16, found 3 to 9"});
-  check_refused(wrong(7, "realisations: 2"), {"bad.yaml:7:15: error: ", ">= 16"});
+  check_refused(wrong(7, "realizations: 2"), {"bad.yaml:7:15: error: ", ">= 16"});
   check_refused(wrong(7, "preparations: 4"), {"bad.yaml:7:15: error: ", ">= 8"});
   check_refused(wrong(7, "baseline: rnadom"),
                 {"bad.yaml:7:11: error: ", "one of 'random'", "did you mean 'random'?"});
@@ -103,7 +103,7 @@ TEST_CASE("convergence: the command") {
 
 TEST_CASE("convergence: interrupted before it has results, it writes none") {
   const ScratchFolder folder;
-  folder.write("long.yaml", file(7, "realisations: 1000000"));
+  folder.write("long.yaml", file(7, "realizations: 1000000"));
   const Outcome outcome = interrupt_pharos_once(
       "long/experiment.source", "convergence long.yaml --set samples.from=14 --set samples.to=16",
       folder.path(), "INT");

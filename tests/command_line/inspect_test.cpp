@@ -90,7 +90,7 @@ TEST_CASE("inspect --slice: pictures and numbers") {
   CHECK(*numbers.pixel(40, 20) > 0);
 }
 
-TEST_CASE("inspect --range: the colours' scale is said, and may be stated") {
+TEST_CASE("inspect --range: the colors' scale is said, and may be stated") {
   const ScratchFolder folder;
   write_learned_model(folder);
   const Outcome own = inspect(folder, "box.model --slice z=0 --size 32 -o own.png");

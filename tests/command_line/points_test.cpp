@@ -12,7 +12,7 @@
 namespace pharos::testing {
 namespace {
 
-constexpr const char* kSmall = "--size 40 --frequency 3 --realisations 2 -n 16";
+constexpr const char* kSmall = "--size 40 --frequency 3 --realizations 2 -n 16";
 
 /// A picture and what was said of it.
 struct Drawn {

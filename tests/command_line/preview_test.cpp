@@ -13,7 +13,7 @@
 namespace pharos::testing {
 namespace {
 
-/// Fills the buffers on the way to a viewer that takes no data: 9.6 MB of colours.
+/// Fills the buffers on the way to a viewer that takes no data: 9.6 MB of colors.
 std::string large_render() {
   return "scene: { sensor: perspective, shapes: [sphere], emitters: [constant] }\n"
          "film: { width: 1000, height: 800 }\nbudget: { spp: 2 }\noutput: { png: false }\n";

@@ -29,7 +29,7 @@ inline constexpr double kGlassInFogFurnace = 1;
 inline const std::string kGlassInFogScene = R"(
 scene:
   media:
-    fog: { type: stub_grey, scattering: 0.7 }
+    fog: { type: stub_gray, scattering: 0.7 }
   shapes:
     - { type: sphere, radius: 1, flip_normals: true, material: { type: diffuse, reflectance: 0 }, emitter: { type: area, radiance: 1 } }
     - { type: sphere, center: [0.2, -0.1, 0.4], radius: 0.35, material: { type: dielectric, ior: 1.5 }, exterior: fog }

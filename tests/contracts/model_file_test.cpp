@@ -5,7 +5,7 @@
 #include <sstream>
 #include <unistd.h>
 
-#include <pharos/guiding/model_file.h>
+#include <pharos/guiding/pipeline/model_file.h>
 
 #include "furnace.h"
 

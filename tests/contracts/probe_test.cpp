@@ -158,7 +158,7 @@ TEST_CASE("first hits know depth and normal") {
   const Prepared p(path_config(kFloorAndLight, 2, "", 1));
   const auto probe = p.integrator->probe();
   const FirstHit floor = probe->first_hit(8, 8);
-  // The pixel's centre lies half a pixel beside and below the view axis, which falls 1 over 5.
+  // The pixel's center lies half a pixel beside and below the view axis, which falls 1 over 5.
   const double half_pixel = std::tan(15 * double{kPi} / 180) / 16;
   const double fall = (1 + 5 * half_pixel) / std::sqrt(26.0);
   CHECK(floor.depth == doctest::Approx(std::sqrt(1 + 2 * half_pixel * half_pixel) / fall));

@@ -3,7 +3,7 @@
 
 #include <pharos/config/registry.h>
 #include <pharos/core/warp.h>
-#include <pharos/guiding/guider.h>
+#include <pharos/guiding/contract/guider.h>
 
 #include "stubs.h"
 #include "table.h"

@@ -1,4 +1,4 @@
-// A grey homogeneous medium with isotropic scattering: what stub (c) steers distances in.
+// A gray homogeneous medium with isotropic scattering: what stub (c) steers distances in.
 
 #include <cmath>
 
@@ -18,7 +18,7 @@ class Isotropic final : public PhaseFunction {
   float mean_cosine() const override { return 0; }
 };
 
-class GreyMedium final : public Medium {
+class GrayMedium final : public Medium {
  public:
   struct Settings {
     float scattering = 1;
@@ -26,7 +26,7 @@ class GreyMedium final : public Medium {
       s.field("scattering", &Settings::scattering, "Scattering coefficient").unit("1/m").above(0);
     }
   };
-  explicit GreyMedium(Settings settings) : sigma_(settings.scattering) {}
+  explicit GrayMedium(Settings settings) : sigma_(settings.scattering) {}
 
   DistanceSample sample(const Ray& ray, Rgb, float, float u) const override {
     const float t = -std::log1p(-u) / sigma_;
@@ -48,7 +48,7 @@ class GreyMedium final : public Medium {
 }  // namespace
 
 void register_medium(Registry& registry) {
-  registry.add<GreyMedium>("stub_grey", "Scatters, never absorbs");
+  registry.add<GrayMedium>("stub_gray", "Scatters, never absorbs");
 }
 
 }  // namespace pharos::stubs

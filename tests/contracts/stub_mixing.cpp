@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <pharos/config/registry.h>
-#include <pharos/guiding/mixing.h>
+#include <pharos/guiding/contract/mixing.h>
 
 #include "stubs.h"
 #include "table.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include <pharos/config/registry.h>
-#include <pharos/guiding/spatial_mixture.h>
+#include <pharos/guiding/contract/spatial_mixture.h>
 
 #include "stubs.h"
 #include "table.h"

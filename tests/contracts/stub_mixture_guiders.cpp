@@ -7,7 +7,7 @@
 
 #include <pharos/config/registry.h>
 #include <pharos/core/warp.h>
-#include <pharos/guiding/spatial_mixture.h>
+#include <pharos/guiding/contract/spatial_mixture.h>
 
 #include "stubs.h"
 

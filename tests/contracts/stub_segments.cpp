@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include <pharos/config/registry.h>
-#include <pharos/guiding/guider.h>
+#include <pharos/guiding/contract/guider.h>
 
 #include "box_ray.h"
 #include "stubs.h"

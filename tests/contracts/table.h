@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <pharos/core/error.h>
-#include <pharos/guiding/learner.h>
+#include <pharos/guiding/contract/learner.h>
 
 namespace pharos::stubs {
 

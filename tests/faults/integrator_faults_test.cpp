@@ -46,7 +46,7 @@ film: { width: 32, height: 32, filter: box }
 const std::string kFogBallScene = R"(
 scene:
   media:
-    fog: { type: stub_grey, scattering: 0.3 }
+    fog: { type: stub_gray, scattering: 0.3 }
   shapes:
     - { type: sphere, radius: 1, material: pass_through, interior: fog }
   emitters: [ { type: constant, radiance: 1 } ]

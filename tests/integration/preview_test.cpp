@@ -65,7 +65,7 @@ bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
 }
 
-/// Checks that the packets of a connection end with the colours of `image`.
+/// Checks that the packets of a connection end with the colors of `image`.
 void check_shown(const std::string& bytes, const Image& image) {
   const ShownImage shown = show_packets(bytes);
   CHECK(shown.name == "folder/image.exr");

@@ -80,8 +80,9 @@ TEST_CASE("same bits: spatial Gaussians in a tree or as one mixture, with the le
 
 TEST_CASE("same bits: parallax-aware mixtures in a tree or as one, with the learned model") {
   for (const char* settings :
-       {"{ type: vmf_mixtures, cell_samples: 4096 }, guider: vmf_mixtures",
-        "{ type: vmf_mixtures, spatial: single }, guider: { type: vmf_mixtures, product: bsdf }"}) {
+       {"{ type: parallax_aware_mixtures, cell_samples: 4096 }, guider: parallax_aware_mixtures",
+        "{ type: parallax_aware_mixtures, spatial: single }, guider: { type: "
+        "parallax_aware_mixtures, product: bsdf }"}) {
     check_same_bits(cornell(fmt::format(
         "sampler: sobol\nintegrator: {{ type: path, guiding: {{ learner: {}, mixing: learned, "
         "training: {{ iterations: 3 }} }} }}\n",
@@ -107,11 +108,13 @@ TEST_CASE("same bits: vertex pairs and triplets, with paths from lights and in f
 
 TEST_CASE("same bits: practical path guiding, with the SD-tree") {
   for (const char* target : {"radiance", "relative"}) {
-    check_same_bits(cornell(fmt::format(
-        "sampler: sobol\nintegrator: {{ type: path, guiding: {{ learner: {{ type: sd_tree, target: "
-        "{}, spatial_threshold: 200 }}, guider: sd_tree, mixing: learned, training: {{ schedule: "
-        "geometric, images: combine }} }} }}\n",
-        target)));
+    check_same_bits(
+        cornell(fmt::format("sampler: sobol\nintegrator: {{ type: path, guiding: {{ learner: {{ "
+                            "type: practical_path_guiding, target: "
+                            "{}, spatial_threshold: 200 }}, guider: practical_path_guiding, "
+                            "mixing: learned, training: {{ schedule: "
+                            "geometric, images: combine }} }} }}\n",
+                            target)));
   }
 }
 

@@ -5,7 +5,7 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
-#include <pharos/experiments/plan.h>
+#include <pharos/experiments/runner/plan.h>
 
 #include "renders.h"
 

@@ -76,12 +76,15 @@ std::vector<Method> gaussian_methods() {
           gaussians_learned()};
 }
 
-Method sd_tree(const char* target, const char* mixing, const char* filters, const char* images) {
-  return {fmt::format("sd_tree {} {} {}", target, mixing, images),
-          {fmt::format("learner={{ type: sd_tree, target: {}, spatial_threshold: 1000, {} }}",
-                       target, filters),
-           "guider=sd_tree", fmt::format("mixing={}", mixing),
-           fmt::format("training={{ schedule: geometric, images: {} }}", images)}};
+Method practical_path_guiding(const char* target, const char* mixing, const char* filters,
+                              const char* images) {
+  return {
+      fmt::format("practical_path_guiding {} {} {}", target, mixing, images),
+      {fmt::format(
+           "learner={{ type: practical_path_guiding, target: {}, spatial_threshold: 1000, {} }}",
+           target, filters),
+       "guider=practical_path_guiding", fmt::format("mixing={}", mixing),
+       fmt::format("training={{ schedule: geometric, images: {} }}", images)}};
 }
 
 /// The same of targets, ways to mix, filters, and uses of training images.
@@ -91,19 +94,19 @@ std::vector<Method> sd_tree_methods() {
   const char *few = "{ type: fixed, unguided_fraction: 0.25 }", *half = "fixed";
   const char *kl = "{ type: learned, objective: kl }",
              *variance = "{ type: learned, objective: variance }";
-  return {sd_tree("radiance", kl, smooth, "combine"),
-          sd_tree("radiance", half, nearest, "discard"),
-          sd_tree("radiance", few, smooth, "discard"),
-          sd_tree("product", variance, smooth, "discard"),
-          sd_tree("product", few, nearest, "combine"),
-          sd_tree("relative", kl, nearest, "discard"),
-          sd_tree("relative", variance, smooth, "combine")};
+  return {practical_path_guiding("radiance", kl, smooth, "combine"),
+          practical_path_guiding("radiance", half, nearest, "discard"),
+          practical_path_guiding("radiance", few, smooth, "discard"),
+          practical_path_guiding("product", variance, smooth, "discard"),
+          practical_path_guiding("product", few, nearest, "combine"),
+          practical_path_guiding("relative", kl, nearest, "discard"),
+          practical_path_guiding("relative", variance, smooth, "combine")};
 }
 
 Method lobes(const char* learner, const char* product, const char* mixing, const char* images) {
   return {fmt::format("vmf {} {} {} {}", learner, product, mixing, images),
-          {fmt::format("learner={{ type: vmf_mixtures, {} }}", learner),
-           fmt::format("guider={{ type: vmf_mixtures, product: {} }}", product),
+          {fmt::format("learner={{ type: parallax_aware_mixtures, {} }}", learner),
+           fmt::format("guider={{ type: parallax_aware_mixtures, product: {} }}", product),
            fmt::format("mixing={}", mixing),
            fmt::format("training={{ schedule: uniform, iterations: 8, images: {} }}", images)}};
 }
@@ -174,8 +177,8 @@ std::vector<Method> media_methods() {
           gaussians("p0", 0.5f, "kdtree", "discard"),
           gaussians("p1", 0.5f, "single", "combine"),
           gaussians("projected", 0.5f, "kdtree", "combine"),
-          sd_tree("radiance", "fixed", "spatial_filter: nearest, directional_filter: nearest",
-                  "discard"),
+          practical_path_guiding("radiance", "fixed",
+                                 "spatial_filter: nearest, directional_filter: nearest", "discard"),
           lobes("spatial: kdtree, cell_samples: 8192", "cosine", "fixed", "discard"),
           lobes("spatial: single", "bsdf", "fixed", "combine")};
 }

@@ -10,7 +10,7 @@
 
 namespace pharos::focal::plane {
 
-/// A stroke or a filling. Colours are sRGB-encoded, as colours of drawings are chosen.
+/// A stroke or a filling. Colors are sRGB-encoded, as colors of drawings are chosen.
 struct Ink {
   Rgb color;
   double opacity = 1;
@@ -32,7 +32,7 @@ class Canvas {
   /// font lacks.
   double text(Point2 at, std::string_view letters, double height, const Ink& ink);
 
-  /// The picture as linear colours, for write_png() without exposure and tone curve.
+  /// The picture as linear colors, for write_png() without exposure and tone curve.
   Image image() const;
 
  private:

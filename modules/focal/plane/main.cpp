@@ -47,11 +47,11 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--gap-width", study.scene.gap_width, "[scene units]")->capture_default_str();
   app.add_option("--light", study.scene.light_half_width, "Half the light's width [scene units]")
       ->capture_default_str();
-  app.add_option("--neighbours", study.path_space.neighbours, "Paths that shape a kernel")
+  app.add_option("--neighbors", study.path_space.neighbors, "Paths that shape a kernel")
       ->check(at_least(2))
       ->capture_default_str();
-  app.add_flag("--neighbour-means{1}", study.path_space.centre,
-               "Centres kernels on the mean of the neighbours, not on the guide path");
+  app.add_flag("--neighbor-means{1}", study.path_space.center,
+               "Centres kernels on the mean of the neighbors, not on the guide path");
   app.add_flag("--accumulate", study.path_space.accumulate,
                "Keeps the guide paths of all iterations, not of the last one only");
 }

@@ -61,7 +61,7 @@ void PathSpaceGuide::learn(std::span<const Path> paths, int) {
     paths_.push_back({path.x, path.x + light_height_ * std::tan(path.angle), path.value});
   }
   kernels_.clear();
-  if (paths_.size() < static_cast<std::size_t>(settings_.neighbours)) return;
+  if (paths_.size() < static_cast<std::size_t>(settings_.neighbors)) return;
   std::vector<const GuidePath*> order;
   for (const GuidePath& path : paths_) order.push_back(&path);
   for (const GuidePath& path : paths_) kernels_.push_back(kernel_of(path, order));
@@ -74,29 +74,29 @@ PathSpaceGuide::Kernel PathSpaceGuide::kernel_of(const GuidePath& path,
     const double d0 = other->x0 - path.x0, d1 = other->x1 - path.x1;
     return d0 * d0 + d1 * d1;
   };
-  const auto end = order.begin() + settings_.neighbours;
+  const auto end = order.begin() + settings_.neighbors;
   std::nth_element(
       order.begin(), end - 1, order.end(),
       [&](const GuidePath* a, const GuidePath* b) { return distance(a) < distance(b); });
-  const double share = 1.0 / settings_.neighbours;
-  GuidePath centre = path;
-  if (settings_.centre == KernelCentre::neighbours) {
-    centre.x0 = centre.x1 = 0;
+  const double share = 1.0 / settings_.neighbors;
+  GuidePath center = path;
+  if (settings_.center == KernelCenter::neighbors) {
+    center.x0 = center.x1 = 0;
     for (auto it = order.begin(); it != end; ++it) {
-      centre.x0 += share * (*it)->x0;
-      centre.x1 += share * (*it)->x1;
+      center.x0 += share * (*it)->x0;
+      center.x1 += share * (*it)->x1;
     }
   }
   const double least = settings_.least_deviation * settings_.least_deviation;
   double s00 = least, s01 = 0, s11 = least;
   for (auto it = order.begin(); it != end; ++it) {
-    const double d0 = (*it)->x0 - centre.x0, d1 = (*it)->x1 - centre.x1;
+    const double d0 = (*it)->x0 - center.x0, d1 = (*it)->x1 - center.x1;
     s00 += share * d0 * d0;
     s01 += share * d0 * d1;
     s11 += share * d1 * d1;
   }
   const double slope = s01 / s00;
-  return {path.weight, centre.x0, std::sqrt(s00), centre.x1, slope, std::sqrt(s11 - slope * s01)};
+  return {path.weight, center.x0, std::sqrt(s00), center.x1, slope, std::sqrt(s11 - slope * s01)};
 }
 
 std::unique_ptr<DirectionDensity> PathSpaceGuide::at(double x) const {

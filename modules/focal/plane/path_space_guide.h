@@ -7,16 +7,16 @@
 namespace pharos::focal::plane {
 
 /// The mean of a kernel.
-enum class KernelCentre {
+enum class KernelCenter {
   guide_path,  ///< Reibold et al.: Gaussians stand around guide paths
-  neighbours,  ///< the mean of the guide path's neighbours (the focal authors' demonstration): a
+  neighbors,   ///< the mean of the guide path's neighbors (the focal authors' demonstration): a
                ///< lone path beside a crowd makes a kernel in the crowd, and nothing where it is
 };
 
 /// How PathSpaceGuide makes kernels of paths.
 struct PathSpaceSettings {
-  int neighbours = 10;  ///< paths that shape a kernel, the guide path among them
-  KernelCentre centre = KernelCentre::guide_path;
+  int neighbors = 10;  ///< paths that shape a kernel, the guide path among them
+  KernelCenter center = KernelCenter::guide_path;
   double least_deviation = 1e-4;  ///< of a kernel along the floor and along the light [scene units]
   bool accumulate = false;  ///< keeps the guide paths of all iterations, not of the last one only
 };
@@ -27,8 +27,8 @@ double normal_number(RandomStream& random);
 /// Guiding by complete paths, in the manner of Reibold et al. 2018, "Selective Guided Sampling with
 /// Complete Light Transport Paths", reduced to this scene, where a path is a pair: where it starts
 /// on the floor (x0) and where it meets the light (x1). Every path that found light is a guide; it
-/// becomes a Gaussian over such pairs, as wide as the covariance of its nearest neighbours about
-/// the Gaussian's centre, and weighted by the path's value. At a point of the floor a Gaussian is
+/// becomes a Gaussian over such pairs, as wide as the covariance of its nearest neighbors about
+/// the Gaussian's center, and weighted by the path's value. At a point of the floor a Gaussian is
 /// chosen in proportion to its weight times its density there, and x1 is drawn from it given x0.
 /// (The paper keeps only guides that cause variance and truncates the Gaussians; here the guides
 /// are few, and the mixture with uniform sampling bounds the estimator.)

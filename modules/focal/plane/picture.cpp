@@ -8,7 +8,7 @@
 namespace pharos::focal::plane {
 namespace {
 
-constexpr Rgb kPaper{1, 1, 1}, kDark{0.11f, 0.13f, 0.18f}, kGrey{0.52f, 0.54f, 0.58f};
+constexpr Rgb kPaper{1, 1, 1}, kDark{0.11f, 0.13f, 0.18f}, kGray{0.52f, 0.54f, 0.58f};
 constexpr Rgb kLight{0.96f, 0.73f, 0.18f};
 // All in pixels.
 constexpr double kUnit = 240;  // a scene unit
@@ -110,15 +110,15 @@ class PanelDrawing {
     for (int exponent = static_cast<int>(scale.low); exponent <= scale.high; ++exponent) {
       const double value = std::pow(10.0, exponent);
       const Point2 from = on_strip(0, value, scale), to = on_strip(1, value, scale);
-      canvas_.line(from, to, 1, {kGrey, 0.4});
+      canvas_.line(from, to, 1, {kGray, 0.4});
       const std::string power = std::to_string(exponent);
       const double width =
           text_width("10", kSmallLetters) + text_width(power, 0.75 * kSmallLetters);
       const Point2 at{from.x - width - 6, from.y + 0.5 * kSmallLetters};
-      const double ten = canvas_.text(at, "10", kSmallLetters, {kGrey});
-      canvas_.text({at.x + ten, at.y - 6}, power, 0.75 * kSmallLetters, {kGrey});
+      const double ten = canvas_.text(at, "10", kSmallLetters, {kGray});
+      canvas_.text({at.x + ten, at.y - 6}, power, 0.75 * kSmallLetters, {kGray});
     }
-    canvas_.text({left_, strip_bottom() - kStripHeight - 14}, "variance", kSmallLetters, {kGrey});
+    canvas_.text({left_, strip_bottom() - kStripHeight - 14}, "variance", kSmallLetters, {kGray});
   }
 
   void curve(std::span<const double> values, const Scale& scale) {
@@ -143,10 +143,10 @@ class PanelDrawing {
                       values[i], scale);
     };
     for (std::size_t i = 0; i + dash < values.size(); i += 2 * dash) {
-      canvas_.line(at(i), at(i + dash), 1.5, {kGrey});
+      canvas_.line(at(i), at(i + dash), 1.5, {kGray});
     }
     const Point2 end = at(values.size() - 1);
-    canvas_.text({end.x + 8, end.y + 0.5 * kSmallLetters}, "uniform", kSmallLetters, {kGrey});
+    canvas_.text({end.x + 8, end.y + 0.5 * kSmallLetters}, "uniform", kSmallLetters, {kGray});
   }
 
   Canvas& canvas_;

@@ -24,7 +24,7 @@ struct Panel {
 /// Figure 8: panels side by side, each the scene with its paths, their opacity in proportion to
 /// their value (1 at `full_value`), and below the floor the variance there, on a logarithmic scale
 /// that all panels share, with `uniform`, that of uniform sampling, as a dashed line. Linear
-/// colours.
+/// colors.
 Image draw_picture(const GapScene& scene, std::span<const Panel> panels,
                    std::span<const double> uniform, double full_value);
 

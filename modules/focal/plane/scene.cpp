@@ -7,8 +7,8 @@ namespace pharos::focal::plane {
 std::vector<Interval> GapScene::gaps() const {
   std::vector<Interval> all;
   for (int i = 0; i < gap_count; ++i) {
-    const double centre = (i - 0.5 * (gap_count - 1)) * gap_distance;
-    all.push_back({centre - 0.5 * gap_width, centre + 0.5 * gap_width});
+    const double center = (i - 0.5 * (gap_count - 1)) * gap_distance;
+    all.push_back({center - 0.5 * gap_width, center + 0.5 * gap_width});
   }
   return all;
 }

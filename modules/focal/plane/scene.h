@@ -12,7 +12,7 @@ struct Interval {
 
 /// The flat world of the experiment (Rath et al. 2023, section 6.6 and fig. 8): a floor along
 /// y = 0, an obstacle with gaps above it, and a light of radiance 1 above both. All three are
-/// centred about x = 0; nothing passes beside the obstacle. Lengths in scene units, and angles in
+/// centered about x = 0; nothing passes beside the obstacle. Lengths in scene units, and angles in
 /// radians from the floor's normal, positive to the right.
 ///
 /// The paper states no measures. These are the authors' demonstration's, but for the light: there
@@ -23,7 +23,7 @@ struct GapScene {
   double light_height = 1, light_half_width = 1.5;
   int gap_count = 3;
   double gap_width = 0.01;
-  double gap_distance = 0.2;  ///< between the centres of neighbouring gaps
+  double gap_distance = 0.2;  ///< between the centres of neighboring gaps
 
   /// Of the world: of the floor or the light, whichever is wider.
   double half_width() const { return std::max(floor_half_width, light_half_width); }

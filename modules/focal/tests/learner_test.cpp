@@ -8,7 +8,7 @@
 #include <pharos/core/error.h>
 #include <pharos/core/warp.h>
 
-#include "../focal_model.h"
+#include "../model.h"
 #include "test_trees.h"
 
 namespace pharos::focal {
@@ -234,7 +234,7 @@ TEST_CASE("focal learner: a region that is given, and cells no finer than asked 
   CHECK_THROWS_AS(FocalLearner{settings}, InputError);
 }
 
-TEST_CASE("focal learner: the behaviour of the authors' code learns too") {
+TEST_CASE("focal learner: the behavior of the authors' code learns too") {
   const auto model = trained({.splat_extent = SplatExtent::roughness_gated,
                               .splat_weight = SplatWeight::share,
                               .decay = 0.5f,

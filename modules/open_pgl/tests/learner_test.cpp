@@ -12,7 +12,7 @@
 #include "../sample.h"
 #include "test_paths.h"
 
-namespace pharos::pgl {
+namespace pharos::open_pgl {
 namespace {
 
 using namespace testing;
@@ -20,7 +20,7 @@ using namespace testing;
 constexpr Point3 kFloor{0.5f, -0.4f, 0};
 
 TEST_CASE("more is expected from the lamp than from below; nothing outside the scene") {
-  const auto model = trained(PglSettings{});
+  const auto model = trained(OpenPglSettings{});
   CHECK(model->density(kFloor, normalize(kLamp - kFloor)) > 2 * model->density(kFloor, {0, 0, -1}));
   CHECK(model->density(kFloor) == 1);
   CHECK(model->density(Point3{50, 0, 0}) == 0);
@@ -28,7 +28,7 @@ TEST_CASE("more is expected from the lamp than from below; nothing outside the s
 }
 
 TEST_CASE("a model stays as it is while learning goes on") {
-  const auto state = PglLearner({}).begin({.region = kRegion});
+  const auto state = OpenPglLearner({}).begin({.region = kRegion});
   const auto early = trained(*state, 1);
   const double before = early->density(kFloor, {0, 0, 1});
   const auto late = trained(*state, 3);
@@ -37,7 +37,7 @@ TEST_CASE("a model stays as it is while learning goes on") {
 }
 
 TEST_CASE("without samples there is no model") {
-  const auto state = PglLearner({}).begin({.region = kRegion});
+  const auto state = OpenPglLearner({}).begin({.region = kRegion});
   CHECK(state->update(0, false) == nullptr);
   state->absorb(lamp_paths(5000, 1));
   CHECK(state->update(1, false) != nullptr);
@@ -48,7 +48,7 @@ TEST_CASE("the same answers, to the bit, for any number of threads") {
   std::string expected;
   for (const std::size_t threads : {1u, 2u, 3u, 7u}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    const std::string bits = answers(*trained(PglSettings{}));
+    const std::string bits = answers(*trained(OpenPglSettings{}));
     if (expected.empty()) expected = bits;
     CHECK(bits == expected);
   }
@@ -56,7 +56,7 @@ TEST_CASE("the same answers, to the bit, for any number of threads") {
 
 TEST_CASE("saved learning goes on as if it had not been interrupted") {
   for (const int before : {0, 2}) {
-    const PglLearner learner({});
+    const OpenPglLearner learner({});
     const auto whole = learner.begin({.region = kRegion});
     trained(*whole, before);
     whole->absorb(lamp_paths(500, 77));
@@ -69,7 +69,7 @@ TEST_CASE("saved learning goes on as if it had not been interrupted") {
 }
 
 TEST_CASE("merged states know what both absorbed; those of other iterations are refused") {
-  const PglLearner learner({});
+  const OpenPglLearner learner({});
   const auto whole = learner.begin({.region = kRegion}), part = learner.begin({.region = kRegion}),
              other = learner.begin({.region = kRegion});
   whole->absorb(lamp_paths(3000, 1));
@@ -82,15 +82,15 @@ TEST_CASE("merged states know what both absorbed; those of other iterations are 
 }
 
 TEST_CASE("states that learned before the iteration's end are not merged") {
-  const PglLearner learner({.batch_samples = 1024});
+  const OpenPglLearner learner({.batch_samples = 1024});
   const auto one = learner.begin({.region = kRegion}), other = learner.begin({.region = kRegion});
   for (auto* state : {one.get(), other.get()}) state->absorb(lamp_paths(1500, 1));
   CHECK_THROWS_AS(one->merge(*other), InputError);
 }
 
 TEST_CASE("models survive being saved; damaged ones are refused before the library sees them") {
-  const PglLearner learner({});
-  const std::string file = saved(*trained(PglSettings{}));
+  const OpenPglLearner learner({});
+  const std::string file = saved(*trained(OpenPglSettings{}));
   std::istringstream in(file);
   CHECK(saved(*learner.load_model(in)) == file);
   RandomStream random(1);
@@ -131,4 +131,4 @@ TEST_CASE("samples are finite: light of NaN is left out, the sky is far away but
 }
 
 }  // namespace
-}  // namespace pharos::pgl
+}  // namespace pharos::open_pgl

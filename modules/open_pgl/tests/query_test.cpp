@@ -4,10 +4,10 @@
 
 #include <doctest/doctest.h>
 
-#include "../pgl_model.h"
+#include "../model.h"
 #include "test_paths.h"
 
-namespace pharos::pgl {
+namespace pharos::open_pgl {
 namespace {
 
 using namespace testing;
@@ -18,11 +18,11 @@ const Query kElsewhere{.position = {-0.7f, 0.6f, 0}};
 const Query kOutside{.position = {50, 0, 0}};
 const Query kVolume{.position = {0.5f, -0.4f, 0}, .in_volume = true};
 
-std::shared_ptr<const PglModel> model(const PglSettings& settings = {}) {
-  return std::dynamic_pointer_cast<const PglModel>(trained(settings));
+std::shared_ptr<const OpenPglModel> model(const OpenPglSettings& settings = {}) {
+  return std::dynamic_pointer_cast<const OpenPglModel>(trained(settings));
 }
 
-float fresh_pdf(const PglModel& model, const Query& query, Vec3 w) {
+float fresh_pdf(const OpenPglModel& model, const Query& query, Vec3 w) {
   Workplace workplace(model.field());
   REQUIRE(workplace.take(query));
   return workplace.pdf(w);
@@ -80,4 +80,4 @@ TEST_CASE("directions are drawn with the density: the same mean direction") {
 }
 
 }  // namespace
-}  // namespace pharos::pgl
+}  // namespace pharos::open_pgl

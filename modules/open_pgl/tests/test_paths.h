@@ -11,7 +11,7 @@
 
 #include "../learner.h"
 
-namespace pharos::pgl::testing {
+namespace pharos::open_pgl::testing {
 
 inline constexpr Bounds3 kRegion{{-2, -2, -1}, {2, 2, 3}};
 inline constexpr Point3 kLamp{0, 0, 2};
@@ -51,8 +51,8 @@ inline std::shared_ptr<const GuidingModel> trained(LearningState& state, int ite
   return model;
 }
 
-inline std::shared_ptr<const GuidingModel> trained(const PglSettings& settings) {
-  return trained(*PglLearner(settings).begin({.region = kRegion}));
+inline std::shared_ptr<const GuidingModel> trained(const OpenPglSettings& settings) {
+  return trained(*OpenPglLearner(settings).begin({.region = kRegion}));
 }
 
 /// What a model says of directions at a few places: the bits of a field's file would tell its times
@@ -75,4 +75,4 @@ std::string saved(const Savable& what) {
   return out.str();
 }
 
-}  // namespace pharos::pgl::testing
+}  // namespace pharos::open_pgl::testing

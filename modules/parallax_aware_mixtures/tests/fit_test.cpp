@@ -6,7 +6,7 @@
 #include "../vmf_fit.h"
 #include "test_lobes.h"
 
-namespace pharos::vmf {
+namespace pharos::parallax_aware_mixtures {
 namespace {
 
 using namespace testing;
@@ -57,7 +57,7 @@ TEST_CASE("steps never lower the objective, with what was seen before and masked
       last = reached;
       std::vector<Moments> moments = now.moments;
       for (std::size_t k = 0; k < frozen.size(); ++k) moments[k] += frozen[k];
-      maximise(moments, rules, mixture);
+      maximize(moments, rules, mixture);
     }
   }
 }
@@ -125,4 +125,4 @@ TEST_CASE("the same bits for any number of threads") {
 }
 
 }  // namespace
-}  // namespace pharos::vmf
+}  // namespace pharos::parallax_aware_mixtures

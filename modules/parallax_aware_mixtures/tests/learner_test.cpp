@@ -8,11 +8,11 @@
 
 #include <pharos/core/error.h>
 
+#include "../model.h"
 #include "../seen_lobes.h"
-#include "../vmf_model.h"
 #include "test_lobes.h"
 
-namespace pharos::vmf {
+namespace pharos::parallax_aware_mixtures {
 namespace {
 
 using namespace testing;
@@ -47,7 +47,7 @@ PathLog lamp_paths(int count, std::uint64_t seed) {
   return log;
 }
 
-VmfSettings small_settings() {
+ParallaxAwareMixturesSettings small_settings() {
   return {.cell_samples = 4000,
           .components = 8,
           .most_components = 16,
@@ -66,8 +66,8 @@ std::shared_ptr<const GuidingModel> trained(LearningState& state, int iterations
   return model;
 }
 
-std::shared_ptr<const GuidingModel> trained(const VmfSettings& settings) {
-  return trained(*VmfLearner(settings).begin({.seed = 7}));
+std::shared_ptr<const GuidingModel> trained(const ParallaxAwareMixturesSettings& settings) {
+  return trained(*ParallaxAwareMixturesLearner(settings).begin({.seed = 7}));
 }
 
 template <class Savable>
@@ -79,7 +79,7 @@ std::string saved(const Savable& what) {
 
 /// Share of the guide's directions at a point that lie within 5 degrees of the lamp.
 double share_at_lamp(const GuidingModel& model, Point3 at) {
-  const auto view = dynamic_cast<const VmfModel&>(model).at(at);
+  const auto view = dynamic_cast<const ParallaxAwareMixturesModel&>(model).at(at);
   Arena arena;
   const SeenLobes* seen = SeenLobes::make(view.groups, view.offset, {}, arena);
   RandomStream random(9);
@@ -101,7 +101,7 @@ double least_share(const GuidingModel& model) {
 }
 
 TEST_CASE("a single mixture points at the lamp from everywhere, thanks to parallax alone") {
-  VmfSettings settings = small_settings();
+  ParallaxAwareMixturesSettings settings = small_settings();
   settings.spatial = SpatialCells::single;
   CHECK(least_share(*trained(settings)) > 0.7);
   settings.parallax = false;
@@ -116,7 +116,7 @@ TEST_CASE("a tree of mixtures finds the lamp, and its cells are divided") {
 }
 
 TEST_CASE("superfluous lobes are merged") {
-  VmfSettings settings = small_settings();
+  ParallaxAwareMixturesSettings settings = small_settings();
   settings.spatial = SpatialCells::single;
   settings.most_components = settings.components;  // no splits
   const auto lobes = [&] { return std::stoi(trained(settings)->facts()[1].value); };
@@ -127,11 +127,11 @@ TEST_CASE("superfluous lobes are merged") {
 }
 
 TEST_CASE("the halves of a lobe know how far away its light is") {
-  VmfSettings settings = small_settings();
+  ParallaxAwareMixturesSettings settings = small_settings();
   settings.spatial = SpatialCells::single;
   settings.components = 1;
   const auto model = trained(settings);
-  const auto view = dynamic_cast<const VmfModel&>(*model).at({0, 0, 0});
+  const auto view = dynamic_cast<const ParallaxAwareMixturesModel&>(*model).at({0, 0, 0});
   int lobes = 0;
   for (const LobeGroup& group : view.groups) {
     for (std::size_t i = 0; i < kLanes; ++i) {
@@ -145,7 +145,7 @@ TEST_CASE("the halves of a lobe know how far away its light is") {
 }
 
 TEST_CASE("a wide light takes several lobes: those that fit badly are split") {
-  VmfSettings settings = small_settings();
+  ParallaxAwareMixturesSettings settings = small_settings();
   settings.spatial = SpatialCells::single;
   settings.components = 1;
   settings.most_components = 12;
@@ -167,7 +167,7 @@ TEST_CASE("a wide light takes several lobes: those that fit badly are split") {
                            .guidable = true});
     log.add(RecordedVertex{.position = 2 * w, .parent = 1, .emission = Rgb(hits ? 1.0f : 0.0f)});
   }
-  const auto state = VmfLearner(settings).begin({.seed = 7});
+  const auto state = ParallaxAwareMixturesLearner(settings).begin({.seed = 7});
   state->absorb(log);
   const auto model = state->update(0, true);
   CHECK(std::stoi(model->facts()[1].value) > 3);
@@ -185,7 +185,7 @@ TEST_CASE("the same bits for any number of threads") {
 }
 
 TEST_CASE("saved learning goes on as if it had not been interrupted") {
-  const VmfLearner learner(small_settings());
+  const ParallaxAwareMixturesLearner learner(small_settings());
   const auto whole = learner.begin({.seed = 7});
   trained(*whole, 2);
   whole->absorb(lamp_paths(500, 77));
@@ -197,7 +197,7 @@ TEST_CASE("saved learning goes on as if it had not been interrupted") {
 }
 
 TEST_CASE("merged states know what both absorbed") {
-  const VmfLearner learner(small_settings());
+  const ParallaxAwareMixturesLearner learner(small_settings());
   const auto whole = learner.begin({.seed = 7}), part = learner.begin({.seed = 7}),
              other = learner.begin({.seed = 7});
   whole->absorb(lamp_paths(2000, 1));
@@ -210,17 +210,17 @@ TEST_CASE("merged states know what both absorbed") {
 }
 
 TEST_CASE("states that learned before the iteration's end are not merged") {
-  VmfSettings settings = small_settings();
+  ParallaxAwareMixturesSettings settings = small_settings();
   settings.spatial = SpatialCells::single;
   settings.batch_samples = 1024;
-  const VmfLearner learner(settings);
+  const ParallaxAwareMixturesLearner learner(settings);
   const auto one = learner.begin({.seed = 7}), other = learner.begin({.seed = 7});
   for (auto* state : {one.get(), other.get()}) state->absorb(lamp_paths(1500, 1));
   CHECK_THROWS_AS(one->merge(*other), InputError);
 }
 
 TEST_CASE("little light waits for more; without any there is no model") {
-  const auto state = VmfLearner(small_settings()).begin({.seed = 7});
+  const auto state = ParallaxAwareMixturesLearner(small_settings()).begin({.seed = 7});
   CHECK(state->update(0, false) == nullptr);
   state->absorb(lamp_paths(60, 1));  // 20 that find something, of 128
   CHECK(state->update(1, false) == nullptr);
@@ -229,7 +229,7 @@ TEST_CASE("little light waits for more; without any there is no model") {
 }
 
 TEST_CASE("models survive being saved; damaged ones are refused or sound") {
-  const VmfLearner learner(small_settings());
+  const ParallaxAwareMixturesLearner learner(small_settings());
   const std::string file = saved(*trained(small_settings()));
   std::istringstream in(file);
   CHECK(saved(*learner.load_model(in)) == file);
@@ -243,7 +243,7 @@ TEST_CASE("models survive being saved; damaged ones are refused or sound") {
       const auto loaded = learner.load_model(stream);
       const Point3 at{0.1f, 0.2f, 0};
       CHECK(std::isfinite(loaded->density(at, {0, 0, 1})));
-      const auto view = dynamic_cast<const VmfModel&>(*loaded).at(at);
+      const auto view = dynamic_cast<const ParallaxAwareMixturesModel&>(*loaded).at(at);
       Arena arena;
       const SeenLobes* seen = SeenLobes::make(view.groups, view.offset, {}, arena);
       if (seen == nullptr) continue;
@@ -255,4 +255,4 @@ TEST_CASE("models survive being saved; damaged ones are refused or sound") {
 }
 
 }  // namespace
-}  // namespace pharos::vmf
+}  // namespace pharos::parallax_aware_mixtures

@@ -6,7 +6,7 @@
 
 #include "test_lobes.h"
 
-namespace pharos::vmf {
+namespace pharos::parallax_aware_mixtures {
 namespace {
 
 using namespace testing;
@@ -118,4 +118,4 @@ TEST_CASE("the axis to split along is that of largest spread, half a standard de
 }
 
 }  // namespace
-}  // namespace pharos::vmf
+}  // namespace pharos::parallax_aware_mixtures

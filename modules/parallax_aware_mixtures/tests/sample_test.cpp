@@ -4,7 +4,7 @@
 
 #include <doctest/doctest.h>
 
-namespace pharos::vmf {
+namespace pharos::parallax_aware_mixtures {
 namespace {
 
 /// A path from the lens over a guidable vertex at the origin, a surface three above it, and on to a
@@ -59,4 +59,4 @@ TEST_CASE("distances are those of images: past mirrors and smooth surfaces, thro
 }
 
 }  // namespace
-}  // namespace pharos::vmf
+}  // namespace pharos::parallax_aware_mixtures

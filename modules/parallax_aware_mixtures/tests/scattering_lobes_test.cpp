@@ -4,7 +4,7 @@
 
 #include "test_lobes.h"
 
-namespace pharos::vmf {
+namespace pharos::parallax_aware_mixtures {
 namespace {
 
 using namespace testing;
@@ -20,8 +20,9 @@ class LobePhase final : public PhaseFunction {
     return (1 - share_up_) * at(kAhead, kappa_) + share_up_ * at(kUp, 3);
   }
   Vec3 sample(Vec3, Vec2 u) const override {
-    if (u.x < share_up_) return vmf::sample(kUp, 3, {u.x / share_up_, u.y});
-    return vmf::sample(kAhead, kappa_, {(u.x - share_up_) / (1 - share_up_), u.y});
+    if (u.x < share_up_) return parallax_aware_mixtures::sample(kUp, 3, {u.x / share_up_, u.y});
+    return parallax_aware_mixtures::sample(kAhead, kappa_,
+                                           {(u.x - share_up_) / (1 - share_up_), u.y});
   }
   float mean_cosine() const override { return 0; }
 
@@ -69,4 +70,4 @@ TEST_CASE("few directions make no needles, and the fit is the same each time") {
 }
 
 }  // namespace
-}  // namespace pharos::vmf
+}  // namespace pharos::parallax_aware_mixtures

@@ -7,7 +7,7 @@
 
 #include "test_lobes.h"
 
-namespace pharos::vmf {
+namespace pharos::parallax_aware_mixtures {
 namespace {
 
 using namespace testing;
@@ -32,7 +32,7 @@ double factor_at(const std::vector<Factor>& factors, Vec3 w) {
   return sum;
 }
 
-TEST_CASE("densities are the mixture times the factors, normalised") {
+TEST_CASE("densities are the mixture times the factors, normalized") {
   RandomStream random(1);
   Arena arena;
   for (const std::size_t count : {1u, 5u, 8u, 19u}) {
@@ -107,4 +107,4 @@ TEST_CASE("where nothing is left there is no distribution") {
 }
 
 }  // namespace
-}  // namespace pharos::vmf
+}  // namespace pharos::parallax_aware_mixtures

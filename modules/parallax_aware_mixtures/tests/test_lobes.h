@@ -9,7 +9,7 @@
 #include "../lobe_mixture.h"
 #include "../vmf.h"
 
-namespace pharos::vmf::testing {
+namespace pharos::parallax_aware_mixtures::testing {
 
 inline Direction to_direction(Vec3 v) {
   return Direction(v.x, v.y, v.z).normalized();
@@ -56,4 +56,4 @@ inline Vec3 draw_from(const Mixture& mixture, RandomStream& random) {
   return sample(to_vec(mixture[k].mean), static_cast<float>(mixture[k].kappa), random.next_2d());
 }
 
-}  // namespace pharos::vmf::testing
+}  // namespace pharos::parallax_aware_mixtures::testing

@@ -7,7 +7,7 @@
 
 #include "test_lobes.h"
 
-namespace pharos::vmf {
+namespace pharos::parallax_aware_mixtures {
 namespace {
 
 using namespace testing;
@@ -66,4 +66,4 @@ TEST_CASE("extreme numbers make unit directions") {
 }
 
 }  // namespace
-}  // namespace pharos::vmf
+}  // namespace pharos::parallax_aware_mixtures

@@ -10,9 +10,9 @@
 #include <pharos/core/random.h>
 #include <pharos/core/warp.h>
 
-#include "../sd_tree.h"
+#include "../model.h"
 
-namespace pharos::ppg {
+namespace pharos::practical_path_guiding {
 namespace {
 
 constexpr Point3 kLamp{0, 0, 1};
@@ -52,7 +52,7 @@ LearningContext context() {
   return {.region = region, .seed = 7, .iterations = 4, .window = {0, 0, 10, 10}};
 }
 
-SdTreeSettings small_settings() {
+PracticalPathGuidingSettings small_settings() {
   return {.spatial_threshold = 100};
 }
 
@@ -67,13 +67,14 @@ std::shared_ptr<const GuidingModel> trained(LearningState& state, int iterations
   return model;
 }
 
-std::shared_ptr<const GuidingModel> trained(const SdTreeSettings& settings, int iterations = 4) {
-  const auto state = SdTreeLearner(settings).begin(context());
+std::shared_ptr<const GuidingModel> trained(const PracticalPathGuidingSettings& settings,
+                                            int iterations = 4) {
+  const auto state = PracticalPathGuidingLearner(settings).begin(context());
   return trained(*state, iterations);
 }
 
-const SdTree& as_tree(const std::shared_ptr<const GuidingModel>& model) {
-  return dynamic_cast<const SdTree&>(*model);
+const PracticalPathGuidingModel& as_tree(const std::shared_ptr<const GuidingModel>& model) {
+  return dynamic_cast<const PracticalPathGuidingModel&>(*model);
 }
 
 template <class Savable>
@@ -84,7 +85,7 @@ std::string saved(const Savable& what) {
 }
 
 /// Share of the guide's directions at a point that lie within 18 degrees of this one.
-double share_near(const SdTree& tree, Point3 at, Vec3 direction) {
+double share_near(const PracticalPathGuidingModel& tree, Point3 at, Vec3 direction) {
   RandomStream random(9);
   const QuadDensity density(tree.at(at).nodes);
   constexpr int kDraws = 2000;
@@ -102,13 +103,13 @@ TEST_CASE("the guide finds the lamp, with every filter and target") {
     for (const SpatialFilter spatial : {SpatialFilter::nearest, SpatialFilter::stochastic}) {
       for (const auto filter : {DirectionalFilter::nearest, DirectionalFilter::box}) {
         CAPTURE(static_cast<int>(target));
-        SdTreeSettings settings = small_settings();
+        PracticalPathGuidingSettings settings = small_settings();
         settings.spatial_threshold = 20;
         settings.target = target;
         settings.spatial_filter = spatial;
         settings.directional_filter = filter;
         const auto model = trained(settings);
-        const SdTree& tree = as_tree(model);
+        const PracticalPathGuidingModel& tree = as_tree(model);
         for (const Point3 at : {Point3{0.5f, 0.5f, 0}, {-0.7f, 0.2f, 0}, {0.01f, 0.01f, 0}}) {
           CHECK(share_near(tree, at, normalize(kLamp - at)) > 0.5);
         }
@@ -119,12 +120,12 @@ TEST_CASE("the guide finds the lamp, with every filter and target") {
 }
 
 TEST_CASE("cells are halved where records are above the threshold, axis after axis") {
-  SdTreeSettings settings = small_settings();
+  PracticalPathGuidingSettings settings = small_settings();
   settings.spatial_filter = SpatialFilter::nearest;
   // 3000 records of 30 paths a pixel: the threshold is 100 sqrt(30 / 2) = 387. Halves alternate
   // between x and y; a third of the planes, those across z, leave one side without records.
   const auto model = trained(settings, 1);
-  const SdTree& tree = as_tree(model);
+  const PracticalPathGuidingModel& tree = as_tree(model);
   CHECK(tree.region_count() == 8);
   CHECK(tree.region_origins() == std::vector<std::uint32_t>(8, 0));
   settings.spatial_threshold = 1e9;
@@ -135,7 +136,7 @@ TEST_CASE("cells are halved where records are above the threshold, axis after ax
 }
 
 TEST_CASE("regions come from those of the model before") {
-  const auto state = SdTreeLearner(small_settings()).begin(context());
+  const auto state = PracticalPathGuidingLearner(small_settings()).begin(context());
   std::uint32_t before = 1;
   for (std::uint32_t i = 0; i < 4; ++i) {
     state->absorb(lamp_paths(2000 << i, i));
@@ -150,7 +151,7 @@ TEST_CASE("the same bits for any number of threads") {
   std::string expected;
   for (const std::size_t threads : {1u, 2u, 3u, 7u}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    SdTreeSettings settings = small_settings();
+    PracticalPathGuidingSettings settings = small_settings();
     settings.target = GuidingTarget::relative;
     settings.batch_records = 1024;
     const std::string bits = saved(*trained(settings));
@@ -160,7 +161,7 @@ TEST_CASE("the same bits for any number of threads") {
 }
 
 TEST_CASE("saved learning goes on as if it had not been interrupted") {
-  const SdTreeLearner learner(small_settings());
+  const PracticalPathGuidingLearner learner(small_settings());
   const auto whole = learner.begin(context());
   trained(*whole, 2);
   whole->absorb(lamp_paths(500, 77));
@@ -172,9 +173,9 @@ TEST_CASE("saved learning goes on as if it had not been interrupted") {
 }
 
 TEST_CASE("merged states know what both absorbed") {
-  SdTreeSettings settings = small_settings();
+  PracticalPathGuidingSettings settings = small_settings();
   settings.spatial_filter = SpatialFilter::nearest;
-  const SdTreeLearner learner(settings);
+  const PracticalPathGuidingLearner learner(settings);
   const auto whole = learner.begin(context()), part = learner.begin(context()),
              other = learner.begin(context());
   whole->absorb(lamp_paths(2000, 1));
@@ -187,7 +188,7 @@ TEST_CASE("merged states know what both absorbed") {
 }
 
 TEST_CASE("a cell that finds nothing keeps what it knew; without light there is no model") {
-  const auto state = SdTreeLearner(small_settings()).begin(context());
+  const auto state = PracticalPathGuidingLearner(small_settings()).begin(context());
   PathLog black;
   black.begin_path({}, Transport::radiance);
   black.add(RecordedVertex{.throughput = Rgb(1)});
@@ -201,7 +202,7 @@ TEST_CASE("a cell that finds nothing keeps what it knew; without light there is 
 }
 
 TEST_CASE("models survive being saved; damaged ones are refused or sound") {
-  const SdTreeLearner learner(small_settings());
+  const PracticalPathGuidingLearner learner(small_settings());
   const auto model = trained(small_settings());
   const std::string file = saved(*model);
   std::istringstream in(file);
@@ -221,4 +222,4 @@ TEST_CASE("models survive being saved; damaged ones are refused or sound") {
 }
 
 }  // namespace
-}  // namespace pharos::ppg
+}  // namespace pharos::practical_path_guiding

@@ -10,7 +10,7 @@
 #include <pharos/core/warp.h>
 #include <pharos/statistics/goodness_of_fit.h>
 
-namespace pharos::ppg {
+namespace pharos::practical_path_guiding {
 namespace {
 
 /// A tree that has seen a narrow peak at `peak`, refined twice.
@@ -157,7 +157,7 @@ TEST_CASE("a box goes on at the other edge of the seam, and half a turn further 
     const std::vector<QuadNode> nodes = tree.density(LeafMass::sum);
     return double{QuadDensity(nodes).at(p)} / 16;
   };
-  // Centre at the middle of a leaf's edge on the seam: half of the box on either side.
+  // Center at the middle of a leaf's edge on the seam: half of the box on either side.
   CHECK(share_at({0.375f, 0}, {0.375f, 0.1f}) == doctest::Approx(0.5));
   CHECK(share_at({0.375f, 0}, {0.375f, 0.9f}) == doctest::Approx(0.5));
   // On a pole: one half stays, the other one lies opposite.
@@ -242,4 +242,4 @@ TEST_CASE("trees and densities survive being saved; damage is found") {
 }
 
 }  // namespace
-}  // namespace pharos::ppg
+}  // namespace pharos::practical_path_guiding

@@ -4,7 +4,7 @@
 
 #include <pharos/core/warp.h>
 
-namespace pharos::ppg {
+namespace pharos::practical_path_guiding {
 namespace {
 
 /// A path over one guidable vertex to a lamp of radiance 3: f cos = 0.2, p = 0.5, throughput 2.
@@ -44,7 +44,7 @@ TEST_CASE("a record says where, whither and what it counts, by target") {
   // The same times the throughput squared, as long as no pixel is known.
   const Record first = record_of(lit_path(), GuidingTarget::relative, pixels);
   CHECK(first.value == doctest::Approx(4 * 0.36 / 0.5));
-  // Relative to a pixel of 8, whose neighbour is dark.
+  // Relative to a pixel of 8, whose neighbor is dark.
   pixels.add({0.5f, 0.5f}, 8);
   pixels.add({1.5f, 0.5f}, 0);
   pixels.update(0, 0.01);
@@ -53,7 +53,7 @@ TEST_CASE("a record says where, whither and what it counts, by target") {
   CHECK(pixels.at({1.5f, 0.5f}) == doctest::Approx(0.04));
 }
 
-TEST_CASE("pixels are averaged with their neighbours, and add up when merged") {
+TEST_CASE("pixels are averaged with their neighbors, and add up when merged") {
   PixelEstimates a({4, 2, 7, 3}), b = a;
   a.add({4.5f, 2.5f}, 3);
   b.add({5.5f, 2.5f}, 1);
@@ -67,4 +67,4 @@ TEST_CASE("pixels are averaged with their neighbours, and add up when merged") {
 }
 
 }  // namespace
-}  // namespace pharos::ppg
+}  // namespace pharos::practical_path_guiding

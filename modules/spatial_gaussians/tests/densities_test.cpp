@@ -5,15 +5,15 @@
 #include <boost/math/quadrature/gauss.hpp>
 #include <doctest/doctest.h>
 
-#include <pharos/guiding/ray_integrals.h>
-#include <pharos/guiding/seen_gaussian.h>
+#include <pharos/guiding/toolkit/ray_integrals.h>
+#include <pharos/guiding/toolkit/seen_gaussian.h>
 #include <pharos/statistics/goodness_of_fit.h>
 #include <pharos/statistics/quadrature.h>
 
 #include "../seen_mixture.h"
 #include "test_gaussians.h"
 
-namespace pharos::gaussians {
+namespace pharos::spatial_gaussians {
 namespace {
 
 using namespace testing;
@@ -310,4 +310,4 @@ TEST_CASE("a mixture is the sum of its components, weighted by their cosines") {
 }
 
 }  // namespace
-}  // namespace pharos::gaussians
+}  // namespace pharos::spatial_gaussians

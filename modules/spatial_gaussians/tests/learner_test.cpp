@@ -10,11 +10,11 @@
 #include <pharos/core/error.h>
 #include <pharos/core/warp.h>
 
-#include "../gaussian_model.h"
+#include "../model.h"
 #include "../seen_mixture.h"
 #include "test_gaussians.h"
 
-namespace pharos::gaussians {
+namespace pharos::spatial_gaussians {
 namespace {
 
 using namespace testing;
@@ -57,7 +57,7 @@ LearningContext context(float scale = 1) {
   return {.region = region, .seed = 7, .iterations = 4};
 }
 
-GaussianSettings small_settings() {
+SpatialGaussiansSettings small_settings() {
   return {.cell_samples = 2000,
           .components = 4,
           .most_components = 8,
@@ -77,13 +77,14 @@ std::shared_ptr<const GuidingModel> trained(LearningState& state, int iterations
   return model;
 }
 
-std::shared_ptr<const GuidingModel> trained(const GaussianSettings& settings, float scale = 1) {
-  const auto state = GaussianLearner(settings).begin(context(scale));
+std::shared_ptr<const GuidingModel> trained(const SpatialGaussiansSettings& settings,
+                                            float scale = 1) {
+  const auto state = SpatialGaussiansLearner(settings).begin(context(scale));
   return trained(*state, 4, scale);
 }
 
-const GaussianModel& as_gaussians(const std::shared_ptr<const GuidingModel>& model) {
-  return dynamic_cast<const GaussianModel&>(*model);
+const SpatialGaussiansModel& as_gaussians(const std::shared_ptr<const GuidingModel>& model) {
+  return dynamic_cast<const SpatialGaussiansModel&>(*model);
 }
 
 std::string saved(const GuidingModel& model) {
@@ -93,7 +94,7 @@ std::string saved(const GuidingModel& model) {
 }
 
 /// Share of the guide's directions at a point that pass the tube within this distance.
-double share_near_tube(const GaussianModel& model, Point3 at, float distance) {
+double share_near_tube(const SpatialGaussiansModel& model, Point3 at, float distance) {
   RandomStream random(11);
   Arena arena;
   const auto view = model.mixture_at(at);
@@ -115,10 +116,10 @@ double share_near_tube(const GaussianModel& model, Point3 at, float distance) {
 
 TEST_CASE("mixtures learn where the light is, as a tree and as one") {
   for (const SpatialCells spatial : {SpatialCells::kdtree, SpatialCells::single}) {
-    GaussianSettings settings = small_settings();
+    SpatialGaussiansSettings settings = small_settings();
     settings.spatial = spatial;
     const auto model = trained(settings);
-    const GaussianModel& gaussians = as_gaussians(model);
+    const SpatialGaussiansModel& gaussians = as_gaussians(model);
     CAPTURE(static_cast<int>(spatial));
     CHECK((gaussians.region_count() > 1) == (spatial == SpatialCells::kdtree));
     for (const Point3 at : {Point3{0, 0, 0}, Point3{0.7f, 0, -0.8f}, Point3{-0.5f, 0, 0.5f}}) {
@@ -136,7 +137,7 @@ TEST_CASE("mixtures learn where the light is, as a tree and as one") {
 }
 
 TEST_CASE("cells are divided where samples are many, and say where they came from") {
-  const auto state = GaussianLearner(small_settings()).begin(context());
+  const auto state = SpatialGaussiansLearner(small_settings()).begin(context());
   std::uint32_t before = 1;
   for (std::uint32_t i = 0; i < 4; ++i) {
     state->absorb(tube_paths(5000, i));
@@ -153,7 +154,7 @@ TEST_CASE("cells are divided where samples are many, and say where they came fro
 }
 
 TEST_CASE("components of a mixture are split where directions ask for it, up to the limit") {
-  GaussianSettings settings = small_settings();
+  SpatialGaussiansSettings settings = small_settings();
   settings.spatial = SpatialCells::single;
   settings.components = 1;
   settings.merge_threshold = 0;
@@ -176,7 +177,7 @@ TEST_CASE("components of a mixture are split where directions ask for it, up to 
     }
     return log;
   };
-  const auto state = GaussianLearner(settings).begin(context());
+  const auto state = SpatialGaussiansLearner(settings).begin(context());
   state->absorb(paths(1));
   const auto model = state->update(0, true);
   const auto components = as_gaussians(model).mixture_at(Point3{}).components;
@@ -185,16 +186,16 @@ TEST_CASE("components of a mixture are split where directions ask for it, up to 
   for (const SpatialGaussian& g : components) CHECK(std::abs(std::abs(g.mean.x) - 1) < 0.2f);
 
   settings.split_threshold = 1e9;
-  const auto whole = GaussianLearner(settings).begin(context());
+  const auto whole = SpatialGaussiansLearner(settings).begin(context());
   whole->absorb(paths(1));
   CHECK(as_gaussians(whole->update(0, true)).mixture_at(Point3{}).components.size() == 1);
 }
 
 TEST_CASE("splits and merges keep the weight of all") {
-  GaussianSettings settings = small_settings();
+  SpatialGaussiansSettings settings = small_settings();
   settings.merge_threshold = 0.2;
   settings.split_threshold = 0.05;
-  const auto state = GaussianLearner(settings).begin(context());
+  const auto state = SpatialGaussiansLearner(settings).begin(context());
   for (std::uint32_t i = 0; i < 4; ++i) {
     state->absorb(tube_paths(5000, i));
     const auto model = state->update(i, i == 3);
@@ -210,7 +211,7 @@ TEST_CASE("splits and merges keep the weight of all") {
 }
 
 TEST_CASE("components that do the same are merged") {
-  GaussianSettings settings = small_settings();
+  SpatialGaussiansSettings settings = small_settings();
   settings.spatial = SpatialCells::single;
   const auto count = [&] {
     return as_gaussians(trained(settings)).mixture_at(Point3{}).components.size();
@@ -226,9 +227,9 @@ TEST_CASE("components that do the same are merged") {
 TEST_CASE("models have the same bits for any number of threads") {
   const auto with_threads = [](std::size_t threads, SpatialCells spatial) {
     tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
-    GaussianSettings settings = small_settings();
+    SpatialGaussiansSettings settings = small_settings();
     settings.spatial = spatial;
-    const auto state = GaussianLearner(settings).begin(context());
+    const auto state = SpatialGaussiansLearner(settings).begin(context());
     state->absorb(tube_paths(40'000, 77));  // several parts of every sum
     return saved(*trained(*state, 2));
   };
@@ -251,7 +252,7 @@ TEST_CASE("a scene of another size learns the same") {
 }
 
 TEST_CASE("states that are saved and loaded go on as they would have") {
-  const GaussianLearner learner(small_settings());
+  const SpatialGaussiansLearner learner(small_settings());
   const auto straight = learner.begin(context()), first = learner.begin(context());
   trained(*straight, 2);
   trained(*first, 2);
@@ -266,7 +267,7 @@ TEST_CASE("states that are saved and loaded go on as they would have") {
 }
 
 TEST_CASE("states of two halves of the paths are merged to one of all") {
-  const GaussianLearner learner(small_settings());
+  const SpatialGaussiansLearner learner(small_settings());
   const auto whole = learner.begin(context()), left = learner.begin(context()),
              right = learner.begin(context());
   for (LearningState* state : {whole.get(), left.get()}) state->absorb(tube_paths(3000, 1));
@@ -281,7 +282,7 @@ TEST_CASE("states of two halves of the paths are merged to one of all") {
 TEST_CASE("models are saved and loaded, damaged ones are refused") {
   const auto model = trained(small_settings());
   const std::string file = saved(*model);
-  const GaussianLearner learner(small_settings());
+  const SpatialGaussiansLearner learner(small_settings());
   std::istringstream in(file);
   CHECK(saved(*learner.load_model(in)) == file);
   for (const std::size_t length : {std::size_t{0}, std::size_t{10}, file.size() / 2}) {
@@ -307,7 +308,7 @@ TEST_CASE("models are saved and loaded, damaged ones are refused") {
 }
 
 TEST_CASE("nothing is known where nothing was found") {
-  const GaussianLearner learner(small_settings());
+  const SpatialGaussiansLearner learner(small_settings());
   const auto state = learner.begin(context());
   CHECK(state->update(0, false) == nullptr);
   PathLog dark;
@@ -321,9 +322,9 @@ TEST_CASE("nothing is known where nothing was found") {
 }
 
 TEST_CASE("rare finds add up to a first mixture, and cells wait for it before they are divided") {
-  GaussianSettings settings = small_settings();
+  SpatialGaussiansSettings settings = small_settings();
   settings.cell_samples = 64;
-  const auto state = GaussianLearner(settings).begin(context());
+  const auto state = SpatialGaussiansLearner(settings).begin(context());
   std::shared_ptr<const GuidingModel> model;
   int updates = 0;
   while (model == nullptr && updates < 20) {
@@ -337,9 +338,9 @@ TEST_CASE("rare finds add up to a first mixture, and cells wait for it before th
 }
 
 TEST_CASE("samples that are too many to wait are learned from before the iteration ends") {
-  GaussianSettings settings = small_settings();
+  SpatialGaussiansSettings settings = small_settings();
   settings.batch_samples = 4000;
-  const auto state = GaussianLearner(settings).begin(context());
+  const auto state = SpatialGaussiansLearner(settings).begin(context());
   for (std::uint64_t i = 0; i < 5; ++i) state->absorb(tube_paths(3000, i));
   std::ostringstream file;
   state->save(file);
@@ -350,7 +351,7 @@ TEST_CASE("samples that are too many to wait are learned from before the iterati
 }
 
 TEST_CASE("samples that all begin at one point do not divide cells for ever") {
-  const auto state = GaussianLearner(small_settings()).begin(context());
+  const auto state = SpatialGaussiansLearner(small_settings()).begin(context());
   RandomStream random(9);
   PathLog log;
   for (int i = 0; i < 10'000; ++i) {
@@ -371,10 +372,10 @@ TEST_CASE("samples that all begin at one point do not divide cells for ever") {
 }
 
 TEST_CASE("settings that contradict each other are refused") {
-  GaussianSettings settings;
+  SpatialGaussiansSettings settings;
   settings.components = 40;
-  CHECK_THROWS_AS(GaussianLearner{settings}, InputError);
+  CHECK_THROWS_AS(SpatialGaussiansLearner{settings}, InputError);
 }
 
 }  // namespace
-}  // namespace pharos::gaussians
+}  // namespace pharos::spatial_gaussians

@@ -5,11 +5,11 @@
 #include <doctest/doctest.h>
 
 #include <pharos/core/warp.h>
-#include <pharos/guiding/seen_gaussian.h>
+#include <pharos/guiding/toolkit/seen_gaussian.h>
 
 #include "test_gaussians.h"
 
-namespace pharos::gaussians {
+namespace pharos::spatial_gaussians {
 namespace {
 
 using namespace testing;
@@ -152,4 +152,4 @@ TEST_CASE("mixtures are tested where they are: from any pivot, in any part, howe
 }
 
 }  // namespace
-}  // namespace pharos::gaussians
+}  // namespace pharos::spatial_gaussians

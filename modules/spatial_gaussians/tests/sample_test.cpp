@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-namespace pharos::gaussians {
+namespace pharos::spatial_gaussians {
 namespace {
 
 /// A path from the lens to a guidable vertex at the origin and on to `end`.
@@ -84,4 +84,4 @@ TEST_CASE("steps that no guide makes are no samples") {
 }
 
 }  // namespace
-}  // namespace pharos::gaussians
+}  // namespace pharos::spatial_gaussians

@@ -6,9 +6,9 @@
 
 #include <pharos/core/random.h>
 #include <pharos/core/warp.h>
-#include <pharos/guiding/spatial_mixture.h>
+#include <pharos/guiding/contract/spatial_mixture.h>
 
-namespace pharos::gaussians::testing {
+namespace pharos::spatial_gaussians::testing {
 
 inline Eigen::Vector3d normal_vector(RandomStream& random) {
   Eigen::Vector3d x;
@@ -45,4 +45,4 @@ inline Vec3 point_of(const SpatialGaussian& g, Point3 origin, RandomStream& rand
   return spread(g, p) + (g.mean - origin);
 }
 
-}  // namespace pharos::gaussians::testing
+}  // namespace pharos::spatial_gaussians::testing

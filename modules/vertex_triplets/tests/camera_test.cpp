@@ -9,7 +9,7 @@
 #include "../first_distribution.h"
 #include "test_proposals.h"
 
-namespace pharos::triplets {
+namespace pharos::vertex_triplets {
 namespace {
 
 using namespace testing;
@@ -76,4 +76,4 @@ TEST_CASE(
 }
 
 }  // namespace
-}  // namespace pharos::triplets
+}  // namespace pharos::vertex_triplets

@@ -5,7 +5,7 @@
 #include "../conditional_mixtures.h"
 #include "test_gaussians.h"
 
-namespace pharos::triplets {
+namespace pharos::vertex_triplets {
 namespace {
 
 using namespace testing;
@@ -252,4 +252,4 @@ TEST_CASE("conditional: pairs do not ask where the path comes from") {
 }
 
 }  // namespace
-}  // namespace pharos::triplets
+}  // namespace pharos::vertex_triplets

@@ -10,7 +10,7 @@
 #include "../next_distribution.h"
 #include "test_proposals.h"
 
-namespace pharos::triplets {
+namespace pharos::vertex_triplets {
 namespace {
 
 using namespace testing;
@@ -250,7 +250,7 @@ TEST_CASE("truncated Gaussians: points follow their density, which integrates to
   }
 }
 
-TEST_CASE("distances along rays: the Gaussian's own, cut and normalised (1D)") {
+TEST_CASE("distances along rays: the Gaussian's own, cut and normalized (1D)") {
   RandomStream random(6);
   int possible = 0;
   for (int run = 0; run < 200; ++run) {
@@ -348,4 +348,4 @@ TEST_CASE("projections: seen from their own means there is no direction") {
 }
 
 }  // namespace
-}  // namespace pharos::triplets
+}  // namespace pharos::vertex_triplets

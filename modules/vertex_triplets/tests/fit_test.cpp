@@ -5,7 +5,7 @@
 #include "../clustering.h"
 #include "test_gaussians.h"
 
-namespace pharos::triplets {
+namespace pharos::vertex_triplets {
 namespace {
 
 using namespace testing;
@@ -71,7 +71,7 @@ TEST_CASE_TEMPLATE("E step: as point by point in double precision", D,
   CHECK(weight == doctest::Approx(total).epsilon(1e-5));
 }
 
-TEST_CASE_TEMPLATE("EM: without regularisation no step is for the worse", D,
+TEST_CASE_TEMPLATE("EM: without regularization no step is for the worse", D,
                    std::integral_constant<int, 3>, std::integral_constant<int, 6>,
                    std::integral_constant<int, 9>) {
   constexpr int kD = D::value;
@@ -90,13 +90,13 @@ TEST_CASE_TEMPLATE("EM: without regularisation no step is for the worse", D,
       const Expectation<kD> found = expectation(mixture, points);
       CHECK(found.log_likelihood >= last - 1e-5);
       last = found.log_likelihood;
-      mixture = maximisation(mixture, found, {.is_on = false});
+      mixture = maximization(mixture, found, {.is_on = false});
     }
     CHECK(last > start + 0.1);
   }
 }
 
-TEST_CASE("EM: with regularisation the best mixture on the way is kept") {
+TEST_CASE("EM: with regularization the best mixture on the way is kept") {
   FitSettings settings;
   settings.tolerance = 0;
   bool some_step_was_worse = false;
@@ -109,7 +109,7 @@ TEST_CASE("EM: with regularisation the best mixture on the way is kept") {
       const Expectation<9> found = expectation(mixture, points);
       some_step_was_worse |= found.log_likelihood < best - 1e-3;
       best = std::max(best, found.log_likelihood);
-      mixture = maximisation(mixture, found, settings.regularisation);
+      mixture = maximization(mixture, found, settings.regularization);
     }
     const Fit<9> kept = fit(start, points, settings);
     CHECK(kept.iterations <= settings.most_iterations);
@@ -156,20 +156,20 @@ TEST_CASE("clusters: no more than allowed, none of nothing") {
   CHECK(round.components[0].covariance.isApprox(0.01 * Matrix<9>::Identity(), 1e-6));
 }
 
-TEST_CASE("regularisation: shares by the effective number of points (eq. 39 to 44, corrected)") {
+TEST_CASE("regularization: shares by the effective number of points (eq. 39 to 44, corrected)") {
   RandomStream random(1);
   const Matrix<9> sample = any_gaussian<9>(random, 0.5).covariance;
   const Matrix<9> blocks = isotropic_blocks<9>(sample);
-  const Regularisation rule;
-  CHECK(regularised<9>(sample, 1, rule).isApprox(0.01 * Matrix<9>::Identity()));
-  CHECK(regularised<9>(sample, 4, rule).isApprox(0.25 * sample + 0.75 * blocks));
+  const Regularization rule;
+  CHECK(regularized<9>(sample, 1, rule).isApprox(0.01 * Matrix<9>::Identity()));
+  CHECK(regularized<9>(sample, 4, rule).isApprox(0.25 * sample + 0.75 * blocks));
   const double share = 99.0 / 108;
-  CHECK(regularised<9>(sample, 100, rule).isApprox(share * sample + (1 - share) * blocks));
+  CHECK(regularized<9>(sample, 100, rule).isApprox(share * sample + (1 - share) * blocks));
   const Matrix<3> flat = Matrix<3>::Zero();
-  CHECK(regularised<3>(flat, 1e9, rule).isApprox(1e-8 * Matrix<3>::Identity()));
+  CHECK(regularized<3>(flat, 1e9, rule).isApprox(1e-8 * Matrix<3>::Identity()));
 }
 
-TEST_CASE("regularisation: continuous in the number of points, positive definite") {
+TEST_CASE("regularization: continuous in the number of points, positive definite") {
   RandomStream random(2);
   for (int i = 0; i < 20; ++i) {
     Matrix<9> sample = any_gaussian<9>(random, 0.5).covariance;
@@ -177,9 +177,9 @@ TEST_CASE("regularisation: continuous in the number of points, positive definite
       const Vector<9> d = normal_vector<9>(random);
       sample = d * d.transpose();
     }
-    Matrix<9> last = regularised<9>(sample, 1, {});
+    Matrix<9> last = regularized<9>(sample, 1, {});
     for (double count = 1; count < 40; count += 0.01) {
-      const Matrix<9> next = regularised<9>(sample, count, {});
+      const Matrix<9> next = regularized<9>(sample, count, {});
       CHECK((next - last).norm() < 0.02 * (sample.norm() + 0.03));
       CHECK(Eigen::LLT<Matrix<9>>(next).info() == Eigen::Success);
       last = next;
@@ -188,4 +188,4 @@ TEST_CASE("regularisation: continuous in the number of points, positive definite
 }
 
 }  // namespace
-}  // namespace pharos::triplets
+}  // namespace pharos::vertex_triplets

@@ -2,16 +2,16 @@
 
 #include <doctest/doctest.h>
 
-#include "../triplet_model.h"
+#include "../model.h"
 #include "test_proposals.h"
 
-namespace pharos::triplets {
+namespace pharos::vertex_triplets {
 namespace {
 
 using namespace testing;
 
 /// Pairs around the origin: light comes from above, a quarter of it reflected.
-std::shared_ptr<const TripletModel> pairs_at_a_pane() {
+std::shared_ptr<const VertexTripletsModel> pairs_at_a_pane() {
   Gaussian<6> gaussian{Vector<6>::Zero(), 0.1 * Matrix<6>::Identity()};
   gaussian.mean[5] = 2;
   CellKnowledge cell;
@@ -21,13 +21,13 @@ std::shared_ptr<const TripletModel> pairs_at_a_pane() {
     cell.pairs.push_back({Mode{VertexKind::surface, event, VertexKind::surface},
                           {make_component<3>(share, gaussian)}});
   }
-  return std::make_shared<TripletModel>(
+  return std::make_shared<VertexTripletsModel>(
       ModelKind{.prefix = Prefix::pair}, Octree({{}, 4}), std::vector<CellKnowledge>{cell},
       CameraMixture(std::vector<FirstVertex>{}), std::vector<std::uint32_t>{0}, 0);
 }
 
 TEST_CASE("guides: where reflection is total, nothing aims at transmission") {
-  const auto bound = TripletGuider({}).bind(pairs_at_a_pane());
+  const auto bound = VertexTripletsGuider({}).bind(pairs_at_a_pane());
   const SurfacePoint surface{.normal = {0, 0, 1}, .shading = Frame::from_normal({0, 0, 1})};
   const Vec3 back = normalize(Vec3{0.6f, 0, 0.8f});
   const GuidingVertex previous{.position = {1, 0, 1}};
@@ -58,4 +58,4 @@ TEST_CASE("guides: where reflection is total, nothing aims at transmission") {
 }
 
 }  // namespace
-}  // namespace pharos::triplets
+}  // namespace pharos::vertex_triplets

@@ -9,10 +9,10 @@
 #include <pharos/core/error.h>
 #include <pharos/core/random.h>
 
+#include "../model.h"
 #include "../sample.h"
-#include "../triplet_model.h"
 
-namespace pharos::triplets {
+namespace pharos::vertex_triplets {
 namespace {
 
 const SampleRule kRule{.environment = {100}};
@@ -153,10 +153,10 @@ TEST_CASE("samples: lights that no step can meet are of a kind of their own; not
   CHECK(samples[0].triplet.mode.after == VertexKind::light);
   CHECK(samples[0].triplet.vertices[2] == Point3{0, 100, 1});
   // First vertices see it, guides of next ones do not.
-  const TripletLearner learner({.cells = 1});
+  const VertexTripletsLearner learner({.cells = 1});
   const auto state = learner.begin({.region = {{-1, -1, -1}, {1, 1, 1}}});
   state->absorb(log);
-  const auto model = std::dynamic_pointer_cast<const TripletModel>(state->update(0, true));
+  const auto model = std::dynamic_pointer_cast<const VertexTripletsModel>(state->update(0, true));
   REQUIRE(model);
   CHECK(model->camera().size() == 1);
   CHECK(model->component_count() == 0);
@@ -194,18 +194,19 @@ LearningContext context() {
   return {.region = region, .seed = 7, .iterations = 4};
 }
 
-std::shared_ptr<const TripletModel> learned(const TripletSettings& settings, int updates = 3) {
-  const auto state = TripletLearner(settings).begin(context());
+std::shared_ptr<const VertexTripletsModel> learned(const VertexTripletsSettings& settings,
+                                                   int updates = 3) {
+  const auto state = VertexTripletsLearner(settings).begin(context());
   std::shared_ptr<const GuidingModel> model;
   for (int i = 0; i < updates; ++i) {
     state->absorb(mirror_paths(2000 << i, 20 + i));
     model = state->update(i, i + 1 == updates);
   }
-  return std::dynamic_pointer_cast<const TripletModel>(model);
+  return std::dynamic_pointer_cast<const VertexTripletsModel>(model);
 }
 
 /// Mean distance from where light comes from to where the model expects it.
-double mirror_error(const TripletModel& model) {
+double mirror_error(const VertexTripletsModel& model) {
   class Flat final : public PhaseFunction {
    public:
     float evaluate(Vec3, Vec3) const override { return 1; }
@@ -238,7 +239,7 @@ double mirror_error(const TripletModel& model) {
 }
 
 TEST_CASE("learning: triplets know a mirror's direction, pairs its mean") {
-  TripletSettings settings{.cells = 16, .reservoir = 1024};
+  VertexTripletsSettings settings{.cells = 16, .reservoir = 1024};
   const auto triplets = learned(settings);
   REQUIRE(triplets);
   CHECK(mirror_error(*triplets) < 0.03);
@@ -250,12 +251,12 @@ TEST_CASE("learning: triplets know a mirror's direction, pairs its mean") {
 }
 
 TEST_CASE("learning: knows nothing of nothing") {
-  const auto state = TripletLearner({}).begin(context());
+  const auto state = VertexTripletsLearner({}).begin(context());
   CHECK(state->initial_model() == nullptr);
   CHECK(state->update(0, false) == nullptr);
   state->absorb(PathLog{});
   CHECK(state->update(1, false) == nullptr);
-  const auto later = TripletLearner({}).begin(context());
+  const auto later = VertexTripletsLearner({}).begin(context());
   later->absorb(mirror_paths(1, 1));
   CHECK(later->update(0, false) != nullptr);
 }
@@ -288,13 +289,13 @@ TEST_CASE("models: loaded they are the same, both ways; damage is noticed") {
                                 .reservoir = 128});
     const std::string bytes = saved(*model);
     std::istringstream in(bytes);
-    const TripletModel loaded(in);
+    const VertexTripletsModel loaded(in);
     CHECK(saved(loaded) == bytes);
     CHECK(loaded.size_bytes() >= model->size_bytes() - 4 * model->region_count());
     CHECK(loaded.kind().both_ways == (vertices == Prefix::triplet));
     for (std::size_t length : {std::size_t{5}, bytes.size() / 2, bytes.size() - 1}) {
       std::istringstream cut(bytes.substr(0, length));
-      CHECK_THROWS_AS(TripletModel{cut}, InputError);
+      CHECK_THROWS_AS(VertexTripletsModel{cut}, InputError);
     }
   }
 }
@@ -306,7 +307,7 @@ std::string saved(const LearningState& state) {
 }
 
 TEST_CASE("learning: saved and loaded amid an iteration it goes on as before") {
-  const TripletLearner learner({.cells = 16, .reservoir = 64});
+  const VertexTripletsLearner learner({.cells = 16, .reservoir = 64});
   const auto state = learner.begin(context()), again = learner.begin(context());
   for (int i = 0; i < 3; ++i) {
     state->absorb(mirror_paths(500, i));
@@ -341,7 +342,7 @@ TEST_CASE("learning: saved and loaded amid an iteration it goes on as before") {
 }
 
 TEST_CASE("learning: what two have absorbed is merged, in one iteration alone") {
-  const TripletLearner learner({.cells = 16, .reservoir = 64});
+  const VertexTripletsLearner learner({.cells = 16, .reservoir = 64});
   const auto one = learner.begin(context()), other = learner.begin(context()),
              both = learner.begin(context());
   one->absorb(mirror_paths(500, 1));
@@ -363,7 +364,7 @@ TEST_CASE("models: changed bytes are noticed or harmless") {
     changed[random() % bytes.size()] = static_cast<char>(random());
     std::istringstream damaged(changed);
     try {
-      const TripletModel loaded(damaged);
+      const VertexTripletsModel loaded(damaged);
       mirror_error(loaded);
     } catch (const InputError&) {
       ++noticed;
@@ -381,10 +382,11 @@ TEST_CASE("models: densities for pictures are those of the learned samples") {
 }
 
 TEST_CASE("learner: pairs cannot learn from paths from lights") {
-  CHECK_THROWS_AS(TripletLearner({.vertices = Prefix::pair, .light_paths = true}), InputError);
-  CHECK(!TripletLearner({}).traits().records.light_paths);
-  CHECK(TripletLearner({.light_paths = true}).traits().records.light_paths);
+  CHECK_THROWS_AS(VertexTripletsLearner({.vertices = Prefix::pair, .light_paths = true}),
+                  InputError);
+  CHECK(!VertexTripletsLearner({}).traits().records.light_paths);
+  CHECK(VertexTripletsLearner({.light_paths = true}).traits().records.light_paths);
 }
 
 }  // namespace
-}  // namespace pharos::triplets
+}  // namespace pharos::vertex_triplets

@@ -8,7 +8,7 @@
 #include <pharos/core/error.h>
 #include <pharos/core/random.h>
 
-namespace pharos::triplets {
+namespace pharos::vertex_triplets {
 namespace {
 
 const Cube kCube{{1, -2, 3}, 4};
@@ -110,4 +110,4 @@ TEST_CASE("octree: saved and loaded it is the same; damage is noticed") {
 }
 
 }  // namespace
-}  // namespace pharos::triplets
+}  // namespace pharos::vertex_triplets

@@ -6,10 +6,10 @@
 
 #include <pharos/core/random.h>
 #include <pharos/core/warp.h>
-#include <pharos/guiding/spatial_mixture.h>
+#include <pharos/guiding/contract/spatial_mixture.h>
 #include <pharos/statistics/gaussian.h>
 
-namespace pharos::triplets::testing {
+namespace pharos::vertex_triplets::testing {
 
 using statistics::Gaussian;
 using statistics::Matrix;
@@ -59,4 +59,4 @@ inline SpatialGaussian spatial(const Gaussian<3>& g, float weight = 1) {
   return s;
 }
 
-}  // namespace pharos::triplets::testing
+}  // namespace pharos::vertex_triplets::testing

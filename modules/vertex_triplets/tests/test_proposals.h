@@ -3,13 +3,13 @@
 #include <optional>
 #include <vector>
 
-#include <pharos/guiding/distribution.h>
+#include <pharos/guiding/contract/distribution.h>
 #include <pharos/sampling/keyed_numbers.h>
 #include <pharos/scene/local_scattering.h>
 
 #include "test_gaussians.h"
 
-namespace pharos::triplets::testing {
+namespace pharos::vertex_triplets::testing {
 
 /// Independent numbers.
 class Numbers final : public PreparedSampler {
@@ -67,4 +67,4 @@ inline std::vector<Gaussian<3>> any_gaussians(int count, std::uint64_t seed) {
   return result;
 }
 
-}  // namespace pharos::triplets::testing
+}  // namespace pharos::vertex_triplets::testing

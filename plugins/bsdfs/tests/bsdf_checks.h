@@ -11,7 +11,7 @@
 /// What the suites of this folder share.
 namespace pharos::test {
 
-/// The same colour everywhere; a number or colour stands for it in YAML.
+/// The same color everywhere; a number or color stands for it in YAML.
 class UniformTexture final : public Texture {
  public:
   struct Settings {

@@ -14,7 +14,7 @@ DiffuseTransmitter sheet(Rgb transmittance, Rgb reflectance) {
       {.transmittance = test::uniform(transmittance), .reflectance = test::uniform(reflectance)});
 }
 
-/// Of one colour on the left, of another on the right.
+/// Of one color on the left, of another on the right.
 class Halves final : public Texture {
  public:
   Rgb evaluate(const SurfacePoint& point) const override {

@@ -35,7 +35,7 @@ Ref<Bsdf> make(const typename T::Settings& settings) {
 
 std::vector<Subject> subjects() {
   const Ref<Texture> red = test::uniform({0.9f, 0.4f, 0.1f}), blue = test::uniform({0, 0.3f, 0.8f});
-  const Ref<Texture> white = test::uniform(Rgb(1)), grey = test::uniform(Rgb(0.2f));
+  const Ref<Texture> white = test::uniform(Rgb(1)), gray = test::uniform(Rgb(0.2f));
   const Ref<Bsdf> metal = make<RoughConductor>({.alpha = 0.3f, .specular_reflectance = white});
   const Ref<Bsdf> plastic = make<Plastic>(
       {.ior = 1.7f, .reflectance = red, .specular_reflectance = white, .nonlinear = true});
@@ -43,7 +43,7 @@ std::vector<Subject> subjects() {
     return make<RoughPlastic>(
         {.alpha = alpha, .reflectance = blue, .specular_reflectance = white, .nonlinear = true});
   };
-  const Ref<Bsdf> sheet = make<DiffuseTransmitter>({.transmittance = blue, .reflectance = grey});
+  const Ref<Bsdf> sheet = make<DiffuseTransmitter>({.transmittance = blue, .reflectance = gray});
   const Ref<Bsdf> both = make<TwoSided>({.bsdf = plastic, .back = rough(0.2f)});
   const Ref<Bsdf> holes = make<Mask>({.bsdf = both, .opacity = red});
   const Ref<Bsdf> glass = make<Dielectric>(
@@ -52,7 +52,7 @@ std::vector<Subject> subjects() {
   const Ref<Bsdf> mixed = make<Blend>({.first = metal, .second = sheet, .weight = blue});
   const Ref<Bsdf> three_deep =
       make<Blend>({.first = make<Blend>({.first = frosted, .second = holes, .weight = red}),
-                   .second = make<Blend>({.first = plastic, .second = mixed, .weight = grey}),
+                   .second = make<Blend>({.first = plastic, .second = mixed, .weight = gray}),
                    .weight = blue});
   const Ref<Bsdf> phong = test::build(
       "{ type: phong, diffuse_reflectance: [0.1, 0.2, 0.5], specular_reflectance: 0.5, exponent: "

@@ -33,23 +33,23 @@ bool mentions(const std::string& text, const std::string& part) {
 
 }  // namespace
 
-TEST_CASE("metals: the colours of their spectra in daylight") {
+TEST_CASE("metals: the colors of their spectra in daylight") {
   // Linear Rec.709 of the reflectance at normal incidence, computed wavelength by wavelength.
-  struct Colour {
+  struct Color {
     Metal metal;
     Rgb spectral;
   };
-  const Colour colours[] = {
+  const Color colors[] = {
       {Metal::Ag, {0.989f, 0.984f, 0.978f}}, {Metal::Al, {0.908f, 0.916f, 0.922f}},
       {Metal::Au, {1.035f, 0.730f, 0.364f}}, {Metal::Cr, {0.550f, 0.556f, 0.554f}},
       {Metal::Cu, {0.929f, 0.624f, 0.522f}}, {Metal::Fe, {0.529f, 0.513f, 0.494f}},
       {Metal::Ni, {0.696f, 0.641f, 0.563f}}, {Metal::Ti, {0.618f, 0.580f, 0.542f}}};
-  for (const Colour& colour : colours) {
-    CAPTURE(static_cast<int>(colour.metal));
-    const Rgb found = normal_reflectance(colour.metal);
+  for (const Color& color : colors) {
+    CAPTURE(static_cast<int>(color.metal));
+    const Rgb found = normal_reflectance(color.metal);
     for (int c = 0; c < 3; ++c) {
-      const bool gold_red = colour.metal == Metal::Au && c == 0;
-      CHECK(std::abs(found[c] - colour.spectral[c]) < (gold_red ? 0.06f : 0.013f));
+      const bool gold_red = color.metal == Metal::Au && c == 0;
+      CHECK(std::abs(found[c] - color.spectral[c]) < (gold_red ? 0.06f : 0.013f));
       CHECK(found[c] < 1);
     }
   }

@@ -101,7 +101,7 @@ TEST_CASE("principled: opaque it is black from behind") {
   CHECK_FALSE(opaque->sample({}, -kOut, 0.5f, {0.3f, 0.6f}, {}));
 }
 
-TEST_CASE("principled: half clear, the colour's root goes through and the rest is matt") {
+TEST_CASE("principled: half clear, the color's root goes through and the rest is matt") {
   const std::string rest = "roughness: 0.5, spec_trans: ";
   const Vec3 below = test::direction(150, 200);
   const Rgb through = value(principled("base_color: [1, 0.25, 0], " + rest + "0.4"), kOut, below);

@@ -44,7 +44,7 @@ TEST_CASE("rough diffuse: values of the published formulas") {
   CHECK(f(150, true) == doctest::Approx(0.2196688).epsilon(1e-5));
 }
 
-TEST_CASE("rough diffuse: light between facets deepens the colour") {
+TEST_CASE("rough diffuse: light between facets deepens the color") {
   const Vec3 wo = test::direction(20, 0), wi = test::direction(30, 180);
   const Rgb full = rough(0.7f, {0.9f, 0.3f, 0}).evaluate({}, wo, wi, {}).value;
   CHECK(full.r / full.g > 3.1);

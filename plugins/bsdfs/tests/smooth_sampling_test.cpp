@@ -20,20 +20,20 @@ struct Subject {
 
 /// Every smooth BSDF of the folder, with its parameters spread over their range.
 std::vector<Subject> subjects() {
-  const Ref<Texture> grey = test::uniform(Rgb(0.7f));
+  const Ref<Texture> gray = test::uniform(Rgb(0.7f));
   std::vector<Subject> all;
   for (const HemisphereWarp warp : {HemisphereWarp::concentric, HemisphereWarp::octahedral}) {
     all.push_back(
         {"diffuse, " + Value<HemisphereWarp>::default_text(warp),
-         std::make_shared<Diffuse>(Diffuse::Settings{.reflectance = grey, .warp = warp})});
+         std::make_shared<Diffuse>(Diffuse::Settings{.reflectance = gray, .warp = warp})});
   }
   all.push_back({"rough_diffuse, octahedral",
                  std::make_shared<RoughDiffuse>(RoughDiffuse::Settings{
-                     .reflectance = grey, .alpha = grey, .warp = HemisphereWarp::octahedral})});
+                     .reflectance = gray, .alpha = gray, .warp = HemisphereWarp::octahedral})});
   for (const Masking masking : {Masking::height_correlated, Masking::separable}) {
     for (const float alpha : {0.002f, 0.05f, 0.3f, 1.0f}) {
       const RoughConductor::Settings settings{
-          .alpha = alpha, .masking = masking, .specular_reflectance = grey};
+          .alpha = alpha, .masking = masking, .specular_reflectance = gray};
       all.push_back(
           {"rough_conductor " + std::to_string(alpha), std::make_shared<RoughConductor>(settings)});
     }

@@ -12,7 +12,7 @@ namespace pharos {
 namespace {
 
 /// Red in one half of the texture, blue in the other.
-class TwoColours : public Texture {
+class TwoColors : public Texture {
  public:
   Rgb evaluate(const SurfacePoint& p) const override {
     return p.uv.x < 0.5f ? Rgb(4, 0, 0) : Rgb(0, 0, 2);
@@ -43,7 +43,7 @@ double lambert_irradiance(Point3 at, Vec3 normal, const std::array<Point3, 4>& c
 }
 
 TEST_CASE("sampled irradiance is Lambert's") {
-  const LitCeiling ceiling(std::make_shared<const OneColour>(Rgb(1, 2, 4)), 3);
+  const LitCeiling ceiling(std::make_shared<const OneColor>(Rgb(1, 2, 4)), 3);
   const Vec3 up = normalize({0.2f, -0.1f, 1});
   for (const Point3 at : {Point3{0, 0, 0}, Point3{2, -1, 1}, Point3{0.5f, 1, 2.5f}}) {
     Rgb irradiance;
@@ -60,7 +60,7 @@ TEST_CASE("sampled irradiance is Lambert's") {
 }
 
 TEST_CASE("a sample tells where it lies, and its density is that of the point") {
-  const LitCeiling ceiling(std::make_shared<const TwoColours>());
+  const LitCeiling ceiling(std::make_shared<const TwoColors>());
   const Point3 from{0.5f, 0.25f, 1};
   RandomStream random(1);
   for (int i = 0; i < 1000; ++i) {
@@ -76,7 +76,7 @@ TEST_CASE("a sample tells where it lies, and its density is that of the point") 
 }
 
 TEST_CASE("only the side of the normal shines") {
-  const LitCeiling ceiling(std::make_shared<const OneColour>(Rgb(1)));
+  const LitCeiling ceiling(std::make_shared<const OneColor>(Rgb(1)));
   const SurfacePoint p = ceiling.shape.sample({0.5f, 0.5f}).point;
   CHECK(ceiling.light->radiance(p, {0, 0, -1}) == Rgb(1));
   CHECK(is_black(ceiling.light->radiance(p, {0, 0, 1})));
@@ -85,13 +85,13 @@ TEST_CASE("only the side of the normal shines") {
 }
 
 TEST_CASE("nothing is sampled from a point on the light itself") {
-  const LitCeiling ceiling(std::make_shared<const OneColour>(Rgb(1)));
+  const LitCeiling ceiling(std::make_shared<const OneColor>(Rgb(1)));
   CHECK(ceiling.light->sample({0, 0, 3}, {0.5f, 0.5f}).pdf == 0);
   CHECK(ceiling.light->sample({0, 0, 3}, {0.2f, 0.5f}).pdf == 0);  // seen edge-on
 }
 
 TEST_CASE("power is pi times area times mean radiance") {
-  const LitCeiling ceiling(std::make_shared<const TwoColours>(), 10);
+  const LitCeiling ceiling(std::make_shared<const TwoColors>(), 10);
   CHECK(ceiling.light->power() == doctest::Approx(kPi * 8 * 10 * 1));
   CHECK_FALSE(ceiling.light->is_environment());
   CHECK(ceiling.emitter.needs_shape());

@@ -7,16 +7,16 @@
 
 namespace pharos {
 
-/// The same colour everywhere.
-class OneColour final : public Texture {
+/// The same color everywhere.
+class OneColor final : public Texture {
  public:
-  explicit OneColour(Rgb colour) : colour_(colour) {}
-  Rgb evaluate(const SurfacePoint&) const override { return colour_; }
-  Rgb maximum() const override { return colour_; }
-  Rgb average() const override { return colour_; }
+  explicit OneColor(Rgb color) : color_(color) {}
+  Rgb evaluate(const SurfacePoint&) const override { return color_; }
+  Rgb maximum() const override { return color_; }
+  Rgb average() const override { return color_; }
 
  private:
-  Rgb colour_;
+  Rgb color_;
 };
 
 /// The rectangle [-1,1] x [-2,2] at height 3 that faces down.

@@ -33,10 +33,10 @@ struct LitCeiling {
 
 Settings cosine_power(float exponent, float scale = 1) {
   return {
-      .radiance = std::make_shared<const OneColour>(Rgb(2)), .exponent = exponent, .scale = scale};
+      .radiance = std::make_shared<const OneColor>(Rgb(2)), .exponent = exponent, .scale = scale};
 }
 Settings von_mises_fisher(float concentration) {
-  return {.radiance = std::make_shared<const OneColour>(Rgb(2)),
+  return {.radiance = std::make_shared<const OneColor>(Rgb(2)),
           .lobe = EmissionLobe::von_mises_fisher,
           .concentration = concentration};
 }
@@ -118,7 +118,7 @@ TEST_CASE("directional_area: directions follow the density that is claimed for p
 TEST_CASE("directional_area: each lobe takes its own parameter") {
   const auto build = [](EmissionLobe lobe, std::optional<float> exponent,
                         std::optional<float> concentration) {
-    DirectionalAreaEmitter({.radiance = std::make_shared<const OneColour>(Rgb(1)),
+    DirectionalAreaEmitter({.radiance = std::make_shared<const OneColor>(Rgb(1)),
                             .lobe = lobe,
                             .exponent = exponent,
                             .concentration = concentration});

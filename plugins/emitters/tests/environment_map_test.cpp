@@ -23,15 +23,15 @@ EnvironmentMap map_of(const Image& image, EnvironmentMap::Settings settings) {
   return EnvironmentMap(settings);
 }
 
-Image image_of(int width, int height, const std::function<Rgb(int, int)>& colour) {
+Image image_of(int width, int height, const std::function<Rgb(int, int)>& color) {
   Image image(width, height, {"R", "G", "B"});
   for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) image.set_rgb(x, y, colour(x, y));
+    for (int x = 0; x < width; ++x) image.set_rgb(x, y, color(x, y));
   }
   return image;
 }
 
-/// Independent colours between `low` and `high`.
+/// Independent colors between `low` and `high`.
 Image noise(int width, int height, float low, float high) {
   RandomStream random(7);
   return image_of(width, height, [&](int, int) {
@@ -71,7 +71,7 @@ statistics::DensityFit fit(const Light& sampled, const Light& claimed) {
 }  // namespace
 
 TEST_CASE("environment_map: where the image is seen") {
-  // Ten by five pixels: columns 2 and 7 are centred on u = 1/4 and 3/4, row 2 on the horizon.
+  // Ten by five pixels: columns 2 and 7 are centered on u = 1/4 and 3/4, row 2 on the horizon.
   const auto lit = [](auto&& is_lit) {
     return Sky(image_of(10, 5, [&](int x, int y) { return Rgb(is_lit(x, y) ? 1.0f : 0.0f); }));
   };

@@ -110,7 +110,7 @@ TEST_CASE("negative lobes: single samples whose weights cancel do not blow up") 
   CHECK(variance <= 100);
 }
 
-TEST_CASE("negative lobes: pixels that a first pass cut short left to their neighbours' lobes") {
+TEST_CASE("negative lobes: pixels that a first pass cut short left to their neighbors' lobes") {
   RandomStream random(4);
   for (int run = 0; run < 50; ++run) {
     Film film = make_film(0, 0.5f);

@@ -8,7 +8,7 @@
 
 #include <pharos/tests/fixtures.h>
 
-#include "../document.h"
+#include "../document/document.h"
 
 namespace pharos::mitsuba {
 

@@ -153,12 +153,12 @@ TEST_CASE("bsdfs: combinations keep the order of their parts") {
 }
 
 TEST_CASE("bsdfs: a mixture's shares come out of its chain of blends") {
-  const auto grey = [](float x) {
+  const auto gray = [](float x) {
     return nested(bsdf("diffuse", {value("reflectance", rgb(x, x, x))}));
   };
   const auto albedo = [&](const char* weights) {
     const Import import = import_of_bsdf(
-        bsdf("mixturebsdf", {value("weights", weights), grey(1), grey(0.1f), grey(0.01f)}));
+        bsdf("mixturebsdf", {value("weights", weights), gray(1), gray(0.1f), gray(0.01f)}));
     return built(import).config.scene.objects[0].bsdf->albedo({}).g;
   };
   CHECK(albedo("0.2, 0.3, 0.5") == doctest::Approx(0.2 + 0.03 + 0.005));

@@ -69,7 +69,7 @@ TEST_CASE("lights: the zenith is +y in 0.x and +z in 3") {
   CHECK(std::stod(m[9].text()) == doctest::Approx(1));
 }
 
-TEST_CASE("lights: spectra that are no colours are noted") {
+TEST_CASE("lights: spectra that are no colors are noted") {
   const Spectrum lamp{.value = {1, 0.8f, 0.6f}, .approximated = true};
   const Import import = import_of({emitter("constant", {value("radiance", lamp)})});
   CHECK(notes(import)[1] == "emitter constant: the spectrum of 'radiance' is brought to RGB");

@@ -6,7 +6,7 @@
 
 #include <pharos/rendering/render_config.h>
 
-#include "../mapping.h"
+#include "../mapping/mapping.h"
 
 /// Scenes of Mitsuba made by hand, and what becomes of them.
 namespace pharos::mitsuba::test {

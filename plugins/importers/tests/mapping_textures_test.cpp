@@ -203,10 +203,10 @@ TEST_CASE("textures: an image as roughness becomes the average of its pixels") {
     return std::stod(part(import, "scene.shapes.0.material.alpha"));
   };
   CHECK(alpha_of(picture(folder)) == doctest::Approx(0.25));
-  Image grey(1, 1, {"R", "G", "B"});
-  grey.set_rgb(0, 0, Rgb(0.2f));
-  write_png(grey, folder / "grey.png", 0, false);
-  const Property file = value("filename", (folder / "grey.png").string());
+  Image gray(1, 1, {"R", "G", "B"});
+  gray.set_rgb(0, 0, Rgb(0.2f));
+  write_png(gray, folder / "gray.png", 0, false);
+  const Property file = value("filename", (folder / "gray.png").string());
   CHECK(alpha_of(texture("bitmap", {file})) == doctest::Approx(0.2).epsilon(0.02));
   CHECK(alpha_of(texture("bitmap", {file, value("raw", true)})) ==
         doctest::Approx(srgb_from_linear(0.2f)).epsilon(0.01));

@@ -1,10 +1,10 @@
-// Colours and spectra, against values from other sources: D65 is the white of Rec.709, equal power
-// has the chromaticity (1/3, 1/3), black bodies have colours that tables state.
+// Colors and spectra, against values from other sources: D65 is the white of Rec.709, equal power
+// has the chromaticity (1/3, 1/3), black bodies have colors that tables state.
 
 #include <cmath>
 #include <string>
 
-#include "../colour_matching.h"
+#include "../document/color_matching.h"
 #include "document_test_kit.h"
 
 namespace pharos::mitsuba {
@@ -27,8 +27,8 @@ TEST_CASE("rgb is linear, in each spelling") {
   CHECK(read("rgb", "value=\"0.1, 0.2 0.3\"").value == Rgb(0.1f, 0.2f, 0.3f));
   CHECK(read("rgb", "value=\"#ff8000\"").value == Rgb(1, 128.0f / 255, 0));
   CHECK(read("rgb", "value=\"0.5\" intent=\"illuminant\"").value == Rgb(0.5f));
-  CHECK(read("rgb", "value=\"0.5\"").is_grey);
-  CHECK_FALSE(read("rgb", "value=\"0.5 0.5 0.5\"").is_grey);
+  CHECK(read("rgb", "value=\"0.5\"").is_gray);
+  CHECK_FALSE(read("rgb", "value=\"0.5 0.5 0.5\"").is_gray);
   CHECK_FALSE(read("rgb", "value=\"0.5\"").approximated);
 }
 
@@ -39,15 +39,15 @@ TEST_CASE("srgb is decoded") {
 
 TEST_CASE("spectra of one number and of three") {
   CHECK(read("spectrum", "value=\"0.25\" intent=\"Reflectance\"").value == Rgb(0.25f));
-  CHECK(read("spectrum", "value=\"0.25\"").is_grey);
+  CHECK(read("spectrum", "value=\"0.25\"").is_gray);
   CHECK(read("spectrum", "value=\"1, 2, 3\"").value == Rgb(1, 2, 3));
 }
 
-TEST_CASE("a flat reflectance is grey, flat emission has equal power") {
+TEST_CASE("a flat reflectance is gray, flat emission has equal power") {
   const std::string flat = "value=\"300:0.5, 900:0.5\"";
   CHECK(is_near(read("spectrum", flat).value, Rgb(0.5f), 1e-5f));
   CHECK(read("spectrum", flat).approximated);
-  CHECK_FALSE(read("spectrum", flat).is_grey);
+  CHECK_FALSE(read("spectrum", flat).is_gray);
   // XYZ of equal power is (1, 1, 1): the sums of the rows of the matrix to Rec.709.
   CHECK(is_near(read("spectrum", flat, "emitter").value,
                 0.5f * Rgb(1.204794f, 0.948291f, 0.908916f), 1e-5f));
@@ -72,8 +72,8 @@ TEST_CASE("spectra out of gamut and beyond one") {
 TEST_CASE("weights are those of the CIE's tables") {
   // A ramp from 0 at 400 nm to 1 at 700 nm, summed with the tables of the CIE each 5 nm.
   const auto ramp = [](double nm) { return nm < 400 || nm > 700 ? 0.0 : (nm - 400) / 300; };
-  CHECK(is_near(colour_in_daylight(ramp), {0.8057f, 0.4769f, 0.1362f}, 0.004f));
-  CHECK(is_near(colour_of_light(ramp), {0.9412f, 0.4547f, 0.1136f}, 0.004f));
+  CHECK(is_near(color_in_daylight(ramp), {0.8057f, 0.4769f, 0.1362f}, 0.004f));
+  CHECK(is_near(color_of_light(ramp), {0.9412f, 0.4547f, 0.1136f}, 0.004f));
 }
 
 TEST_CASE("black bodies have Planck's radiance and the chromaticities of the tables") {

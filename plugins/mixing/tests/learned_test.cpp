@@ -100,7 +100,7 @@ double best_share(const World& world, MixingObjective which) {
 }
 
 Settings free_to_move(MixingObjective which) {
-  return {.objective = which, .least = 0.01, .regularisation = 0};
+  return {.objective = which, .least = 0.01, .regularization = 0};
 }
 
 }  // namespace
@@ -144,16 +144,16 @@ TEST_CASE("learned mixing: a guide that is the unguided sampler leaves the share
 
 TEST_CASE("learned mixing: the unit of radiance changes nothing") {
   for (const auto which : {MixingObjective::kl, MixingObjective::variance}) {
-    const Settings settings{.objective = which, .regularisation = 0.2};
+    const Settings settings{.objective = which, .regularization = 0.2};
     const double share = learned_share(settings, kApart, 5000, 3);
     CHECK(learned_share(settings, kApart, 5000, 3, 1e4) == doctest::Approx(share).epsilon(1e-4));
   }
 }
 
-TEST_CASE("learned mixing: regularisation pulls towards the initial share") {
-  const double free = learned_share({.initial = 0.6, .regularisation = 0}, kApart, 5000);
-  const double held = learned_share({.initial = 0.6, .regularisation = 0.1}, kApart, 5000);
-  const double bound = learned_share({.initial = 0.6, .regularisation = 100}, kApart, 5000);
+TEST_CASE("learned mixing: regularization pulls towards the initial share") {
+  const double free = learned_share({.initial = 0.6, .regularization = 0}, kApart, 5000);
+  const double held = learned_share({.initial = 0.6, .regularization = 0.1}, kApart, 5000);
+  const double bound = learned_share({.initial = 0.6, .regularization = 100}, kApart, 5000);
   CHECK(held > free + 0.05);
   CHECK(held < 0.55);
   CHECK(bound == doctest::Approx(0.6).epsilon(0.02));
@@ -166,7 +166,7 @@ TEST_CASE("learned mixing: both ways keep their least share") {
 }
 
 TEST_CASE("learned mixing: a region that was long at a limit leaves it at once") {
-  const auto state = LearnedMixing({.least = 0.4, .regularisation = 0}).begin();
+  const auto state = LearnedMixing({.least = 0.4, .regularization = 0}).begin();
   auto fractions = state->update(1, {});
   for (int i = 0; i < 10; ++i) {
     state->absorb(paths(kGuideMisses, fractions->unguided_fraction(0), 1000, 1));

@@ -138,9 +138,9 @@ TEST_CASE("samplers: dimensions, pixels and seeds are uncorrelated") {
             columns[column++].push_back(u.x);
             columns[column++].push_back(u.y);
           }
-          const SampleStream neighbour(*s.sampler, {.index = pixel + 100'000, .sample = i});
+          const SampleStream neighbor(*s.sampler, {.index = pixel + 100'000, .sample = i});
           const SampleStream other_seed(*s.sampler, {.seed = 1, .index = pixel, .sample = i});
-          columns[column++].push_back(neighbour.get_1d(kDimensions[0]));
+          columns[column++].push_back(neighbor.get_1d(kDimensions[0]));
           columns[column++].push_back(other_seed.get_1d(kDimensions[0]));
         }
       }

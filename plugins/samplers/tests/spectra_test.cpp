@@ -45,7 +45,7 @@ double squared_sinc(double x) {
   return x == 0 ? 1 : std::pow(std::sin(angle) / angle, 2);
 }
 
-/// A single realisation's power spreads by as much as its mean, about; six times the error.
+/// A single realization's power spreads by as much as its mean, about; six times the error.
 bool is_near(double power, double expected) {
   return std::abs(power - expected) < 6 * expected / std::sqrt(kPixels);
 }

@@ -144,7 +144,7 @@ TEST_CASE("z_sobol: every level of the z-order has each pairing, over nodes as o
   }
 }
 
-TEST_CASE("z_sobol: errors of neighbours cancel") {
+TEST_CASE("z_sobol: errors of neighbors cancel") {
   const double apart = gain_by_blocks(*SobolSampler().prepare({kWidth, 80}, {}, nullptr));
   CHECK(apart == doctest::Approx(16).epsilon(0.3));
   CHECK(gain_by_blocks(*prepared(4)) > 5 * apart);

@@ -104,7 +104,7 @@ TEST_CASE("points on the axis make no triangles without area, nor do pieces alon
 }
 
 TEST_CASE("smooth normals follow the curve but for creases") {
-  // Of a sphere they point away from the centre, at the poles too.
+  // Of a sphere they point away from the center, at the poles too.
   const Lathe ball({.profile = half_circle(32), .crease = 30});
   for (std::size_t i = 0; i < ball.mesh()->positions.size(); ++i) {
     // On the axis each vertex serves one facet only, at its middle azimuth.

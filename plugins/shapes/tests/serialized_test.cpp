@@ -95,7 +95,7 @@ TEST_CASE("serialized: versions 3 and 4, single and double precision") {
   }
 }
 
-TEST_CASE("serialized: normals, texture coordinates from the top, colours and face normals") {
+TEST_CASE("serialized: normals, texture coordinates from the top, colors and face normals") {
   Content content{.flags = 0x1000 | 1 | 2 | 8};
   content.data = bytes<float>({0, 0, 0, 2, 0, 0, 0, 3, 0}) +  //
                  bytes<float>({0, 0, 1, 0, 1, 0, 1, 0, 0}) +  //
@@ -239,7 +239,7 @@ TEST_CASE("serialized: contents that lie or make no sense") {
   CHECK(changed([](Content& c) { c.flags |= 1; }) == "mesh 0: it ends before its 3 normals");
   CHECK(changed([](Content& c) { c.flags |= 2; }) ==
         "mesh 0: it ends before its 3 texture coordinates");
-  CHECK(changed([](Content& c) { c.flags |= 8; }) == "mesh 0: it ends before its 3 colours");
+  CHECK(changed([](Content& c) { c.flags |= 8; }) == "mesh 0: it ends before its 3 colors");
   CHECK(changed([](Content& c) { c.flags = 0x2000; }) == "mesh 0: it ends before its 3 positions");
   CHECK(changed([](Content& c) { c.name = std::string(5000, 'a'); }) ==
         "mesh 0: its name does not end");

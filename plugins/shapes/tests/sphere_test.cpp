@@ -86,7 +86,7 @@ TEST_CASE("to_world may rotate, mirror and scale evenly, and nothing else") {
   CHECK_THROWS_AS(Sphere{settings}, InputError);
 }
 
-TEST_CASE("flipped normals point to the centre, shading normals with them") {
+TEST_CASE("flipped normals point to the center, shading normals with them") {
   const Sphere sphere(Sphere::Settings{.flip_normals = true});
   RandomStream random(5);
   for (int i = 0; i < 100; ++i) {

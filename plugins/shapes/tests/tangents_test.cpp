@@ -1,4 +1,4 @@
-// Tangents of every shape against differences between neighbouring hits, in the world and in
+// Tangents of every shape against differences between neighboring hits, in the world and in
 // instances.
 
 #include <string>
@@ -108,7 +108,7 @@ void check_frame(const SurfacePoint& p) {
   CHECK(std::abs(dot(f.t, du)) < 1e-4f * length(du));
 }
 
-/// Compares hits of neighbouring rays with what the tangents foretell.
+/// Compares hits of neighboring rays with what the tangents foretell.
 void check_tangents(const Scene& scene) {
   const Point3 center = scene.bounds().center();
   const float size = scene.bounds().diagonal(), step = 5e-4f * size;

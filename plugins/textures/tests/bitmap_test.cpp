@@ -114,10 +114,10 @@ TEST_CASE("bitmap: channels go by their names") {
   CHECK(Bitmap({.file = file.path()}).average() == Rgb(1, 2, 3));
 }
 
-TEST_CASE("bitmap: grey images") {
+TEST_CASE("bitmap: gray images") {
   Image image(1, 1, {"Y"});
   *image.pixel(0, 0) = 0.75f;
-  const ImageFile file("grey.exr", image);
+  const ImageFile file("gray.exr", image);
   CHECK(Bitmap({.file = file.path()}).average() == Rgb(0.75f));
 }
 

@@ -3,5 +3,5 @@
 #include <pharos/config/module.h>
 
 PHAROS_MODULE(registry) {
-  registry.add<Stripes>("stripes", "Vertical stripes in two colours");
+  registry.add<Stripes>("stripes", "Vertical stripes in two colors");
 }

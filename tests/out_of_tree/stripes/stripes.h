@@ -6,7 +6,7 @@
 #include <pharos/config/registry.h>
 #include <pharos/scene/texture.h>
 
-/// Vertical stripes in two colours.
+/// Vertical stripes in two colors.
 class Stripes final : public pharos::Texture {
  public:
   struct Settings {
@@ -15,8 +15,8 @@ class Stripes final : public pharos::Texture {
     float count = 8;
 
     static void describe(pharos::Schema<Settings>& s) {
-      s.field("first", &Settings::first, "Colour of even stripes").at_least(0);
-      s.field("second", &Settings::second, "Colour of odd stripes").at_least(0);
+      s.field("first", &Settings::first, "Color of even stripes").at_least(0);
+      s.field("second", &Settings::second, "Color of odd stripes").at_least(0);
       s.field("count", &Settings::count, "Stripes in one unit of u").above(0);
     }
   };

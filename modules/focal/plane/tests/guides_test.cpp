@@ -32,10 +32,10 @@ struct Trained {
   }
 
   PathSpaceGuide path_space{kScene.light_height};
-  PathSpaceGuide means{kScene.light_height, {.centre = KernelCentre::neighbours}};
+  PathSpaceGuide means{kScene.light_height, {.center = KernelCenter::neighbors}};
   FocalGuide focal{kScene};
   std::vector<Named> all{
-      {"path space", &path_space}, {"path space, neighbours' means", &means}, {"focal", &focal}};
+      {"path space", &path_space}, {"path space, neighbors' means", &means}, {"focal", &focal}};
 };
 
 const Trained& trained() {
@@ -211,7 +211,7 @@ TEST_CASE("plane guides: the focal guide splats values, before narrowing and aft
 }
 
 TEST_CASE("plane guides: too few paths are no guide") {
-  PathSpaceGuide guide(kScene.light_height, {.neighbours = 3});
+  PathSpaceGuide guide(kScene.light_height, {.neighbors = 3});
   std::vector<Path> paths{{0, 0, 1, 1}, {0.1, 0.1, 1, 1}};
   guide.learn(paths, 0);
   CHECK(guide.at(0) == nullptr);
@@ -224,7 +224,7 @@ TEST_CASE("plane guides: too few paths are no guide") {
 TEST_CASE("plane guides: accumulating keeps the paths of all iterations") {
   const std::vector<Path> paths(4, {0.3, 0.2, 1, 1});
   for (const bool accumulate : {false, true}) {
-    PathSpaceGuide guide(kScene.light_height, {.neighbours = 3, .accumulate = accumulate});
+    PathSpaceGuide guide(kScene.light_height, {.neighbors = 3, .accumulate = accumulate});
     guide.learn(paths, 0);
     guide.learn(paths, 1);
     CHECK(guide.guide_paths().size() == (accumulate ? 8 : 4));

@@ -88,9 +88,9 @@ struct FieldConfig {
     multiplies_ = type != PGL_DIRECTIONAL_DISTRIBUTION_QUADTREE;
   }
   void SetSpatialStructureArgMaxDepth(std::size_t) {}
-  void SetUseKnnLookup(bool neighbours) { neighbours_ = neighbours; }
+  void SetUseKnnLookup(bool neighbors) { neighbors_ = neighbors; }
 
-  bool multiplies_ = true, neighbours_ = true;
+  bool multiplies_ = true, neighbors_ = true;
 };
 
 struct SampleStorage {
@@ -113,11 +113,11 @@ struct Field {
   };
 
   Field(Device*, const FieldConfig& config)
-      : multiplies_(config.multiplies_), neighbours_(config.neighbours_) {}
+      : multiplies_(config.multiplies_), neighbors_(config.neighbors_) {}
   Field(Device*, const std::string& file) {
     std::ifstream in(file, std::ios::binary);
     in.read(reinterpret_cast<char*>(&multiplies_), sizeof multiplies_);
-    in.read(reinterpret_cast<char*>(&neighbours_), sizeof neighbours_);
+    in.read(reinterpret_cast<char*>(&neighbors_), sizeof neighbors_);
     in.read(reinterpret_cast<char*>(&bounds_), sizeof bounds_);
     in.read(reinterpret_cast<char*>(&iteration_), sizeof iteration_);
     in.read(reinterpret_cast<char*>(cells_.data()), sizeof cells_);
@@ -128,7 +128,7 @@ struct Field {
   bool Store(const std::string& file) const {
     std::ofstream out(file, std::ios::binary);
     out.write(reinterpret_cast<const char*>(&multiplies_), sizeof multiplies_);
-    out.write(reinterpret_cast<const char*>(&neighbours_), sizeof neighbours_);
+    out.write(reinterpret_cast<const char*>(&neighbors_), sizeof neighbors_);
     out.write(reinterpret_cast<const char*>(&bounds_), sizeof bounds_);
     out.write(reinterpret_cast<const char*>(&iteration_), sizeof iteration_);
     out.write(reinterpret_cast<const char*>(cells_.data()), sizeof cells_);
@@ -162,7 +162,7 @@ struct Field {
            (high(p.z, bounds_.lower.z, bounds_.upper.z) ? 4u : 0u);
   }
 
-  bool multiplies_ = true, neighbours_ = true;
+  bool multiplies_ = true, neighbors_ = true;
   pgl_box3f bounds_{};
   std::size_t iteration_ = 0;
   std::array<Cell, 16> cells_{};  ///< of surfaces, then of volumes
@@ -177,7 +177,7 @@ struct SamplingDistribution {
   bool Init(const Field* field, const pgl_point3f& at, float& sample1D) {
     if (field->GetIteration() == 0 || !field->is_inside(at)) return false;
     std::size_t index = field->index(at);
-    if (field->neighbours_) {
+    if (field->neighbors_) {
       // One time in four the octant beside.
       const bool beside = sample1D < 0.25f;
       index ^= beside ? 1u : 0u;

@@ -1,0 +1,93 @@
+#include <filesystem>
+#include <utility>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <pharos/config/module_loader.h>
+#include <pharos/core/log.h>
+#include <pharos/core/writable.h>
+#include <pharos/experiments/runner/experiment.h>
+#include <pharos/experiments/runner/results_files.h>
+
+#include "commands.h"
+#include "config_options.h"
+#include "interrupt.h"
+#include "progress_bar.h"
+#include "threads.h"
+
+namespace pharos {
+namespace {
+
+struct ExperimentOptions {
+  ConfigOptions config;
+  std::string output;
+  int threads = 0;
+  bool quiet = false;
+};
+
+/// Ends before the work where its results could not be written.
+void check_outputs(const ExperimentConfig& config) {
+  if (!std::filesystem::exists(config.output)) return;
+  for (const char* file : {"results.json", "report.html", "runs.csv", "convergence.csv"}) {
+    check_writable(std::filesystem::path(config.output) / file);
+  }
+}
+
+void report(const ExperimentResults& results) {
+  std::uint64_t invalid = 0;
+  for (const RunRecord& run : results.records) invalid += run.invalid_paths;
+  if (invalid > 0) {
+    log_warning(
+        fmt::format("{} paths had NaN or infinite values and count as black: see the table "
+                    "'invalid paths'",
+                    invalid));
+  }
+  log_info(fmt::format("{}: {} of {} runs{}", (results.folder() / "report.html").string(),
+                       results.records.size(), results.run_count,
+                       results.stopped ? " (interrupted; the same command goes on)" : ""));
+}
+
+int run(const ExperimentOptions& options) {
+  set_log_quiet(options.quiet);
+  const Registry registry = load_default_modules();
+  ExperimentConfig config =
+      load_experiment(options.config.path, options.config.overrides, registry);
+  if (!options.output.empty()) config.output = options.output;
+  ExperimentPlan plan = plan_experiment(config, registry);
+  check_outputs(config);
+
+  const InterruptGuard interrupt;
+  const ExperimentResults results = [&] {
+    ProgressBar bar;
+    ExperimentControl control;
+    control.render.stop = &interrupt.flag();
+    if (!options.quiet) control.render.on_progress = [&bar](const Progress& p) { bar.show(p); };
+    control.on_message = [&bar](const std::string& message) {
+      bar.clear();
+      log_info(message);
+    };
+    return run_experiment(config, std::move(plan), registry, control);
+  }();
+  // A reference that was not finished tells nothing; what was known before stays.
+  if (!results.records.empty()) write_results(results);
+  report(results);
+  return results.stopped ? kInterrupted : kDone;
+}
+
+}  // namespace
+
+void add_experiment_command(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand("experiment", "Compare methods on scenes, and report");
+  const auto options = std::make_shared<ExperimentOptions>();
+  options->config.add_to(*command, "Experiment (YAML)");
+  command->add_option("-o,--output", options->output, "Folder instead of the experiment's");
+  command->add_option("--threads", options->threads, "Number of threads; 0: all cores")
+      ->check(CLI::Range(0, 1024));
+  command->add_flag("-q,--quiet", options->quiet, "Only warnings and errors");
+  command->callback([options, &exit_code] {
+    with_threads(options->threads, [&] { exit_code = run(*options); });
+  });
+}
+
+}  // namespace pharos

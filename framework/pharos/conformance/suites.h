@@ -1,0 +1,40 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <pharos/conformance/check.h>
+#include <pharos/conformance/subjects.h>
+#include <pharos/guiding/contract/guider.h>
+#include <pharos/guiding/contract/learner.h>
+#include <pharos/rendering/filter.h>
+#include <pharos/sampling/sampler.h>
+#include <pharos/scene/bsdf.h>
+#include <pharos/scene/emitter.h>
+#include <pharos/scene/medium.h>
+#include <pharos/scene/sensor.h>
+#include <pharos/scene/shape.h>
+#include <pharos/scene/texture.h>
+
+/// One suite a contract, each in its own file. docs/contracts/conformance.md says what every check
+/// asks and how small an error it finds.
+namespace pharos::conformance {
+
+void check_bsdf(const Bsdf& bsdf, Suite& suite);
+void check_emitter(const Ref<Emitter>& emitter, Suite& suite);
+void check_sensor(const Sensor& sensor, Suite& suite);
+void check_filter(const Filter& filter, Suite& suite);
+void check_texture(const Texture& texture, Suite& suite);
+void check_sampler(const Sampler& sampler, Suite& suite);
+void check_phase_function(const PhaseFunction& phase, Suite& suite);
+void check_medium(const Medium& medium, Suite& suite);
+void check_shape(const Ref<Shape>& shape, Suite& suite);
+/// A guider bound to what a learner of its model learns in small renders.
+void check_guider(const Registry& registry, const Subject& guider, const Subject& learner,
+                  Suite& suite);
+/// A learner, by renders with one of the guiders of its model.
+void check_learner(const Registry& registry, const Subject& learner, const Subject& guider,
+                   Suite& suite);
+
+}  // namespace pharos::conformance

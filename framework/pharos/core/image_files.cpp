@@ -1,0 +1,221 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <mutex>
+#include <new>
+#include <utility>
+
+#include <OpenImageIO/imageio.h>
+
+#include <pharos/core/atomic_file.h>
+#include <pharos/core/error.h>
+#include <pharos/core/export.h>
+#include <pharos/core/image_files.h>
+
+namespace pharos {
+namespace {
+
+constexpr int kLargestEdge = 65536;
+constexpr std::size_t kMostValues = std::size_t{1} << 30;
+
+/// Reading and writing happen on the caller's thread: pools of the image libraries would compete
+/// with the renderer's.
+void keep_to_one_thread() {
+  static const bool done = OIIO::attribute("threads", 1) && OIIO::attribute("exr_threads", -1);
+  static_cast<void>(done);
+}
+
+[[noreturn]] void fail_reading(const std::filesystem::path& path, const std::string& why) {
+  throw InputError("cannot read the image '" + path.string() + "': " + one_line(why));
+}
+
+/// What OpenImageIO says, or `otherwise` when it says nothing.
+std::string reason(const std::string& message, const std::string& otherwise) {
+  return message.empty() ? otherwise : message;
+}
+
+/// While it lives, what libraries print on standard error goes nowhere: libpng prints there what it
+/// also returns. One at a time, as the stream belongs to the whole process.
+class SilentLibraries {
+ public:
+  SilentLibraries() : nowhere_(std::fopen("/dev/null", "w")) {
+    if (nowhere_ != nullptr) stderr = nowhere_;
+  }
+  ~SilentLibraries() {
+    stderr = kept_;
+    if (nowhere_ != nullptr) std::fclose(nowhere_);
+  }
+  SilentLibraries(const SilentLibraries&) = delete;
+  SilentLibraries& operator=(const SilentLibraries&) = delete;
+
+ private:
+  static inline std::mutex mutex_;
+  std::lock_guard<std::mutex> lock_{mutex_};
+  std::FILE* kept_ = stderr;
+  std::FILE* nowhere_;
+};
+
+/// Runs `read` and turns whatever escapes the image libraries into InputError.
+template <class Read>
+auto guarded_read(const std::filesystem::path& path, Read&& read) {
+  const SilentLibraries silent;
+  try {
+    return read();
+  } catch (const Error&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    fail_reading(path, "it does not fit into memory");
+  } catch (const std::exception& e) {
+    fail_reading(path, e.what());
+  }
+}
+
+std::unique_ptr<OIIO::ImageInput> open_image(const std::filesystem::path& path) {
+  keep_to_one_thread();
+  const std::string problem = file_problem(path);
+  if (!problem.empty()) fail_reading(path, problem);
+  // Colors under transparent pixels are wanted as they were stored.
+  OIIO::ImageSpec wishes;
+  wishes.attribute("oiio:UnassociatedAlpha", 1);
+  auto input = OIIO::ImageInput::open(path.string(), &wishes);
+  if (!input) fail_reading(path, reason(OIIO::geterror(), "unknown format"));
+  return input;
+}
+
+void check_extent(const std::filesystem::path& path, const OIIO::ImageSpec& spec) {
+  const std::string size = std::to_string(spec.width) + " x " + std::to_string(spec.height);
+  if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) {
+    fail_reading(path, "it has no pixels (" + size + ")");
+  }
+  if (spec.width > kLargestEdge || spec.height > kLargestEdge) {
+    fail_reading(path, "it has " + size + " pixels, more than " + std::to_string(kLargestEdge) +
+                           " along an edge");
+  }
+  const std::size_t pixels = static_cast<std::size_t>(spec.width) * spec.height;
+  if (pixels > kMostValues / spec.nchannels) {
+    fail_reading(path, "it has " + size + " pixels of " + std::to_string(spec.nchannels) +
+                           " channels, more than 2^30 values");
+  }
+  if (spec.deep || spec.depth > 1) fail_reading(path, "deep and volume images are not supported");
+  const bool whole = spec.x == spec.full_x && spec.y == spec.full_y &&
+                     spec.width == spec.full_width && spec.height == spec.full_height;
+  if (!whole) {
+    fail_reading(path, "its data window (" + size + ") is not its display window (" +
+                           std::to_string(spec.full_width) + " x " +
+                           std::to_string(spec.full_height) + "); save it uncropped");
+  }
+}
+
+void decode_srgb(Image& image, int alpha_channel) {
+  const int channels = image.channel_count();
+  std::vector<float>& values = image.values();
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const bool is_alpha = static_cast<int>(i % channels) == alpha_channel;
+    if (!is_alpha) values[i] = linear_from_srgb(values[i]);
+  }
+}
+
+/// Writes `values` as one image file in the format `format`; throws RunError naming `path`.
+void write_image(const std::filesystem::path& path, const std::string& format,
+                 const OIIO::ImageSpec& spec, OIIO::TypeDesc type, const void* values) {
+  keep_to_one_thread();
+  const auto fail = [&](const std::string& why) {
+    throw RunError("cannot write the image '" + path.string() + "': " + one_line(why));
+  };
+  if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) fail("it has no pixels");
+  write_atomically(path, [&](const std::filesystem::path& temporary) {
+    try {
+      const auto output = OIIO::ImageOutput::create(format);
+      if (!output) fail(reason(OIIO::geterror(), "no writer for " + format));
+      const bool written = output->open(temporary.string(), spec) &&
+                           output->write_image(type, values) && output->close();
+      if (!written) fail(reason(output->geterror(), "unknown reason"));
+    } catch (const Error&) {
+      throw;
+    } catch (const std::exception& e) {
+      fail(e.what());
+    }
+  });
+}
+
+/// Fit of the ACES filmic curve (Narkowicz 2015, "ACES Filmic Tone Mapping Curve"), to [0, 1].
+float filmic_curve(float x) {
+  constexpr float saturated = 1e4f;  // the curve has long reached 1; keeps infinity from NaN
+  x = std::min(x, saturated);
+  return x * (2.51f * x + 0.03f) / (x * (2.43f * x + 0.59f) + 0.14f);
+}
+
+std::uint8_t display_byte(float linear, float scale, bool filmic) {
+  const float positive = std::max(0.0f, linear * scale);  // NaN becomes 0
+  const float shown = std::min(1.0f, filmic ? filmic_curve(positive) : positive);
+  return static_cast<std::uint8_t>(std::lround(255 * srgb_from_linear(shown)));
+}
+
+Image read_image_file(const std::filesystem::path& path, ColorSpace integer_formats) {
+  return guarded_read(path, [&] {
+    const auto input = open_image(path);
+    const OIIO::ImageSpec& spec = input->spec();
+    check_extent(path, spec);
+    Image image(spec.width, spec.height, spec.channelnames);
+    const bool complete =
+        input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.values().data());
+    // Some readers fill what is missing, report success and leave only a message.
+    if (!complete || input->has_error()) {
+      fail_reading(path, reason(input->geterror(), "it is cut off or damaged"));
+    }
+    const bool encoded = !spec.format.is_floating_point() && integer_formats == ColorSpace::srgb;
+    if (encoded) decode_srgb(image, spec.alpha_channel);
+    return image;
+  });
+}
+
+Metadata read_file_metadata(const std::filesystem::path& path) {
+  return guarded_read(path, [&] {
+    Metadata metadata;
+    const auto input = open_image(path);
+    for (const auto& entry : input->spec().extra_attribs) {
+      if (entry.type() == OIIO::TypeDesc::STRING) {
+        metadata[entry.name().string()] = entry.get_string();
+      }
+    }
+    return metadata;
+  });
+}
+
+void write_exr_file(const Image& image, const std::filesystem::path& path,
+                    const Metadata& metadata) {
+  OIIO::ImageSpec spec(image.width(), image.height(), image.channel_count(), OIIO::TypeDesc::FLOAT);
+  spec.channelnames = image.channels();
+  for (const auto& [key, text] : metadata) spec.attribute(key, text);
+  spec.attribute("compression", "zip");
+  spec.attribute("DateTime", "");  // else the time of writing, which makes equal images differ
+  write_image(path, "openexr", spec, OIIO::TypeDesc::FLOAT, image.values().data());
+}
+
+void write_png_file(const Image& image, const std::filesystem::path& path, float exposure,
+                    bool filmic) {
+  const float scale = std::exp2(exposure);
+  const int shown = image.channel_count() < 3 ? 1 : 3;
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(static_cast<std::size_t>(image.width()) * image.height() * shown);
+  for (int y = 0; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x) {
+      const float* p = image.pixel(x, y);
+      for (int c = 0; c < shown; ++c) bytes.push_back(display_byte(p[c], scale, filmic));
+    }
+  }
+  OIIO::ImageSpec spec(image.width(), image.height(), shown, OIIO::TypeDesc::UINT8);
+  spec.attribute("oiio:ColorSpace", "sRGB");
+  write_image(path, "png", spec, OIIO::TypeDesc::UINT8, bytes.data());
+}
+
+const ImageFiles kImageFiles{read_image_file, read_file_metadata, write_exr_file, write_png_file};
+
+}  // namespace
+}  // namespace pharos
+
+extern "C" PHAROS_EXPORT const pharos::ImageFiles* pharos_image_files() {
+  return &pharos::kImageFiles;
+}

@@ -1,0 +1,199 @@
+#pragma once
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <initializer_list>
+
+#if defined(__AVX__)
+#include <immintrin.h>
+#endif
+
+/// Numbers that are computed with side by side: vectors of the compiler, whose operators work
+/// element by element, and the functions that these do not have. Comparisons give masks; `mask ? a
+/// : b` chooses element by element.
+namespace pharos {
+
+using Float8 = float __attribute__((vector_size(32)));
+using Double4 = double __attribute__((vector_size(32)));
+using Mask8 = std::int32_t __attribute__((vector_size(32)));
+using Mask4 = std::int64_t __attribute__((vector_size(32)));
+
+/// Four singles: a step on the way to and from memory.
+using Float4 = float __attribute__((vector_size(16)));
+
+/// The same number at all places. (A difference, as x + 0 may not be left out.)
+inline Float8 all8(float x) {
+  return x - Float8{};
+}
+inline Double4 all4(double x) {
+  return x - Double4{};
+}
+
+/// Four neighbors in memory; the address needs no alignment.
+inline Double4 load4(const double* from) {
+  Double4 x;
+  std::memcpy(&x, from, sizeof x);
+  return x;
+}
+
+/// Element i of each of four vectors, for all i.
+struct Transposed4 {
+  Float4 rows[4];
+};
+inline Transposed4 transposed(const Float4& a, const Float4& b, const Float4& c, const Float4& d) {
+  const Float4 ab_low = __builtin_shufflevector(a, b, 0, 4, 1, 5);
+  const Float4 ab_high = __builtin_shufflevector(a, b, 2, 6, 3, 7);
+  const Float4 cd_low = __builtin_shufflevector(c, d, 0, 4, 1, 5);
+  const Float4 cd_high = __builtin_shufflevector(c, d, 2, 6, 3, 7);
+  return {{__builtin_shufflevector(ab_low, cd_low, 0, 1, 4, 5),
+           __builtin_shufflevector(ab_low, cd_low, 2, 3, 6, 7),
+           __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5),
+           __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7)}};
+}
+
+/// The same numbers in double precision.
+inline Double4 widened(const Float4& x) {
+#if defined(__AVX__)
+  return _mm256_cvtps_pd(x);
+#else
+  return __builtin_convertvector(x, Double4);
+#endif
+}
+
+inline Float8 sqrt(const Float8& x) {
+#if defined(__AVX__)
+  return _mm256_sqrt_ps(x);
+#else
+  Float8 r;
+  for (int i = 0; i < 8; ++i) r[i] = std::sqrt(x[i]);
+  return r;
+#endif
+}
+
+/// Eight doubles, in two registers whose operations can run at the same time.
+struct Double8 {
+  Double4 low, high;
+
+  friend Double8 operator+(const Double8& a, const Double8& b) {
+    return {a.low + b.low, a.high + b.high};
+  }
+  friend Double8 operator-(const Double8& a, const Double8& b) {
+    return {a.low - b.low, a.high - b.high};
+  }
+  friend Double8 operator*(const Double8& a, const Double8& b) {
+    return {a.low * b.low, a.high * b.high};
+  }
+  friend Double8 operator/(const Double8& a, const Double8& b) {
+    return {a.low / b.low, a.high / b.high};
+  }
+  friend Double8 operator-(const Double8& a) { return {-a.low, -a.high}; }
+};
+inline Double8 all_doubles8(double x) {
+  return {all4(x), all4(x)};
+}
+
+inline Double8 widened(const Float8& x) {
+  return {widened(__builtin_shufflevector(x, x, 0, 1, 2, 3)),
+          widened(__builtin_shufflevector(x, x, 4, 5, 6, 7))};
+}
+
+/// Numbers of double precision rounded to single.
+inline Float8 rounded(const Double8& x) {
+#if defined(__AVX__)
+  return _mm256_set_m128(_mm256_cvtpd_ps(x.high), _mm256_cvtpd_ps(x.low));
+#else
+  Float8 r;
+  for (int i = 0; i < 4; ++i) {
+    r[i] = static_cast<float>(x.low[i]);
+    r[i + 4] = static_cast<float>(x.high[i]);
+  }
+  return r;
+#endif
+}
+
+/// The larger of two numbers.
+inline Float8 larger(const Float8& a, const Float8& b) {
+#if defined(__AVX__)
+  return _mm256_max_ps(a, b);
+#else
+  return a > b ? a : b;
+#endif
+}
+inline Double4 larger(const Double4& a, const Double4& b) {
+#if defined(__AVX__)
+  return _mm256_max_pd(a, b);
+#else
+  return a > b ? a : b;
+#endif
+}
+inline Float8 absolute(const Float8& x) {
+  return larger(x, -x);
+}
+
+/// Whether the mask is set anywhere.
+inline bool any(const Mask8& mask) {
+#if defined(__AVX__)
+  return _mm256_movemask_ps(std::bit_cast<__m256>(mask)) != 0;
+#else
+  std::int32_t bits = 0;
+  for (int i = 0; i < 8; ++i) bits |= mask[i];
+  return bits != 0;
+#endif
+}
+
+/// Sums of all, always added in the same order.
+inline float sum(const Float8& x) {
+  const Float4 four =
+      __builtin_shufflevector(x, x, 0, 1, 2, 3) + __builtin_shufflevector(x, x, 4, 5, 6, 7);
+  const Float4 two = four + __builtin_shufflevector(four, four, 2, 3, 0, 1);
+  return two[0] + two[1];
+}
+inline double sum(const Double4& x) {
+  return (x[0] + x[2]) + (x[1] + x[3]);
+}
+
+/// 2^x for x below 128, relative error below 3e-7; 0 below -126. (And
+/// 2^-126 for what is not a number.)
+inline Float8 exp2(const Float8& x) {
+  constexpr float kRound = 0x1.8p23f;  // added, it leaves no room for fractions
+  constexpr float kLeast = -126;
+  const Float8 bounded = larger(x, all8(kLeast));
+  const Float8 shifted = bounded + kRound;
+  const Float8 r = bounded - (shifted - kRound);
+  // Taylor's polynomial of degree 6, in few steps that wait for each other.
+  const Float8 r2 = r * r;
+  const Float8 high = (9.61812911e-3f + r * 1.33335581e-3f) + r2 * 1.54035304e-4f;
+  const Float8 p = (1 + r * 0.693147181f) + r2 * ((0.240226507f + r * 5.55041087e-2f) + r2 * high);
+  const Mask8 exponent = (std::bit_cast<Mask8>(shifted) + 127) << 23;
+  return x < kLeast ? Float8{} : p * std::bit_cast<Float8>(exponent);
+}
+
+inline constexpr float kLog2E = 1.44269504f;
+
+/// e^x for x below 88; 0 below -87. The relative error is that of 2^x and 1e-7 times |x|.
+inline Float8 exp(const Float8& x) {
+  return exp2(x * kLog2E);
+}
+
+/// e^x for x below 709, relative error below 1e-15; 0 below -708.
+inline Double4 exp(const Double4& x) {
+  constexpr double kOverLn2 = 1.4426950408889634;
+  constexpr double kLn2High = 0x1.62e42fefa38p-1, kLn2Low = 0x1.ef35793c7673p-45;
+  constexpr double kRound = 0x1.8p52;
+  constexpr double kLeast = -708;
+  const Double4 bounded = larger(x, all4(kLeast));
+  const Double4 shifted = bounded * kOverLn2 + kRound;
+  const Double4 n = shifted - kRound;
+  const Double4 r = (bounded - n * kLn2High) - n * kLn2Low;
+  Double4 p = all4(1.0 / 6227020800);
+  for (const double c : {1.0 / 479001600, 1.0 / 39916800, 1.0 / 3628800, 1.0 / 362880, 1.0 / 40320,
+                         1.0 / 5040, 1.0 / 720, 1.0 / 120, 1.0 / 24, 1.0 / 6, 0.5, 1.0, 1.0}) {
+    p = p * r + c;
+  }
+  const Mask4 exponent = (std::bit_cast<Mask4>(shifted) + 1023) << 52;
+  return x < kLeast ? Double4{} : p * std::bit_cast<Double4>(exponent);
+}
+
+}  // namespace pharos

@@ -1,0 +1,74 @@
+#include <fstream>
+#include <set>
+#include <sstream>
+#include <xxhash.h>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <pharos/core/error.h>
+#include <pharos/experiments/runner/content_key.h>
+
+namespace pharos {
+namespace {
+
+/// The files beside a glTF file that its buffers lie in.
+std::vector<std::filesystem::path> buffers_of(const std::filesystem::path& gltf) {
+  std::vector<std::filesystem::path> files;
+  std::ifstream in(gltf);
+  const auto document = nlohmann::json::parse(in, nullptr, false);
+  if (!document.is_object() || !document.contains("buffers")) return files;
+  for (const auto& buffer : document["buffers"]) {
+    if (!buffer.is_object() || !buffer.contains("uri") || !buffer["uri"].is_string()) continue;
+    const std::string uri = buffer["uri"];
+    if (!uri.starts_with("data:")) files.push_back(gltf.parent_path() / uri);
+  }
+  return files;
+}
+
+/// A file with those that it names in turn.
+std::string key_of_input(const std::filesystem::path& path) {
+  std::string keys = content_key_of_file(path);
+  if (path.extension() != ".gltf") return keys;
+  for (const std::filesystem::path& buffer : buffers_of(path)) keys += content_key_of_file(buffer);
+  return content_key(keys);
+}
+
+/// Replaces every scalar that is the path of one of `files` by what is in it.
+void replace_paths(ConfigNode& node, const std::set<std::string>& files) {
+  if (node.is_scalar() && files.contains(node.text())) {
+    node = ConfigNode::scalar(key_of_input(node.text()));
+  }
+  for (ConfigNode& item : node.items()) replace_paths(item, files);
+  for (ConfigNode::Entry& entry : node.entries()) replace_paths(entry.value, files);
+}
+
+}  // namespace
+
+std::string content_key(std::string_view text) {
+  const XXH128_hash_t hash = XXH3_128bits(text.data(), text.size());
+  return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+}
+
+std::string content_key_of_file(const std::filesystem::path& path) {
+  const std::string problem = file_problem(path);
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream content;
+  content << in.rdbuf();
+  if (!problem.empty() || !in || in.bad()) {
+    throw RunError(fmt::format("{}: error: cannot be read{}", path.string(),
+                               problem.empty() ? "" : ": " + problem));
+  }
+  return content_key(content.str());
+}
+
+std::string content_key(const LoadedConfig& loaded) {
+  std::set<std::string> files;
+  for (const std::filesystem::path& file : loaded.files) files.insert(file.string());
+  ConfigNode node = loaded.resolved;
+  node.take("output");
+  replace_paths(node, files);
+  return content_key(to_yaml(node));
+}
+
+}  // namespace pharos

@@ -1,0 +1,177 @@
+#include <array>
+#include <cstdlib>
+
+#include <fmt/format.h>
+
+#include <pharos/core/file_lock.h>
+#include <pharos/core/user_cache.h>
+#include <pharos/core/version.h>
+#include <pharos/experiments/metrics/metrics.h>
+#include <pharos/experiments/runner/build_key.h>
+#include <pharos/experiments/runner/content_key.h>
+#include <pharos/experiments/runner/reference.h>
+
+namespace pharos {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Seeds of references: far from those that runs have.
+constexpr std::uint64_t kReferenceSeed = std::uint64_t{1} << 40;
+
+/// The mean of some images of one size.
+class MeanImage {
+ public:
+  void add(const Image& image) {
+    if (count_ == 0) {
+      sum_.assign(image.values().size(), 0.0);
+      mean_ = image;
+    }
+    for (std::size_t i = 0; i < sum_.size(); ++i) sum_[i] += image.values()[i];
+    ++count_;
+  }
+  Image mean() const {
+    Image image = mean_;
+    for (std::size_t i = 0; i < sum_.size(); ++i) {
+      image.values()[i] = static_cast<float>(sum_[i] / count_);
+    }
+    return image;
+  }
+
+ private:
+  std::vector<double> sum_;
+  Image mean_;
+  int count_ = 0;
+};
+
+std::string text_at(const Metadata& metadata, const std::string& key) {
+  const auto entry = metadata.find(key);
+  return entry == metadata.end() ? "" : entry->second;
+}
+
+/// Empty where there is none.
+std::optional<double> number_at(const Metadata& metadata, const std::string& key) {
+  const std::string text = text_at(metadata, key);
+  if (text.empty()) return std::nullopt;
+  return std::strtod(text.c_str(), nullptr);
+}
+
+/// References of one cache folder, by key; parts of those that are not finished stand beside.
+class Cache {
+ public:
+  Cache(fs::path folder, std::string key, const PlannedReference& planned)
+      : folder_(std::move(folder)), key_(std::move(key)), planned_(planned) {}
+
+  std::optional<Reference> find() const {
+    const fs::path file = path();
+    if (!fs::exists(file)) return std::nullopt;
+    const Metadata metadata = read_metadata(file);
+    Reference reference{
+        .image = read_reference(file, planned_.width, planned_.height), .key = key_, .file = file};
+    reference.samples_per_pixel = number_at(metadata, "pharos:samples_per_pixel").value_or(0);
+    reference.seconds = number_at(metadata, "pharos:seconds").value_or(0);
+    reference.mse = number_at(metadata, "pharos:own_mse");
+    reference.relative_mse = number_at(metadata, "pharos:own_relative_mse");
+    reference.version = text_at(metadata, "pharos:version");
+    reference.build = text_at(metadata, "pharos:build");
+    return reference;
+  }
+
+  bool has_part(std::uint32_t part) const { return fs::exists(part_path(part)); }
+
+  void keep_part(std::uint32_t part, const RenderResult& result) const {
+    write_exr(select_layers(result.image, {}), part_path(part),
+              {{"pharos:version", version()},
+               {"pharos:samples_per_pixel", fmt::format("{}", result.samples_per_pixel)},
+               {"pharos:seconds", fmt::format("{}", result.times.budgeted())}});
+  }
+
+  /// Makes the whole of its parts.
+  void finish(const std::string& config, const std::string& build) const {
+    MeanImage whole;
+    std::array<MeanImage, 2> halves;
+    double samples = 0, seconds = 0;
+    for (std::uint32_t part = 0; part < planned_.parts; ++part) {
+      const Image image = read_reference(part_path(part), planned_.width, planned_.height);
+      const Metadata metadata = read_metadata(part_path(part));
+      whole.add(image);
+      halves[part % 2].add(image);
+      samples += number_at(metadata, "pharos:samples_per_pixel").value_or(0);
+      seconds += number_at(metadata, "pharos:seconds").value_or(0);
+    }
+    // Halves differ by twice the variance of one, which is twice that of the whole.
+    static constexpr std::array<Metric, 2> metrics{Metric::mse, Metric::relative_mse};
+    const ImageErrors difference = measure(halves[0].mean(), halves[1].mean(), metrics);
+    write_exr(
+        whole.mean(), path(),
+        {{"pharos:version", version()},
+         {"pharos:build", build},
+         {"pharos:config", config},
+         {"pharos:parts", std::to_string(planned_.parts)},
+         {"pharos:samples_per_pixel", fmt::format("{}", samples)},
+         {"pharos:seconds", fmt::format("{}", seconds)},
+         {"pharos:own_mse", fmt::format("{}", difference[Metric::mse] / 4)},
+         {"pharos:own_relative_mse", fmt::format("{}", difference[Metric::relative_mse] / 4)}});
+    remove_parts();
+  }
+
+  void remove_parts() const {
+    for (std::uint32_t part = 0; part < planned_.parts; ++part) fs::remove(part_path(part));
+  }
+
+  /// Held by the process that renders this reference.
+  fs::path lock_path() const { return folder_ / (key_ + ".lock"); }
+
+ private:
+  fs::path path() const { return folder_ / (key_ + ".exr"); }
+  fs::path part_path(std::uint32_t part) const {
+    return folder_ / fmt::format("{}.part-{}.exr", key_, part);
+  }
+
+  fs::path folder_;
+  std::string key_;
+  const PlannedReference& planned_;
+};
+
+}  // namespace
+
+fs::path default_reference_cache() {
+  return user_cache_folder() / "references";
+}
+
+std::optional<Reference> find_or_render(const PlannedReference& planned,
+                                        const fs::path& cache_folder, const Registry& registry,
+                                        const RenderControl& control, const PartReport& report) {
+  if (planned.parts == 0) {
+    Reference given{.image = read_reference(planned.file, planned.width, planned.height),
+                    .file = planned.file};
+    const std::vector<float>& values = given.image.values();
+    given.key =
+        content_key({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float)});
+    return given;
+  }
+  const LoadedConfig whole = build_run(planned.config, kReferenceSeed, registry);
+  const Cache cache(cache_folder,
+                    content_key(content_key(whole) + fmt::format(" in {}", planned.parts)),
+                    planned);
+  fs::create_directories(cache_folder);
+  // Another process may be rendering the same: its result is then ours.
+  const auto lock = FileLock::wait(cache.lock_path(), control.stop);
+  if (!lock) return std::nullopt;
+  if (std::optional<Reference> known = cache.find()) {
+    cache.remove_parts();  // of a process that ended before it could
+    return known;
+  }
+  for (std::uint32_t part = 0; part < planned.parts; ++part) {
+    if (cache.has_part(part)) continue;
+    report(part, planned.parts);
+    const LoadedConfig loaded = build_run(planned.config, kReferenceSeed + part, registry);
+    const RenderResult result = RenderJob(loaded.config).run(control);
+    if (result.stopped) return std::nullopt;
+    cache.keep_part(part, result);
+  }
+  cache.finish(to_yaml(whole.resolved), build_key(whole.resolved, registry));
+  return cache.find();
+}
+
+}  // namespace pharos

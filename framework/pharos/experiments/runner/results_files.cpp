@@ -1,0 +1,145 @@
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <pharos/core/atomic_file.h>
+#include <pharos/core/version.h>
+#include <pharos/experiments/metrics/summary.h>
+#include <pharos/experiments/runner/results_files.h>
+#include <pharos/experiments/tables/json_number.h>
+
+namespace pharos {
+namespace {
+
+using nlohmann::json;
+
+/// Of results.json.
+constexpr int kFormat = 1;
+
+/// The shortest text that reads as the same number; empty for what is not known.
+std::string csv_number(double value) {
+  return std::isnan(value) ? "" : fmt::format("{}", value);
+}
+
+json reference_json(const Reference& reference) {
+  json node{{"file", reference.file.string()}, {"key", reference.key}};
+  if (reference.samples_per_pixel > 0) {
+    node["samples_per_pixel"] = reference.samples_per_pixel;
+    node["seconds"] = reference.seconds;
+    node["version"] = reference.version;
+    node["own_mse"] = json_number<json>(reference.mse);
+    node["own_relative_mse"] = json_number<json>(reference.relative_mse);
+  }
+  return node;
+}
+
+json interval_json(const std::optional<Interval>& interval) {
+  if (!interval) return nullptr;
+  return json::array({json_number<json>(interval->low), json_number<json>(interval->high)});
+}
+
+json cell_json(const ReportCell& cell) {
+  return {{"value", json_number<json>(cell.value)},
+          {"interval", interval_json(cell.interval)},
+          {"ratio", json_number<json>(cell.ratio)},
+          {"ratio_interval", interval_json(cell.ratio_interval)}};
+}
+
+/// Measure -> scene -> method -> cell.
+json tables_json(const Report& report) {
+  json tables = json::object();
+  for (const ReportTable& table : report.tables) {
+    json& node = tables[table.key];
+    node["unit"] = table.unit;
+    for (const ReportTable::Row& row : table.rows) {
+      for (std::size_t m = 0; m < row.cells.size(); ++m) {
+        node["scenes"][row.scene][report.methods[m]] = cell_json(row.cells[m]);
+      }
+    }
+  }
+  return tables;
+}
+
+json slopes_json(const Report& report) {
+  json slopes = json::array();
+  for (const ReportCurve& curve : report.curves) {
+    slopes.push_back({{"scene", curve.scene},
+                      {"method", curve.method},
+                      {"metric", curve.metric},
+                      {"axis", curve.axis},
+                      {"slope", json_number<json>(curve.slope)},
+                      {"interval", interval_json(curve.slope_interval)}});
+  }
+  return slopes;
+}
+
+json results_json(const ExperimentResults& results, const Report& report) {
+  json node{{"format", kFormat},
+            {"version", version()},
+            {"title", results.config.title},
+            {"baseline", results.config.baseline},
+            {"complete", results.records.size() == results.run_count}};
+  for (const auto& [name, value] : report.facts) node["facts"][name] = value;
+  for (std::size_t s = 0; s < results.references.size(); ++s) {
+    node["references"][results.config.scenes[s].name] = reference_json(results.references[s]);
+  }
+  for (const PlannedCell& cell : results.plan.cells) {
+    node["configs"][results.config.scenes[cell.scene].name]
+        [results.config.methods[cell.method].name] = cell.text;
+  }
+  node["runs"] = json::array();
+  for (const RunRecord& record : results.records) node["runs"].push_back(to_json(record));
+  node["summary"] = tables_json(report);
+  node["slopes"] = slopes_json(report);
+  return node;
+}
+
+}  // namespace
+
+std::string runs_csv(const ExperimentResults& results) {
+  std::string text = "scene,method,seed,samples_per_pixel";
+  for (const MetricInfo& info : metric_infos()) text += fmt::format(",{}", info.key);
+  text +=
+      ",invalid_pixels,invalid_paths,rays,model_bytes,seconds_preparation,seconds_sampler,"
+      "seconds_training,seconds_update,seconds_rendering,peak_bytes,version\n";
+  for (const RunRecord& run : results.records) {
+    text += fmt::format("{},{},{},{}", run.scene, run.method, run.seed, run.samples_per_pixel);
+    for (const MetricInfo& info : metric_infos()) text += "," + csv_number(run.errors[info.metric]);
+    text += fmt::format(",{},{},{},{},{},{},{},{},{},{},{}\n", run.errors.invalid_pixels,
+                        run.invalid_paths, run.rays, run.model_bytes, run.times.preparation,
+                        run.times.sampler, run.times.training, run.times.update,
+                        run.times.rendering, csv_number(run.peak_bytes.value_or(NAN)), run.version);
+  }
+  return text;
+}
+
+std::string convergence_csv(const ExperimentResults& results) {
+  std::string text = "scene,method,seed,samples_per_pixel,seconds";
+  for (const Metric metric : checkpoint_metrics()) {
+    text += fmt::format(",{}", metric_info(metric).key);
+  }
+  text += "\n";
+  for (const RunRecord& run : results.records) {
+    for (const Checkpoint& checkpoint : run.checkpoints) {
+      text += fmt::format("{},{},{},{},{}", run.scene, run.method, run.seed,
+                          checkpoint.samples_per_pixel, checkpoint.seconds);
+      for (const Metric metric : checkpoint_metrics()) {
+        text += "," + csv_number(checkpoint.errors[metric]);
+      }
+      text += "\n";
+    }
+  }
+  return text;
+}
+
+void write_results(const ExperimentResults& results) {
+  const std::filesystem::path folder = results.folder();
+  std::filesystem::create_directories(folder);
+  const Report report = experiment_report(results);
+  write_text_atomically(folder / "results.json", results_json(results, report).dump(1) + "\n");
+  write_text_atomically(folder / "runs.csv", runs_csv(results));
+  write_text_atomically(folder / "convergence.csv", convergence_csv(results));
+  write_report(report, folder / "report.html");
+}
+
+}  // namespace pharos

@@ -1,0 +1,135 @@
+#include <ctime>
+#include <map>
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <pharos/core/version.h>
+#include <pharos/experiments/metrics/summary.h>
+#include <pharos/experiments/runner/machine.h>
+#include <pharos/experiments/runner/results_files.h>
+
+namespace pharos {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string budget_text(const Budget& budget) {
+  return budget.spp ? fmt::format("{} samples a pixel", *budget.spp)
+                    : fmt::format("{:g} s", *budget.seconds);
+}
+
+/// The experiment's budget, and the scenes that have their own, by budget.
+std::string budgets_text(const ExperimentConfig& config) {
+  std::map<std::string, std::string> others;
+  for (const ExperimentScene& scene : config.scenes) {
+    if (!scene.budget) continue;
+    std::string& names = others[budget_text(*scene.budget)];
+    names += (names.empty() ? "" : ", ") + scene.name;
+  }
+  std::string text = budget_text(config.budget) + ", training included";
+  for (const auto& [budget, names] : others) text += fmt::format("; {} in {}", budget, names);
+  return text;
+}
+
+std::vector<std::pair<std::string, std::string>> facts_of(const ExperimentResults& results) {
+  std::vector<std::pair<std::string, std::string>> facts{
+      {"Budget of a run", budgets_text(results.config)},
+      {"Seeds", std::to_string(results.config.seeds)},
+      {"Baseline", results.config.baseline},
+      {"Pharos", version()},
+      {"Threads", std::to_string(thread_count())}};
+  if (const std::string name = processor_name(); !name.empty())
+    facts.emplace_back("Processor", name);
+  facts.emplace_back("Written",
+                     fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(std::time(nullptr))));
+  if (results.records.size() < results.run_count) {
+    facts.emplace_back("Incomplete", fmt::format("{} of {} runs are done", results.records.size(),
+                                                 results.run_count));
+  }
+  return facts;
+}
+
+std::string reference_note(const Reference& reference) {
+  if (reference.samples_per_pixel == 0) {
+    return fmt::format("Reference: {}.", reference.file.filename().string());
+  }
+  std::string note = fmt::format("Reference: {:g} samples a pixel in {:.0f} s by Pharos {}.",
+                                 reference.samples_per_pixel, reference.seconds, reference.version);
+  if (reference.relative_mse) {
+    note += fmt::format(" Its own expected relMSE is {:.2g}, its MSE {:.2g}.",
+                        *reference.relative_mse, *reference.mse);
+  }
+  return note;
+}
+
+ReportImage method_image(const fs::path& file, const std::string& method, const Image& reference) {
+  ReportImage image{.label = method, .image = read_image(file), .error_maps = {}};
+  for (const Metric metric : {Metric::relative_mse, Metric::hdr_flip}) {
+    image.error_maps.push_back(
+        {std::string(metric_info(metric).title), error_map(metric, image.image, reference)});
+  }
+  return image;
+}
+
+/// The pictures that stand beside a run's image.
+std::vector<ReportPicture> pictures_of(const fs::path& run, const std::string& method) {
+  std::vector<ReportPicture> pictures;
+  for (const char* name : {"slice-x", "slice-y", "slice-z", "directions"}) {
+    const fs::path file = run.string() + "." + name + ".exr";
+    if (!fs::exists(file)) continue;
+    const Metadata metadata = read_metadata(file);
+    const auto caption = metadata.find("pharos:caption");
+    pictures.push_back(
+        {method + ": " + (caption == metadata.end() ? name : caption->second), read_image(file)});
+  }
+  return pictures;
+}
+
+ReportScene scene_of(const ExperimentResults& results, std::size_t index) {
+  const std::string& name = results.config.scenes[index].name;
+  const Reference& reference = results.references[index];
+  ReportScene scene{.name = name, .note = reference_note(reference), .images = {}, .pictures = {}};
+  for (const ExperimentMethod& method : results.config.methods) {
+    if (results.find(name, method.name, results.config.first_seed) == nullptr) continue;
+    const fs::path run = results.run_file(name, method.name, results.config.first_seed, "");
+    const fs::path file = run.string() + ".exr";
+    scene.images.push_back(method_image(file, method.name, reference.image));
+    for (ReportPicture& picture : pictures_of(run, method.name)) {
+      scene.pictures.push_back(std::move(picture));
+    }
+  }
+  scene.images.push_back({.label = "reference", .image = reference.image, .error_maps = {}});
+  return scene;
+}
+
+}  // namespace
+
+Report experiment_report(const ExperimentResults& results) {
+  Report report{.title = results.config.title,
+                .description = results.config.description,
+                .facts = facts_of(results),
+                .methods = {},
+                .baseline = results.config.baseline,
+                .tables = summary_tables(results),
+                .curves = convergence_curves(results),
+                .scenes = {},
+                .texts = {}};
+  for (const ExperimentMethod& method : results.config.methods) {
+    report.methods.push_back(method.name);
+  }
+  report.tables.push_back(equal_error_table(results));
+  for (std::size_t s = 0; s < results.references.size(); ++s) {
+    report.scenes.push_back(scene_of(results, s));
+  }
+  report.texts.push_back({"runs.csv", runs_csv(results)});
+  report.texts.push_back({"convergence.csv", convergence_csv(results)});
+  for (const PlannedCell& cell : results.plan.cells) {
+    report.texts.push_back({fmt::format("{}, {}.yaml", results.config.scenes[cell.scene].name,
+                                        results.config.methods[cell.method].name),
+                            cell.text});
+  }
+  return report;
+}
+
+}  // namespace pharos

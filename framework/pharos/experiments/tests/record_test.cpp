@@ -1,0 +1,60 @@
+#include <limits>
+
+#include <doctest/doctest.h>
+
+#include <pharos/experiments/runner/run_record.h>
+
+#include "../../tests/fixtures.h"
+
+using namespace pharos;
+
+namespace {
+
+RunRecord full_record() {
+  RunRecord record{.key = "k",
+                   .version = "1.2.3",
+                   .scene = "s",
+                   .method = "m",
+                   .seed = std::numeric_limits<std::uint64_t>::max(),
+                   .samples_per_pixel = 0.1,
+                   .times = {0.1, 0.2, 0.3, 1.0 / 3},
+                   .rays = 5,
+                   .invalid_paths = 6,
+                   .model_bytes = 7,
+                   .peak_bytes = 8.5,
+                   .errors = {},
+                   .checkpoints = {}};
+  record.errors[Metric::mse] = 1.0 / 7;
+  record.errors[Metric::psnr] = std::numeric_limits<double>::infinity();
+  record.errors.invalid_pixels = 9;
+  record.checkpoints.push_back({2, 0.5, record.errors});
+  return record;
+}
+
+}  // namespace
+
+TEST_CASE("records come back as they were, to the bit") {
+  const test::TemporaryFolder folder;
+  const RunRecord record = full_record();
+  save_record(record, folder / "r.json");
+  const auto loaded = load_record(folder / "r.json");
+  REQUIRE(loaded);
+  CHECK(loaded->key == record.key);
+  CHECK(loaded->seed == record.seed);
+  CHECK(loaded->times.rendering == record.times.rendering);
+  CHECK(loaded->errors[Metric::mse] == record.errors[Metric::mse]);
+  CHECK(loaded->errors[Metric::psnr] == record.errors[Metric::psnr]);
+  CHECK(std::isnan(loaded->errors[Metric::flip]));
+  CHECK(loaded->errors.invalid_pixels == 9);
+  CHECK(loaded->checkpoints.at(0).errors[Metric::mse] == record.errors[Metric::mse]);
+  CHECK(*loaded->peak_bytes == 8.5);
+}
+
+TEST_CASE("no file, a cut file and one of another format are no records") {
+  const test::TemporaryFolder folder;
+  CHECK_FALSE(load_record(folder / "none.json"));
+  CHECK_FALSE(load_record(folder.write("cut.json", "{\"format\": 1, \"key\": \"")));
+  CHECK_FALSE(load_record(folder.write("other.json", "{\"format\": 99}")));
+  CHECK_FALSE(load_record(folder.write("list.json", "[1, 2]")));
+  CHECK_FALSE(load_record(folder.write("bare.json", "{\"format\": 1, \"key\": 3}")));
+}

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <string_view>
+
+#include <pharos/core/arena.h>
+#include <pharos/core/vec.h>
+#include <pharos/guiding/contract/guider.h>
+
+namespace pharos {
+
+/// One component of a mixture of 3D Gaussians over positions of the next vertex.
+struct SpatialGaussian {
+  float weight = 0;  ///< >= 0; the weights of a mixture sum to 1
+  Point3 mean;
+  /// Lower triangle of the Cholesky factor L of the covariance, Sigma = L L^T [scene units]:
+  /// l00, l10, l11, l20, l21, l22.
+  float cholesky[6] = {1, 0, 1, 0, 0, 1};
+};
+
+/// L^-1 x: where the Gaussian about the origin is a unit one.
+inline std::array<double, 3> whitened(const SpatialGaussian& g, const std::array<double, 3>& x) {
+  const float* l = g.cholesky;
+  const double a = x[0] / l[0];
+  const double b = (x[1] - l[1] * a) / l[2];
+  return {a, b, (x[2] - l[3] * a - l[4] * b) / l[5]};
+}
+/// L z: a point of the Gaussian about the origin for a point z of the unit one.
+inline Vec3 spread(const SpatialGaussian& g, Vec3 z) {
+  const float* l = g.cholesky;
+  return {l[0] * z.x, l[1] * z.x + l[2] * z.y, l[3] * z.x + l[4] * z.y + l[5] * z.z};
+}
+/// |L|, the root of the covariance's determinant [scene units^3].
+inline double root_determinant(const SpatialGaussian& g) {
+  return double{g.cholesky[0]} * g.cholesky[2] * g.cholesky[5];
+}
+
+/// Neutral contract of models that hold mixtures of 3D Gaussians: guiders of any module can sample
+/// a model that also derives from this. Its name for GuiderTraits and LearnerTraits:
+inline constexpr std::string_view kSpatialMixtureModel = "spatial_mixture";
+
+class SpatialMixture {
+ public:
+  /// A mixture at one vertex and the region it belongs to.
+  struct View {
+    std::span<const SpatialGaussian> components;  ///< empty: nothing known here
+    std::uint32_t region = 0;
+  };
+
+  virtual ~SpatialMixture() = default;
+  /// The mixture of next-vertex positions at a query, perhaps conditioned on its prefix. Lives in
+  /// the model or in `arena`.
+  virtual View mixture_at(const GuidingQuery& query, Arena& arena) const = 0;
+};
+
+}  // namespace pharos

@@ -1,0 +1,89 @@
+#include <algorithm>
+
+#include <pharos/core/binary_stream.h>
+#include <pharos/guiding/toolkit/kd_tree.h>
+
+namespace pharos {
+namespace {
+
+constexpr const char* kHeading = "kd_tree";
+constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kMostNodes = 1u << 25;
+
+void expect(bool holds) {
+  if (!holds) throw InputError("the kd-tree is damaged");
+}
+
+}  // namespace
+
+std::vector<int> KdTree::levels() const {
+  std::vector<int> levels(nodes_.size(), 0);
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    if (nodes_[i].axis() == 3) continue;
+    levels[nodes_[i].index()] = levels[nodes_[i].index() + 1] = levels[i] + 1;
+  }
+  return levels;
+}
+
+int KdTree::depth() const {
+  const std::vector<int> all = levels();
+  return *std::max_element(all.begin(), all.end());
+}
+
+std::vector<std::uint32_t> KdTree::leaves() const {
+  std::vector<std::uint32_t> places(cell_count());
+  for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
+    if (nodes_[i].axis() == 3) places[nodes_[i].index()] = i;
+  }
+  return places;
+}
+
+KdTree::Halves KdTree::divide(std::uint32_t leaf, int axis, float position) {
+  const std::uint32_t number = nodes_[leaf].index(), added = cell_count();
+  const auto first = static_cast<std::uint32_t>(nodes_.size());
+  nodes_[leaf] = {first << 2 | static_cast<std::uint32_t>(axis), position};
+  nodes_.push_back(Node::cell(number));
+  nodes_.push_back(Node::cell(added));
+  return {first, first + 1};
+}
+
+void KdTree::save(std::ostream& out) const {
+  save_heading(out, kHeading, kVersion);
+  save_number(out, static_cast<std::uint32_t>(nodes_.size()));
+  for (const Node& node : nodes_) {
+    save_number(out, node.word);
+    save_number(out, node.position);
+  }
+}
+
+KdTree KdTree::load(std::istream& in) {
+  expect_heading(in, kHeading, kVersion);
+  const auto count = load_number<std::uint32_t>(in);
+  expect(count % 2 == 1 && count <= kMostNodes);
+  KdTree tree;
+  tree.nodes_.clear();
+  // Nodes come one by one, so that a wrong count costs no memory.
+  while (tree.nodes_.size() < count) {
+    const auto word = load_number<std::uint32_t>(in);
+    tree.nodes_.push_back({word, load_finite<float>(in)});
+  }
+  // Every node but the root is a child of one that comes before it, every cell there once.
+  std::vector<bool> has_parent(count, false), is_cell(tree.cell_count(), false);
+  std::vector<int> levels(count, 0);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const Node node = tree.nodes_[i];
+    if (node.axis() == 3) {
+      expect(node.index() < is_cell.size() && !is_cell[node.index()]);
+      is_cell[node.index()] = true;
+      continue;
+    }
+    for (const std::uint32_t child : {node.index(), node.index() + 1}) {
+      expect(child > i && child < count && !has_parent[child] && levels[i] < kMostLevels);
+      has_parent[child] = true;
+      levels[child] = levels[i] + 1;
+    }
+  }
+  return tree;
+}
+
+}  // namespace pharos

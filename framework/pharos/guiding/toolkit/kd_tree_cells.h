@@ -1,0 +1,199 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <istream>
+#include <numeric>
+#include <ostream>
+#include <span>
+#include <vector>
+
+#include <pharos/core/binary_stream.h>
+#include <pharos/core/counting_sort.h>
+#include <pharos/guiding/toolkit/kd_tree.h>
+
+namespace pharos {
+
+/// How a cell is divided: at the mean of the positions at which its samples began, across the axis
+/// of their largest variance.
+struct CellDivision {
+  bool divides = true;
+  std::uint32_t cell_samples = 32768;  ///< more than these divide a cell
+  int max_depth = 32;                  ///< planes above the deepest cell
+  double decay = 0.25;                 ///< what a cell knows counts so much for each half
+};
+
+/// The cells of a kd-tree, divided where many samples come, each of which learns from the samples
+/// that begin in it. The same for any number of threads.
+///
+/// `Sample` has a Point3 `origin`. `Cell` is a value with
+///
+///     bool knows_something() const;
+///     void forget(double factor);       // what was learned so far counts so many times as much
+///     void save(std::ostream&) const;   static Cell load(std::istream&);
+template <class Sample, class Cell>
+class KdTreeCells {
+ public:
+  /// Divides cells that have too many samples and lets all learn from theirs, concurrently:
+  /// `teach(cell, samples, number)`. The samples are consumed. Cells that know nothing learn before
+  /// they are divided: their halves would know even less.
+  template <class Teach>
+  void learn(std::vector<Sample>& samples, const CellDivision& rule, Teach&& teach) {
+    std::vector<std::size_t> first = sort_by_cell(samples);
+    teach_cells(samples, first, true, teach);
+    const std::size_t undivided = cells_.size();
+    divide_cells(samples, first, rule);
+    if (cells_.size() > undivided) first = sort_by_cell(samples);
+    teach_cells(samples, first, false, teach);
+    for (Place& place : cells_) place.is_done = false;
+    samples.clear();
+  }
+
+  const KdTree& tree() const { return tree_; }
+  std::size_t size() const { return cells_.size(); }
+  Cell& operator[](std::size_t i) { return cells_[i].content; }
+  const Cell& operator[](std::size_t i) const { return cells_[i].content; }
+  bool know_something() const {
+    return std::any_of(cells_.begin(), cells_.end(),
+                       [](const Place& place) { return place.content.knows_something(); });
+  }
+  /// Of each cell the one it was at the last mark_origins(), as for region_origins().
+  const std::vector<std::uint32_t>& origins() const { return origins_; }
+  void mark_origins() { std::iota(origins_.begin(), origins_.end(), 0u); }
+
+  void save(std::ostream& out) const;
+  /// Throws InputError when it is something else or damaged; then all stays as it was.
+  void load(std::istream& in);
+
+ private:
+  /// What is known of the positions at which a cell's samples began.
+  struct Positions {
+    double count = 0, sums[3] = {}, squares[3] = {};
+
+    void add(Point3 p) {
+      ++count;
+      for (int axis = 0; axis < 3; ++axis) {
+        sums[axis] += p[axis];
+        squares[axis] += double{p[axis]} * p[axis];
+      }
+    }
+    int widest_axis() const {
+      const auto variance = [&](int axis) {
+        const double mean = sums[axis] / count;
+        return squares[axis] / count - mean * mean;
+      };
+      int widest = 0;
+      for (const int axis : {1, 2}) {
+        if (variance(axis) > variance(widest)) widest = axis;
+      }
+      return widest;
+    }
+  };
+  struct Place {
+    Cell content;
+    Positions positions;   ///< since the cell was last divided
+    bool is_done = false;  ///< with the samples at hand
+  };
+  /// A cell that may have to be divided.
+  struct Candidate {
+    std::uint32_t leaf, cell;
+    int level;
+  };
+
+  std::vector<std::size_t> sort_by_cell(std::vector<Sample>& samples) const {
+    return sort_by_key(samples, cells_.size(),
+                       [&](std::size_t i) { return tree_.cell_at(samples[i].origin); });
+  }
+
+  /// Lets cells learn that are not done with their samples, which begin at `first`; only those that
+  /// know nothing, if `unknowing`.
+  template <class Teach>
+  void teach_cells(const std::vector<Sample>& samples, const std::vector<std::size_t>& first,
+                   bool unknowing, Teach&& teach) {
+    parallel_for(cells_.size(), [&](std::size_t i) {
+      Place& place = cells_[i];
+      if (place.is_done || (unknowing && place.content.knows_something())) return;
+      teach(place.content,
+            std::span<const Sample>(samples.data() + first[i], first[i + 1] - first[i]), i);
+      place.is_done = true;
+    });
+  }
+
+  void divide_cells(std::vector<Sample>& samples, const std::vector<std::size_t>& first,
+                    const CellDivision& rule) {
+    const std::vector<std::uint32_t> leaves = tree_.leaves();
+    const std::vector<int> levels = tree_.levels();
+    for (std::uint32_t cell = 0; cell + 1 < first.size(); ++cell) {
+      const std::span<Sample> own(samples.data() + first[cell], first[cell + 1] - first[cell]);
+      for (const Sample& s : own) cells_[cell].positions.add(s.origin);
+      divide({leaves[cell], cell, levels[leaves[cell]]}, own, rule);
+    }
+  }
+
+  void divide(Candidate at, std::span<Sample> samples, const CellDivision& rule) {
+    const Positions& positions = cells_[at.cell].positions;
+    const bool divides = rule.divides && positions.count > rule.cell_samples &&
+                         at.level < rule.max_depth && cells_[at.cell].content.knows_something();
+    if (!divides) return;
+    const int axis = positions.widest_axis();
+    const auto plane = static_cast<float>(positions.sums[axis] / positions.count);
+    const auto middle = std::stable_partition(
+        samples.begin(), samples.end(), [&](const Sample& s) { return s.origin[axis] < plane; });
+    if (middle == samples.begin() || middle == samples.end()) return;  // all in one place
+    const KdTree::Halves halves = tree_.divide(at.leaf, axis, plane);
+    // What it has learned from these very samples, its halves learn themselves.
+    cells_[at.cell].content.forget(cells_[at.cell].is_done ? 0 : rule.decay);
+    cells_[at.cell].positions = {};
+    cells_[at.cell].is_done = false;
+    const auto added = static_cast<std::uint32_t>(cells_.size());
+    cells_.push_back(cells_[at.cell]);
+    origins_.push_back(origins_[at.cell]);
+    const std::span<Sample> low(samples.begin(), middle), high(middle, samples.end());
+    for (const Sample& s : low) cells_[at.cell].positions.add(s.origin);
+    for (const Sample& s : high) cells_[added].positions.add(s.origin);
+    divide({halves.low, at.cell, at.level + 1}, low, rule);
+    divide({halves.high, added, at.level + 1}, high, rule);
+  }
+
+  KdTree tree_;
+  std::vector<Place> cells_{1};
+  std::vector<std::uint32_t> origins_{0};
+};
+
+template <class Sample, class Cell>
+void KdTreeCells<Sample, Cell>::save(std::ostream& out) const {
+  tree_.save(out);
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    save_number(out, origins_[i]);
+    cells_[i].content.save(out);
+    const Positions& p = cells_[i].positions;
+    save_number(out, p.count);
+    for (int axis = 0; axis < 3; ++axis) {
+      save_number(out, p.sums[axis]);
+      save_number(out, p.squares[axis]);
+    }
+  }
+}
+
+template <class Sample, class Cell>
+void KdTreeCells<Sample, Cell>::load(std::istream& in) {
+  KdTreeCells loaded;
+  loaded.tree_ = KdTree::load(in);
+  loaded.cells_.clear();
+  loaded.origins_.clear();
+  while (loaded.cells_.size() < loaded.tree_.cell_count()) {
+    loaded.origins_.push_back(load_number<std::uint32_t>(in));
+    if (loaded.origins_.back() > loaded.cells_.size()) {
+      throw InputError("what was learned in cells is damaged");
+    }
+    Place& place = loaded.cells_.emplace_back(Place{.content = Cell::load(in)});
+    place.positions.count = load_finite<double>(in);
+    for (int axis = 0; axis < 3; ++axis) {
+      place.positions.sums[axis] = load_finite<double>(in);
+      place.positions.squares[axis] = load_finite<double>(in);
+    }
+  }
+  *this = std::move(loaded);
+}
+
+}  // namespace pharos

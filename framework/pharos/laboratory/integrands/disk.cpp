@@ -1,0 +1,51 @@
+#include <algorithm>
+#include <cmath>
+
+#include <pharos/laboratory/convex_region.h>
+#include <pharos/laboratory/integrands/disk.h>
+
+namespace pharos::laboratory {
+namespace {
+
+/// The integral of sqrt(r^2 - t^2) over t from 0 to `t`, |t| <= r.
+double under_arc(double t, double r) {
+  const double height = std::sqrt(std::max(0.0, r * r - t * t));
+  return 0.5 * (t * height + r * r * std::asin(std::clamp(t / r, -1.0, 1.0)));
+}
+
+/// The area of the disk of radius r around the origin where X <= x and Y <= y. Across X the column
+/// reaches from the lower arc to y between the two places where the arc has the height |y|; outside
+/// of them the whole column counts for y > 0 and nothing for y < 0.
+double area_below(double x, double y, double r) {
+  x = std::clamp(x, -r, r);
+  y = std::clamp(y, -r, r);
+  const double a = std::sqrt(r * r - y * y), reach = std::clamp(x, -a, a);
+  double sum = under_arc(reach, r) - under_arc(-a, r) + y * (reach + a);
+  if (y > 0) {
+    sum += 2 * (under_arc(std::min(x, -a), r) - under_arc(-r, r));
+    if (x > a) sum += 2 * (under_arc(x, r) - under_arc(a, r));
+  }
+  return sum;
+}
+
+double area_in_square(PlanePoint c, double r) {
+  return area_below(1 - c.x, 1 - c.y, r) - area_below(-c.x, 1 - c.y, r) -
+         area_below(1 - c.x, -c.y, r) + area_below(-c.x, -c.y, r);
+}
+
+}  // namespace
+
+void Disk::Settings::describe(Schema<Settings>& s) {
+  s.field("center", &Settings::center, "Its center; may lie outside").unit("sides of the square");
+  s.field("radius", &Settings::radius, "Its radius")
+      .unit("sides of the square")
+      .above(0)
+      .at_most(10);
+}
+
+Disk::Disk(const Settings& settings)
+    : center_{settings.center.x, settings.center.y},
+      radius_(settings.radius),
+      mean_(dividing_area(area_in_square(center_, radius_), "the disk")) {}
+
+}  // namespace pharos::laboratory

@@ -1,0 +1,88 @@
+#include <algorithm>
+#include <cmath>
+
+#include <pharos/rendering/schedule.h>
+
+namespace pharos {
+namespace {
+
+/// Samples of the training iterations: as many iterations as asked for, or as the total allows.
+std::vector<std::uint32_t> training_samples(ScheduleKind kind, std::uint32_t iterations,
+                                            std::uint32_t total) {
+  if (kind == ScheduleKind::uniform) {
+    const std::uint32_t count = std::min(iterations, total);
+    return std::vector<std::uint32_t>(count, count > 0 ? total / count : 0);
+  }
+  std::uint32_t count = std::min(iterations, 31u);
+  while (count > 0 && total < (1u << count) - 1) --count;
+  if (count == 0) return {};
+  const std::uint32_t first = total / ((1u << count) - 1);
+  std::vector<std::uint32_t> sizes;
+  for (std::uint32_t i = 0; i < count; ++i) sizes.push_back(first << i);
+  return sizes;
+}
+
+/// Of training images only so many of the last ones count that they and the final one are `latest`.
+void keep_latest(std::vector<Iteration>& iterations, std::uint32_t latest) {
+  for (std::size_t i = 0; i + latest < iterations.size(); ++i) iterations[i].keeps_image = false;
+}
+
+}  // namespace
+
+void TrainingSchedule::describe(Schema<TrainingSchedule>& s) {
+  s.field("schedule", &TrainingSchedule::schedule,
+          "Sizes of the training iterations: all equal, or doubling");
+  s.field("iterations", &TrainingSchedule::iterations, "Number of training iterations")
+      .at_most(1000);
+  s.field("share", &TrainingSchedule::share, "Share of the budget spent on training")
+      .at_least(0)
+      .below(1);
+  s.field("images", &TrainingSchedule::images,
+          "What becomes of the training iterations' images: thrown away, or combined with the "
+          "final one by their samples");
+  s.field("latest_images", &TrainingSchedule::latest_images,
+          "Images that are combined at most, the final one included: the first ones, of guides "
+          "that know little, may be much noisier than the rest")
+      .at_least(1)
+      .at_most(1001);
+}
+
+std::vector<Iteration> TrainingSchedule::divide(const Budget& budget, std::uint32_t granule) const {
+  const bool keeps = images == TrainingImages::combine;
+  std::vector<Iteration> all;
+  if (budget.seconds) {
+    const double training = share > 0 && iterations > 0 ? *budget.seconds * share : 0;
+    double size = schedule == ScheduleKind::uniform
+                      ? training / iterations
+                      : training / (std::exp2(static_cast<double>(iterations)) - 1);
+    for (std::uint32_t i = 0; training > 0 && i < iterations; ++i) {
+      all.push_back({.seconds = size, .training = true, .keeps_image = keeps});
+      if (schedule == ScheduleKind::geometric) size *= 2;
+    }
+    all.push_back({.seconds = *budget.seconds - training});
+    keep_latest(all, latest_images);
+    return all;
+  }
+  const auto wanted = static_cast<std::uint32_t>(std::floor(*budget.spp * share));
+  std::uint32_t left = *budget.spp;
+  for (const std::uint32_t samples : training_samples(schedule, iterations, wanted)) {
+    all.push_back({.samples = samples, .training = true, .keeps_image = keeps});
+    left -= samples;
+  }
+  if (!all.empty() && left > granule) {
+    all.back().samples += left % granule;
+    left -= left % granule;
+  }
+  all.push_back({.samples = left});
+  keep_latest(all, latest_images);
+  return all;
+}
+
+void Budget::describe(Schema<Budget>& s) {
+  s.field("spp", &Budget::spp, "Samples a pixel, training included").at_least(1).at_most(1 << 30);
+  s.field("seconds", &Budget::seconds, "Wall-clock time of rendering and training")
+      .unit("s")
+      .above(0);
+}
+
+}  // namespace pharos

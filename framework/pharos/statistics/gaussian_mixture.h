@@ -1,0 +1,273 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include <pharos/core/parallel.h>
+#include <pharos/core/simd.h>
+#include <pharos/statistics/gaussian.h>
+
+/// Mixtures of normal distributions and their fit to weighted points by maximum a posteriori
+/// expectation-maximization.
+namespace pharos::statistics {
+
+/// sum_k weights[k] N(x; components[k]); the weights are positive and add up to one.
+template <int D>
+struct GaussianMixture {
+  std::vector<double> weights;
+  std::vector<Gaussian<D>> components;
+
+  std::size_t size() const { return weights.size(); }
+};
+
+/// Points with weights >= 0, stored coordinate by coordinate in whole registers; what fills the
+/// last one has weight 0.
+template <int D>
+class WeightedPoints {
+ public:
+  static constexpr std::size_t kWidth = 4;
+
+  void add(const Vector<D>& x, double weight) {
+    if (size_ % kWidth == 0) {
+      for (auto& values : values_) values.resize(size_ + kWidth, 0);
+      // Not zero but a point: its density is as harmless as the others'.
+      for (int axis = 0; axis < D; ++axis) {
+        std::fill_n(values_[axis].end() - kWidth, kWidth, x[axis]);
+      }
+    }
+    for (int axis = 0; axis < D; ++axis) values_[axis][size_] = x[axis];
+    values_[D][size_++] = weight;
+  }
+  std::size_t size() const { return size_; }
+  Vector<D> point(std::size_t i) const {
+    Vector<D> x;
+    for (int axis = 0; axis < D; ++axis) x[axis] = values_[axis][i];
+    return x;
+  }
+  double weight(std::size_t i) const { return values_[D][i]; }
+
+  std::size_t registers() const { return (size_ + kWidth - 1) / kWidth; }
+  /// Four points and their weights.
+  std::array<Double4, D> points4(std::size_t r) const {
+    std::array<Double4, D> x;
+    for (int axis = 0; axis < D; ++axis) x[axis] = load4(&values_[axis][r * kWidth]);
+    return x;
+  }
+  Double4 weights4(std::size_t r) const { return load4(&values_[D][r * kWidth]); }
+
+ private:
+  std::array<std::vector<double>, D + 1> values_;  ///< the coordinates, then the weights
+  std::size_t size_ = 0;
+};
+
+/// What is believed of a mixture before any point is seen.
+struct MixturePrior {
+  double counts = 0;    ///< of points in every component: a Dirichlet prior of the weights
+  double strength = 0;  ///< in points: an inverse Wishart prior of the covariances
+  double variance = 0;  ///< the isotropic covariance that it pulls towards [unit^2]
+};
+
+/// A fit: what stays, what changes, and when it ends.
+template <int D>
+struct MixtureFit {
+  /// Moments of what was seen before, one for each component; they count as they are. Empty: none.
+  std::span<const Moments<D>> frozen;
+  MixturePrior prior;
+  /// Least eigenvalue of each component's covariance [unit^2]; empty: no limit.
+  std::span<const double> floors;
+  /// Components that are to change, as numbers; empty: all. What the others weigh stays.
+  std::span<const std::size_t> changing;
+  int most_iterations = 100;
+  /// Ends when a step raises objective() by less than this for each point. (Not relative to it:
+  /// that would hang on the unit of length.)
+  double tolerance = 0.005;
+};
+
+/// What a mixture makes of points: to whom they belong, and how likely they are.
+template <int D>
+struct Expectation {
+  std::vector<Moments<D>> moments;  ///< of each component, points weighted by responsibility
+  double log_likelihood = 0;        ///< sum of w log p(x)
+};
+
+namespace detail {
+
+/// Moments of four streams of points side by side.
+template <int D>
+struct Moments4 {
+  Double4 weight{};
+  std::array<Double4, D> first{};
+  std::array<Double4, D*(D + 1) / 2> second{};
+
+  void add(const Double4& w, const std::array<Double4, D>& x) {
+    weight += w;
+    for (int row = 0, i = 0; row < D; ++row) {
+      const Double4 weighted = w * x[row];
+      first[row] += weighted;
+      for (int column = 0; column <= row; ++column) second[i++] += weighted * x[column];
+    }
+  }
+  Moments<D> summed() const {
+    Moments<D> sums;
+    sums.weight = sum(weight);
+    for (int row = 0, i = 0; row < D; ++row) {
+      sums.first[row] = sum(first[row]);
+      for (int column = 0; column <= row; ++column) {
+        sums.second(row, column) = sums.second(column, row) = sum(second[i++]);
+      }
+    }
+    return sums;
+  }
+};
+
+/// The expectation over registers [begin, end) of the points.
+template <int D>
+Expectation<D> expectation_of_part(const std::vector<LogDensity<D>>& densities,
+                                   const std::vector<double>& log_weights,
+                                   const WeightedPoints<D>& points, std::size_t begin,
+                                   std::size_t end) {
+  const std::size_t count = densities.size();
+  std::vector<Moments4<D>> moments(count);
+  std::vector<Double4> terms(count);
+  Double4 log_likelihood{};
+  for (std::size_t r = begin; r < end; ++r) {
+    const std::array<Double4, D> x = points.points4(r);
+    const Double4 w = points.weights4(r);
+    Double4 largest = all4(-std::numeric_limits<double>::infinity());
+    for (std::size_t k = 0; k < count; ++k) {
+      terms[k] = densities[k](x) + log_weights[k];
+      largest = larger(largest, terms[k]);
+    }
+    Double4 total{};
+    for (std::size_t k = 0; k < count; ++k) {
+      terms[k] = exp(terms[k] - largest);
+      total += terms[k];
+    }
+    for (int i = 0; i < 4; ++i) {
+      log_likelihood[i] += w[i] > 0 ? w[i] * (largest[i] + std::log(total[i])) : 0.0;
+    }
+    const Double4 share = w / total;
+    for (std::size_t k = 0; k < count; ++k) moments[k].add(share * terms[k], x);
+  }
+  Expectation<D> result;
+  for (const Moments4<D>& m : moments) result.moments.push_back(m.summed());
+  result.log_likelihood = sum(log_likelihood);
+  return result;
+}
+
+}  // namespace detail
+
+/// The E step, by log-sum-exp: no point is too far from all components. Parts of the points run
+/// concurrently and are added in order: the same for any number of threads.
+template <int D>
+Expectation<D> expectation(const GaussianMixture<D>& mixture, const WeightedPoints<D>& points) {
+  constexpr std::size_t kRegistersAPart = 1024;
+  std::vector<LogDensity<D>> densities;
+  std::vector<double> log_weights;
+  for (std::size_t k = 0; k < mixture.size(); ++k) {
+    densities.emplace_back(mixture.components[k]);
+    log_weights.push_back(std::log(mixture.weights[k]));
+  }
+  const std::size_t registers = points.registers();
+  std::vector<Expectation<D>> parts((registers + kRegistersAPart - 1) / kRegistersAPart);
+  parallel_for(parts.size(), [&](std::size_t i) {
+    const std::size_t begin = i * kRegistersAPart;
+    parts[i] = detail::expectation_of_part(densities, log_weights, points, begin,
+                                           std::min(begin + kRegistersAPart, registers));
+  });
+  Expectation<D> all{std::vector<Moments<D>>(mixture.size()), 0};
+  for (const Expectation<D>& part : parts) {
+    for (std::size_t k = 0; k < mixture.size(); ++k) all.moments[k] += part.moments[k];
+    all.log_likelihood += part.log_likelihood;
+  }
+  return all;
+}
+
+/// The most probable covariance of points with these moments about their mean, under the prior, no
+/// eigenvalue below `floor`: (strength variance I + scatter) / (strength + weight).
+template <int D>
+Matrix<D> map_covariance(const Moments<D>& moments, const MixturePrior& prior, double floor) {
+  const Matrix<D> scatter = moments.scatter(moments.mean());
+  const Matrix<D> pulled = prior.strength * prior.variance * Matrix<D>::Identity() + scatter;
+  return with_eigenvalues_above<D>(floor, pulled / (prior.strength + moments.weight));
+}
+
+/// The M step: the most probable components and weights for these moments, fit.frozen not added.
+/// Components without weight stay where they are.
+template <int D>
+void maximize(std::span<const Moments<D>> moments, const MixtureFit<D>& fit,
+              GaussianMixture<D>& mixture) {
+  const bool all = fit.changing.empty();
+  const std::size_t count = all ? mixture.size() : fit.changing.size();
+  double seen = 0, share = 0;  // of those that change
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t k = all ? i : fit.changing[i];
+    seen += moments[k].weight + fit.prior.counts;
+    share += mixture.weights[k];
+  }
+  if (!(seen > 0)) return;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t k = all ? i : fit.changing[i];
+    mixture.weights[k] = (all ? 1 : share) * (moments[k].weight + fit.prior.counts) / seen;
+    if (!(moments[k].weight > 0)) continue;
+    const double floor = fit.floors.empty() ? 0 : fit.floors[k];
+    mixture.components[k] = {moments[k].mean(), map_covariance(moments[k], fit.prior, floor)};
+  }
+}
+
+/// What expectation-maximization raises with every step: the logarithm of the points' likelihood,
+/// of the frozen moments' (each with its own component), and of the prior, up to a constant.
+template <int D>
+double objective(const GaussianMixture<D>& mixture, double log_likelihood,
+                 const MixtureFit<D>& fit) {
+  double value = log_likelihood;
+  for (std::size_t k = 0; k < mixture.size(); ++k) {
+    const Gaussian<D>& g = mixture.components[k];
+    const Moments<D> old = fit.frozen.empty() ? Moments<D>{} : fit.frozen[k];
+    const Eigen::LLT<Matrix<D>> factor(g.covariance);
+    const double log_determinant = 2 * Matrix<D>(factor.matrixL()).diagonal().array().log().sum();
+    const Matrix<D> believed =
+        old.scatter(g.mean) + fit.prior.strength * fit.prior.variance * Matrix<D>::Identity();
+    const double counts = old.weight + fit.prior.counts;
+    if (counts > 0) value += counts * std::log(mixture.weights[k]);
+    value -= 0.5 * (old.weight + fit.prior.strength) * log_determinant;
+    value -= 0.5 * factor.solve(believed).trace();
+  }
+  return value;
+}
+
+/// What a fit ended with.
+template <int D>
+struct FitResult {
+  std::vector<Moments<D>> seen;  ///< of the points alone, by the last E step before the last M step
+  int iterations = 0;
+};
+
+/// Fits a mixture to points, from where it stands. The points' weights count as numbers of points.
+template <int D>
+FitResult<D> fit_mixture(GaussianMixture<D>& mixture, const WeightedPoints<D>& points,
+                         const MixtureFit<D>& fit) {
+  double weight = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) weight += points.weight(i);
+  FitResult<D> result;
+  double last = -std::numeric_limits<double>::infinity();
+  while (result.iterations < fit.most_iterations) {
+    Expectation<D> now = expectation(mixture, points);
+    const double reached = objective(mixture, now.log_likelihood, fit);
+    std::vector<Moments<D>> moments = now.moments;
+    for (std::size_t k = 0; k < fit.frozen.size(); ++k) moments[k] += fit.frozen[k];
+    maximize<D>(moments, fit, mixture);
+    result.seen = std::move(now.moments);
+    ++result.iterations;
+    if (reached - last < fit.tolerance * weight) break;
+    last = reached;
+  }
+  return result;
+}
+
+}  // namespace pharos::statistics

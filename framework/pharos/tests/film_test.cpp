@@ -1,0 +1,216 @@
+#include <cmath>
+
+#include <doctest/doctest.h>
+
+#include <pharos/core/random.h>
+#include <pharos/rendering/film.h>
+#include <pharos/rendering/image_combiner.h>
+
+namespace pharos {
+namespace {
+
+class Tent final : public Filter {
+ public:
+  explicit Tent(float radius) : radius_(radius) {}
+  float radius() const override { return radius_; }
+  float evaluate(Vec2 o) const override {
+    return std::max(0.0f, radius_ - std::abs(o.x)) * std::max(0.0f, radius_ - std::abs(o.y));
+  }
+  float integral() const override { return square(square(radius_)); }
+
+ private:
+  float radius_;
+};
+
+class Box final : public Filter {
+ public:
+  float radius() const override { return 0.5f; }
+  float evaluate(Vec2) const override { return 1; }
+  float integral() const override { return 1; }
+};
+
+constexpr int kSize = 8;
+constexpr PixelRect kAll{0, 0, kSize, kSize};
+
+/// One pass of `n` samples a pixel, of value value(film position, random).
+template <class Value>
+void add_pass(Film& film, int n, std::uint64_t seed, Value&& value) {
+  FilmTile tile = film.make_tile(kAll);
+  RandomStream random(seed);
+  for (int i = 0; i < n * kSize * kSize; ++i) {
+    const int pixel = i % (kSize * kSize);
+    const Vec2 u = random.next_2d();
+    const Vec2 at{static_cast<float>(pixel % kSize) + u.x, static_cast<float>(pixel / kSize) + u.y};
+    tile.add_sample(at, value(at, random), {.depth = 2});
+  }
+  film.merge(tile);
+  film.end_pass(n);
+}
+
+TEST_CASE("radiance without a path counts in the color alone") {
+  Film film(kSize, kSize, std::make_shared<Box>());
+  FilmTile tile = film.make_tile(kAll);
+  tile.add_radiance({2.5f, 3.5f}, Rgb(9));
+  film.merge(tile);
+  add_pass(film, 3, 1, [](Vec2, RandomStream&) { return Rgb(1); });
+  const Image image = film.layers();
+  CHECK(image.rgb(2, 3).g == doctest::Approx(3));
+  CHECK(image.rgb(3, 3).g == doctest::Approx(1));
+  CHECK(image.pixel(2, 3)[image.channel_index("samples.N")] == 3);
+  CHECK(image.pixel(2, 3)[image.channel_index("depth.Z")] == doctest::Approx(2));
+}
+
+TEST_CASE("a constant stays a constant under any filter, at the edges too") {
+  for (const float radius : {0.5f, 1.3f, 2.0f}) {
+    Film film(kSize, kSize, std::make_shared<Tent>(radius));
+    add_pass(film, 4, 1, [](Vec2, RandomStream&) { return Rgb(3); });
+    const Image image = film.layers();
+    for (int y = 0; y < kSize; ++y) {
+      for (int x = 0; x < kSize; ++x) CHECK(image.rgb(x, y).g == doctest::Approx(3));
+    }
+    CHECK(image.pixel(3, 3)[image.channel_index("samples.N")] == 4);
+    CHECK(image.pixel(3, 3)[image.channel_index("depth.Z")] == doctest::Approx(2));
+  }
+}
+
+TEST_CASE("samples fall into the pixel they are in") {
+  Film film(kSize, kSize, std::make_shared<Box>());
+  add_pass(film, 1, 1,
+           [](Vec2 at, RandomStream&) { return Rgb(std::floor(at.x), std::floor(at.y), 0); });
+  const Image image = film.layers();
+  CHECK(image.rgb(5, 2) == Rgb(5, 2, 0));
+}
+
+TEST_CASE("splats keep their sum, and are divided by all paths") {
+  for (const float radius : {0.5f, 1.5f}) {
+    Film film(kSize, kSize, std::make_shared<Tent>(radius));
+    FilmTile tile = film.make_tile({0, 0, 4, 4});
+    RandomStream random(3);
+    for (int i = 0; i < 20000; ++i) {
+      const Vec2 u = random.next_2d();
+      // Anywhere on the film but near its edge, where filters lose a part.
+      tile.add_splat({2 + 4 * u.x, 2 + 4 * u.y}, Rgb(8));
+    }
+    tile.count_paths(1000);
+    film.merge(tile);
+    film.end_pass(1);
+    double sum = 0;
+    const Image image = film.layers();
+    for (int y = 0; y < kSize; ++y) {
+      for (int x = 0; x < kSize; ++x) sum += image.rgb(x, y).r;
+    }
+    CHECK(sum == doctest::Approx(20000 * 8 / 1000.0).epsilon(0.01));
+  }
+}
+
+TEST_CASE("evenly strewn splats make an even image, at the borders too") {
+  for (const float radius : {0.5f, 1.5f, 2.0f}) {
+    Film film(kSize, kSize, std::make_shared<Tent>(radius));
+    FilmTile tile = film.make_tile(kAll);
+    RandomStream random(4);
+    const int paths = 400000;
+    for (int i = 0; i < paths; ++i) {
+      tile.add_splat(static_cast<float>(kSize) * random.next_2d(), Rgb(kSize * kSize));
+    }
+    tile.count_paths(paths);
+    film.merge(tile);
+    film.end_pass(1);
+    const Image image = film.layers();
+    for (int y = 0; y < kSize; ++y) {
+      for (int x = 0; x < kSize; ++x) CHECK(image.rgb(x, y).r == doctest::Approx(1).epsilon(0.06));
+    }
+  }
+}
+
+TEST_CASE("a pass with splats that was cut short is dropped") {
+  Film film(kSize, kSize, std::make_shared<Box>());
+  for (const bool complete : {true, false}) {
+    FilmTile tile = film.make_tile(kAll);
+    tile.add_splat({1.5f, 1.5f}, Rgb(complete ? 1 : 100));
+    tile.count_paths(1);
+    film.merge(tile);
+    film.end_pass(1, complete);
+  }
+  CHECK(film.layers().rgb(1, 1) == Rgb(1));
+  CHECK(film.samples_per_pixel() == 1);
+}
+
+TEST_CASE("the variance layer is the variance of the mean, also with passes of different size") {
+  Film film(kSize, kSize, std::make_shared<Box>());
+  int samples = 0;
+  for (std::uint64_t pass = 0; pass < 200; ++pass) {
+    const int n = pass % 3 == 0 ? 1 : 4;
+    samples += n;
+    add_pass(film, n, pass, [](Vec2, RandomStream& random) { return Rgb(random.next_1d()); });
+  }
+  double variance = 0;
+  const Image image = film.layers();
+  for (int y = 0; y < kSize; ++y) {
+    for (int x = 0; x < kSize; ++x) {
+      variance += image.pixel(x, y)[image.channel_index("variance.G")] / (kSize * kSize);
+    }
+  }
+  CHECK(variance == doctest::Approx(1.0 / 12 / samples).epsilon(0.05));
+}
+
+TEST_CASE("merged films are one film") {
+  const auto value = [](Vec2, RandomStream& random) { return Rgb(random.next_1d()); };
+  Film whole(kSize, kSize, std::make_shared<Tent>(1)), first = whole, second = whole;
+  for (std::uint64_t pass = 0; pass < 6; ++pass) {
+    add_pass(whole, 2, pass, value);
+    add_pass(pass < 2 ? first : second, 2, pass, value);
+  }
+  first.merge(second);
+  const Image a = whole.layers(), b = first.layers();
+  for (std::size_t i = 0; i < a.values().size(); ++i) {
+    REQUIRE(a.values()[i] == doctest::Approx(b.values()[i]).epsilon(1e-3));
+  }
+}
+
+TEST_CASE("selected layers follow the color") {
+  Film film(kSize, kSize, std::make_shared<Box>());
+  add_pass(film, 2, 1, [](Vec2, RandomStream&) { return Rgb(1); });
+  const Image image = select_layers(film.layers(), {Layer::depth, Layer::samples});
+  CHECK(image.channels() == std::vector<std::string>{"R", "G", "B", "depth.Z", "samples.N"});
+  CHECK(image.pixel(0, 0)[4] == 2);
+}
+
+/// An image of mean one whose noise has the given standard deviation, of so many passes.
+Film noisy(float sigma, std::uint64_t passes, std::uint64_t seed) {
+  Film film(kSize, kSize, std::make_shared<Box>());
+  for (std::uint64_t pass = 0; pass < passes; ++pass) {
+    add_pass(film, 1, 1000 * seed + pass, [&](Vec2, RandomStream& random) {
+      return Rgb(1 + sigma * std::sqrt(12.0f) * (random.next_1d() - 0.5f));
+    });
+  }
+  return film;
+}
+
+TEST_CASE("images combine by their samples, whatever their variance") {
+  double mean_value = 0, squares = 0, stated = 0;
+  const int runs = 200;
+  const double pixels = runs * kSize * kSize;
+  for (int run = 0; run < runs; ++run) {
+    ImageCombiner combiner;
+    combiner.add(noisy(1, 48, static_cast<std::uint64_t>(2 * run)));
+    combiner.add(noisy(0.5f, 16, static_cast<std::uint64_t>(2 * run + 1)));
+    const Image image = combiner.combine();
+    const double v = image.rgb(4, 4).r;
+    mean_value += v / runs;
+    const int variance = image.channel_index("variance.R");
+    for (int y = 0; y < kSize; ++y) {
+      for (int x = 0; x < kSize; ++x) {
+        squares += std::pow(image.rgb(x, y).r - 1, 2) / pixels;
+        stated += image.pixel(x, y)[variance] / pixels;
+      }
+    }
+    CHECK(image.pixel(4, 4)[image.channel_index("samples.N")] == 64);
+  }
+  constexpr double kVariance = (48 * 1.0 + 16 * 0.25) / (64 * 64);
+  CHECK(mean_value == doctest::Approx(1).epsilon(0.03));
+  CHECK(squares == doctest::Approx(kVariance).epsilon(0.1).scale(0));
+  CHECK(stated == doctest::Approx(kVariance).epsilon(0.1).scale(0));
+}
+
+}  // namespace
+}  // namespace pharos

@@ -1,0 +1,212 @@
+#include <sstream>
+
+#include <doctest/doctest.h>
+
+#include <pharos/core/error.h>
+#include <pharos/core/random.h>
+#include <pharos/guiding/toolkit/guidable_steps.h>
+#include <pharos/guiding/toolkit/kd_tree_cells.h>
+
+namespace pharos {
+namespace {
+
+TEST_CASE("items are sorted by their keys and keep their order within") {
+  std::vector<int> items{31, 12, 30, 11, 20, 10};
+  const auto first = sort_by_key(
+      items, 5, [&](std::size_t i) { return static_cast<std::uint32_t>(items[i] / 10); });
+  CHECK(items == std::vector<int>{12, 11, 10, 20, 31, 30});
+  CHECK(first == std::vector<std::size_t>{0, 0, 3, 4, 6, 6});
+}
+
+/// A tree of four cells: x below and above 0, the upper part by y = 1, that one's by z = 2.
+KdTree small_tree() {
+  KdTree tree;
+  auto halves = tree.divide(0, 0, 0);
+  halves = tree.divide(halves.high, 1, 1);
+  tree.divide(halves.high, 2, 2);
+  return tree;
+}
+
+TEST_CASE("a kd-tree finds the cell around a point; edges belong to the upper one") {
+  const KdTree tree = small_tree();
+  CHECK(tree.cell_count() == 4);
+  CHECK(tree.depth() == 3);
+  CHECK(tree.cell_at({-1, 5, 5}) == 0);
+  CHECK(tree.cell_at({0, 0, 5}) == 1);
+  CHECK(tree.cell_at({1, 1, 1.9f}) == 2);
+  CHECK(tree.cell_at({1, 1, 2}) == 3);
+  const auto leaves = tree.leaves();
+  const auto levels = tree.levels();
+  CHECK(levels[leaves[0]] == 1);
+  CHECK(levels[leaves[3]] == 3);
+}
+
+TEST_CASE("kd-trees survive being saved; damaged ones are refused or sound") {
+  std::ostringstream out;
+  small_tree().save(out);
+  const std::string saved = out.str();
+  std::istringstream in(saved);
+  CHECK(KdTree::load(in) == small_tree());
+  RandomStream random(1);
+  int refused = 0;
+  for (int i = 0; i < 500; ++i) {
+    std::string damaged = saved;
+    damaged[random() % damaged.size()] ^= static_cast<char>(1 << random() % 8);
+    if (i % 5 == 0) damaged.resize(random() % damaged.size());
+    std::istringstream stream(damaged);
+    try {
+      const KdTree tree = KdTree::load(stream);
+      CHECK(tree.cell_at({0.5f, 1.5f, 2.5f}) < tree.cell_count());
+    } catch (const InputError&) {
+      ++refused;
+    }
+  }
+  CHECK(refused > 100);
+}
+
+struct Step {
+  Point3 origin;
+};
+
+/// Counts what it is taught.
+struct Counter {
+  double seen = 0;
+  bool knows = false;
+
+  bool knows_something() const { return knows; }
+  void forget(double factor) { seen *= factor; }
+  void save(std::ostream& out) const {
+    save_number(out, seen);
+    save_number(out, static_cast<std::uint8_t>(knows));
+  }
+  static Counter load(std::istream& in) {
+    Counter counter{load_finite<double>(in)};
+    counter.knows = load_number<std::uint8_t>(in) != 0;
+    return counter;
+  }
+};
+using Counters = KdTreeCells<Step, Counter>;
+
+void count(Counter& counter, std::span<const Step> steps, std::size_t) {
+  counter.seen += static_cast<double>(steps.size());
+  counter.knows = counter.knows || !steps.empty();
+}
+
+/// Steps along x, from 0 to 1.
+std::vector<Step> steps_along_x(int count) {
+  std::vector<Step> steps;
+  for (int i = 0; i < count; ++i) steps.push_back({{(i + 0.5f) / static_cast<float>(count), 0, 0}});
+  return steps;
+}
+
+double total(const Counters& cells) {
+  double sum = 0;
+  for (std::size_t i = 0; i < cells.size(); ++i) sum += cells[i].seen;
+  return sum;
+}
+
+TEST_CASE("cells are divided where samples are many, and all samples count once") {
+  Counters cells;
+  const CellDivision rule{.cell_samples = 100, .max_depth = 32, .decay = 0.25};
+  auto steps = steps_along_x(80);
+  cells.learn(steps, rule, count);
+  CHECK(steps.empty());
+  CHECK(cells.size() == 1);
+  CHECK(total(cells) == 80);
+  steps = steps_along_x(80);
+  cells.learn(steps, rule, count);
+  CHECK(cells.size() == 2);
+  // Both halves keep a quarter of what was known, and learn from their own.
+  CHECK(cells[0].seen == doctest::Approx(20 + 40));
+  CHECK(cells[1].seen == doctest::Approx(20 + 40));
+  CHECK(cells.tree().cell_at({0.49f, 0, 0}) != cells.tree().cell_at({0.51f, 0, 0}));
+  CHECK(cells.origins() == std::vector<std::uint32_t>{0, 0});
+  cells.mark_origins();
+  CHECK(cells.origins() == std::vector<std::uint32_t>{0, 1});
+}
+
+TEST_CASE("a first lesson that divides is learned once, by the halves") {
+  Counters cells;
+  auto steps = steps_along_x(1000);
+  cells.learn(steps, {.cell_samples = 300, .decay = 0.25}, count);
+  CHECK(cells.size() == 4);
+  CHECK(total(cells) == 1000);
+}
+
+TEST_CASE("cells that know nothing, or lie at one place, or are deep enough, stay whole") {
+  Counters silent;
+  auto steps = steps_along_x(1000);
+  silent.learn(steps, {.cell_samples = 100}, [](Counter&, std::span<const Step>, std::size_t) {});
+  CHECK(silent.size() == 1);
+  CHECK(!silent.know_something());
+  Counters piled;
+  steps.assign(1000, {{1, 2, 3}});
+  piled.learn(steps, {.cell_samples = 100}, count);
+  CHECK(piled.size() == 1);
+  Counters flat;
+  steps = steps_along_x(1000);
+  flat.learn(steps, {.cell_samples = 10, .max_depth = 3}, count);
+  CHECK(flat.size() == 8);
+  Counters whole;
+  steps = steps_along_x(1000);
+  whole.learn(steps, {.divides = false, .cell_samples = 10}, count);
+  CHECK(whole.size() == 1);
+}
+
+TEST_CASE("learning cells go on from where they were saved; damage changes nothing") {
+  Counters cells;
+  auto steps = steps_along_x(500);
+  cells.learn(steps, {.cell_samples = 100}, count);
+  std::ostringstream out;
+  cells.save(out);
+  std::istringstream in(out.str());
+  Counters loaded;
+  loaded.load(in);
+  for (Counters* each : {&cells, &loaded}) {
+    steps = steps_along_x(700);
+    each->learn(steps, {.cell_samples = 100}, count);
+  }
+  CHECK(loaded.tree() == cells.tree());
+  CHECK(total(loaded) == total(cells));
+  std::istringstream cut(out.str().substr(0, out.str().size() / 2));
+  CHECK_THROWS_AS(loaded.load(cut), InputError);
+  CHECK(loaded.tree() == cells.tree());
+}
+
+TEST_CASE("guidable steps: with what came along them, each once where paths branch") {
+  PathLog log;
+  log.begin_path({}, Transport::radiance);
+  log.add(RecordedVertex{.throughput = Rgb(1)});
+  const RecordedVertex matt{.event = Event::smooth_reflect,
+                            .parent = 0,
+                            .local_weight = Rgb(0.5f),
+                            .direction = {0, 0, 1},
+                            .unguided_pdf = 0.25f,
+                            .guidable = true};
+  log.add(matt);
+  // The next vertex stands twice, once for each of the steps that it takes.
+  for (int copy = 0; copy < 2; ++copy) {
+    RecordedVertex next = matt;
+    next.parent = 1;
+    next.position = {0, 0, 1};
+    const std::uint32_t index = log.add(next);
+    log.add(RecordedVertex{.position = {0, 1, 1}, .parent = index, .emission = Rgb(4)});
+  }
+  RecordedVertex mirror = matt;
+  mirror.event = Event::discrete_reflect;
+  mirror.parent = 0;
+  const std::uint32_t index = log.add(mirror);
+  log.add(RecordedVertex{.parent = index, .emission = Rgb(9)});
+  std::vector<std::uint32_t> numbers;
+  std::vector<Rgb> incident;
+  for_each_guidable_step(log[0], incident, [&](const GuidableStep& step) {
+    numbers.push_back(step.number);
+    CHECK(step.pdf == 0.25f);
+    CHECK(step.radiance.r == doctest::Approx(4));  // 2 x 0.5 x 4 at the first, 4 at the copies
+    CHECK(step.reflected.r == doctest::Approx(2));
+  });
+  CHECK(numbers == std::vector<std::uint32_t>{1, 2, 4});
+}
+
+}  // namespace
+}  // namespace pharos

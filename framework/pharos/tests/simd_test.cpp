@@ -1,0 +1,50 @@
+#include <cmath>
+
+#include <doctest/doctest.h>
+
+#include <pharos/core/simd.h>
+#include <pharos/core/vec.h>
+
+namespace pharos {
+namespace {
+
+TEST_CASE("exponentials side by side are those of the standard library") {
+  double worst8 = 0, worst2 = 0, worst4 = 0;
+  for (double x = -86; x < 88; x += 0.0137) {
+    const auto f = static_cast<float>(x);
+    const double expected8 = std::exp(double{f}), expected2 = std::exp2(double{f}),
+                 expected4 = std::exp(8 * x);
+    worst8 = std::max(worst8, std::abs(exp(all8(f))[5] / expected8 - 1));
+    worst2 = std::max(worst2, std::abs(exp2(all8(f))[1] / expected2 - 1));
+    worst4 = std::max(worst4, std::abs(exp(all4(8 * x))[2] / expected4 - 1));
+  }
+  CHECK(worst2 < 3e-7);
+  CHECK(worst8 < 1e-5);
+  CHECK(worst4 < 1e-15);
+  CHECK(exp(all8(-90.0f))[0] == 0);
+  CHECK(exp(all8(-kInfinity))[0] == 0);
+  CHECK(exp(all4(-1e300))[0] == 0);
+  CHECK(exp(Float8{})[7] == 1);
+}
+
+TEST_CASE("lanes are loaded, rounded, compared and summed element by element") {
+  const double doubles[4] = {0.1, -0.2, 0.3, -0.4};
+  const Float8 f{1, -2, 3, -4, 5, -6, 7, -8};
+  const Double4 d = load4(doubles);
+  CHECK(sum(f) == -4);
+  CHECK(sum(d) == doctest::Approx(-0.2).epsilon(1e-15));
+  const Double8 both{d, d + 1};
+  CHECK(rounded(both)[2] == 0.3f);
+  CHECK(rounded(both)[5] == 0.8f);
+  CHECK(rounded((both + both) * both / both - both)[7] == 0.6f);
+  CHECK(rounded(-all_doubles8(-4))[1] == 4);
+  CHECK(rounded(widened(f))[6] == 7);
+  CHECK(larger(f, Float8{})[1] == 0);
+  CHECK(absolute(f)[1] == 2);
+  CHECK(sqrt(f * f)[3] == 4);
+  CHECK(any(f > 6.5f));
+  CHECK(!any(f > 7.5f));
+}
+
+}  // namespace
+}  // namespace pharos

@@ -1,0 +1,176 @@
+#include "expectation_maximization.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pharos::vertex_triplets {
+namespace {
+
+constexpr float kInfinite = std::numeric_limits<float>::infinity();
+
+/// The logarithm of a weighted Gaussian, ready for registers of points.
+template <int D>
+struct Term {
+  Term(double weight, const Gaussian<D>& gaussian) {
+    const Eigen::LLT<Matrix<D>> factor(gaussian.covariance);
+    const Matrix<D> inverse = factor.matrixL().solve(Matrix<D>::Identity());
+    for (int row = 0, i = 0; row < D; ++row) {
+      mean[row] = static_cast<float>(gaussian.mean[row]);
+      for (int column = 0; column <= row; ++column) {
+        whitening[i++] = static_cast<float>(inverse(row, column));
+      }
+    }
+    constant = static_cast<float>(std::log(weight) + inverse.diagonal().array().log().sum() -
+                                  0.5 * D * std::log(2 * EIGEN_PI));
+  }
+
+  std::array<Float8, D> offset(const std::array<Float8, D>& x) const {
+    std::array<Float8, D> d;
+    for (int axis = 0; axis < D; ++axis) d[axis] = x[axis] - mean[axis];
+    return d;
+  }
+  Float8 operator()(const std::array<Float8, D>& d) const {
+    Float8 squared{};
+    for (int row = 0, i = 0; row < D; ++row) {
+      Float8 white = d[0] * whitening[i++];
+      for (int column = 1; column <= row; ++column) white += d[column] * whitening[i++];
+      squared += white * white;
+    }
+    return constant - 0.5f * squared;
+  }
+
+  std::array<float, D> mean;
+  std::array<float, Sums<D>::kPairs> whitening;
+  float constant;
+};
+
+template <int D>
+std::vector<Term<D>> terms_of(const Mixture<D>& mixture) {
+  std::vector<Term<D>> terms;
+  for (std::size_t k = 0; k < mixture.size(); ++k) {
+    terms.emplace_back(mixture.weights[k], mixture.components[k]);
+  }
+  return terms;
+}
+
+/// Registers that are worked on together: their terms stay in the nearest cache.
+constexpr std::size_t kBlock = 8;
+
+}  // namespace
+
+template <int D>
+Expectation<D> expectation(const Mixture<D>& mixture, const Points<D>& points) {
+  const std::vector<Term<D>> terms = terms_of(mixture);
+  std::vector<Sums8<D>> sums(terms.size());
+  std::vector<std::array<Float8, kBlock>> shares(terms.size());
+  double log_likelihood = 0, weight = 0;
+  const auto& registers = points.registers();
+  for (std::size_t begin = 0; begin < registers.size(); begin += kBlock) {
+    const std::size_t count = std::min(kBlock, registers.size() - begin);
+    std::array<Float8, kBlock> largest, total{};
+    largest.fill(all8(-kInfinite));
+    for (std::size_t k = 0; k < terms.size(); ++k) {
+      for (std::size_t r = 0; r < count; ++r) {
+        shares[k][r] = terms[k](terms[k].offset(registers[begin + r].x));
+        largest[r] = larger(largest[r], shares[k][r]);
+      }
+    }
+    for (std::size_t k = 0; k < terms.size(); ++k) {
+      for (std::size_t r = 0; r < count; ++r) {
+        // What is less than 2e-9 of the largest is nothing: most components have no part in most
+        // points.
+        constexpr float kLeast = -20;
+        const Float8 below = shares[k][r] - largest[r];
+        shares[k][r] = below < kLeast ? Float8{} : exp(below);
+        total[r] += shares[k][r];
+      }
+    }
+    for (std::size_t r = 0; r < count; ++r) {
+      const Float8& w = registers[begin + r].weight;
+      for (int i = 0; i < 8; ++i) {
+        if (!(w[i] > 0)) continue;
+        weight += w[i];
+        log_likelihood += double{w[i]} * (largest[r][i] + std::log(total[r][i]));
+      }
+      total[r] = w / total[r];
+    }
+    for (std::size_t k = 0; k < terms.size(); ++k) {
+      for (std::size_t r = 0; r < count; ++r) {
+        const Float8 v = shares[k][r] * total[r];
+        if (any(v > 0)) sums[k].add(v, terms[k].offset(registers[begin + r].x));
+      }
+    }
+  }
+  Expectation<D> result{.log_likelihood = log_likelihood / weight};
+  for (const Sums8<D>& s : sums) result.sums.push_back(s.summed());
+  return result;
+}
+
+template <int D>
+Mixture<D> maximization(const Mixture<D>& mixture, const Expectation<D>& expectation,
+                        const Regularization& rule) {
+  double total = 0;
+  for (const Sums<D>& sums : expectation.sums) total += sums.weight;
+  Mixture<D> next;
+  for (std::size_t k = 0; k < mixture.size(); ++k) {
+    const Sums<D>& sums = expectation.sums[k];
+    if (!(sums.weight > 0) || !(sums.squared_weight > 0)) continue;
+    next.weights.push_back(sums.weight / total);
+    next.components.push_back({mixture.components[k].mean + sums.offset(),
+                               regularized<D>(sums.covariance(), sums.count(), rule)});
+  }
+  return next;
+}
+
+template <int D>
+Fit<D> fit(const Mixture<D>& start, const Points<D>& points, const FitSettings& settings) {
+  Fit<D> best{.log_likelihood = -std::numeric_limits<double>::infinity()};
+  Mixture<D> mixture = start;
+  double last = 0;
+  for (int iteration = 0; iteration < settings.most_iterations; ++iteration) {
+    const Expectation<D> found = expectation(mixture, points);
+    best.iterations = iteration + 1;
+    if (found.log_likelihood > best.log_likelihood) {
+      best.mixture = mixture;
+      best.log_likelihood = found.log_likelihood;
+    }
+    constexpr double kLeast = 1e-12;
+    const double change = std::abs(found.log_likelihood - last);
+    if (iteration > 0 && !(change >= settings.tolerance * std::max(std::abs(last), kLeast))) break;
+    last = found.log_likelihood;
+    mixture = maximization(mixture, found, settings.regularization);
+  }
+  return best;
+}
+
+template <int D>
+std::vector<std::size_t> assignment(const Mixture<D>& mixture, const Points<D>& points) {
+  const std::vector<Term<D>> terms = terms_of(mixture);
+  std::vector<std::size_t> result(points.size(), 0);
+  for (std::size_t r = 0; r < points.registers().size(); ++r) {
+    Float8 largest = all8(-kInfinite);
+    for (std::size_t k = 0; k < terms.size(); ++k) {
+      const Float8 term = terms[k](terms[k].offset(points.registers()[r].x));
+      for (std::size_t i = 0; i < std::min<std::size_t>(8, points.size() - 8 * r); ++i) {
+        if (term[i] > largest[i]) result[8 * r + i] = k;
+      }
+      largest = larger(largest, term);
+    }
+  }
+  return result;
+}
+
+// For the mixtures of cameras, pairs and triplets.
+#define PHAROS_FOR_DIMENSION(D)                                                    \
+  template Expectation<D> expectation<D>(const Mixture<D>&, const Points<D>&);     \
+  template Mixture<D> maximization<D>(const Mixture<D>&, const Expectation<D>&,    \
+                                      const Regularization&);                      \
+  template Fit<D> fit<D>(const Mixture<D>&, const Points<D>&, const FitSettings&); \
+  template std::vector<std::size_t> assignment<D>(const Mixture<D>&, const Points<D>&);
+PHAROS_FOR_DIMENSION(3)
+PHAROS_FOR_DIMENSION(6)
+PHAROS_FOR_DIMENSION(9)
+#undef PHAROS_FOR_DIMENSION
+
+}  // namespace pharos::vertex_triplets

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include <pharos/statistics/gaussian_mixture.h>
+
+#include "covariance.h"
+#include "points.h"
+
+/// Expectation-maximization of mixtures of Gaussians with weighted points (Schuessler et al. 2022,
+/// section 6.2), in single precision: points lie near the origin, in units of their cell.
+namespace pharos::vertex_triplets {
+
+template <int D>
+using Mixture = statistics::GaussianMixture<D>;
+
+struct FitSettings {
+  Regularization regularization;
+  int most_iterations = 50;
+  /// Ends when the mean logarithm of the density changes by less, relative to itself (eq. 38).
+  double tolerance = 1e-3;
+};
+
+/// What an E step finds.
+template <int D>
+struct Expectation {
+  double log_likelihood = 0;  ///< sum of w log p(x) over the sum of w
+  std::vector<Sums<D>> sums;  ///< of each component about its mean, v = w r (eq. 36)
+};
+
+/// The E step (eq. 36).
+template <int D>
+Expectation<D> expectation(const Mixture<D>& mixture, const Points<D>& points);
+
+/// The M step (eq. 37, covariances about the new means; eq. 39). Components that no point belongs
+/// to are left out.
+template <int D>
+Mixture<D> maximization(const Mixture<D>& mixture, const Expectation<D>& expectation,
+                        const Regularization& rule);
+
+/// A mixture with what it makes of the points that it was fitted to.
+template <int D>
+struct Fit {
+  Mixture<D> mixture;
+  double log_likelihood = 0;  ///< as Expectation's
+  int iterations = 0;
+};
+
+/// Alternates both steps from `start` on; returns the best mixture on the way: with regularization
+/// a step may be for the worse.
+template <int D>
+Fit<D> fit(const Mixture<D>& start, const Points<D>& points, const FitSettings& settings);
+
+/// For each point the component that it belongs to most likely.
+template <int D>
+std::vector<std::size_t> assignment(const Mixture<D>& mixture, const Points<D>& points);
+
+}  // namespace pharos::vertex_triplets

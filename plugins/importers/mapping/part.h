@@ -1,0 +1,118 @@
+#pragma once
+
+#include <initializer_list>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene_map.h"
+
+namespace pharos::mitsuba {
+
+/// Nodes of values, located where the scene file has them.
+ConfigNode number_node(double value, const Location& where);
+ConfigNode color_node(const Spectrum& value, const Location& where);
+ConfigNode triple_node(Vec3 value, const Location& where);
+ConfigNode transform_node(const Transform& value, const Location& where);
+ConfigNode text_node(std::string text, const Location& where);
+
+/// One object while it is mapped: gives its properties, and remembers which were asked for, so that
+/// finish() can tell what was left out. All functions throw InputError at a property that is there
+/// but of another kind.
+class Part {
+ public:
+  Part(SceneMap& map, const Object& object, UvSense sense = UvSense::same)
+      : map_(map), object_(object), sense_(sense), is_read_(object.properties.size()) {}
+
+  SceneMap& map() { return map_; }
+  const Object& object() const { return object_; }
+  const Location& where() const { return object_.where; }
+  UvSense sense() const { return sense_; }
+
+  /// A mapping with this `type`, located at the object.
+  ConfigNode node(const char* type) const;
+
+  /// The property of this name, which is read thereby; null when there is none.
+  const Property* take(std::string_view name);
+  bool has(std::string_view name) const { return object_.find(name) != nullptr; }
+  std::optional<double> number(std::string_view name);
+  double number(std::string_view name, double otherwise) {
+    return number(name).value_or(otherwise);
+  }
+  std::optional<std::int64_t> integer(std::string_view name);
+  bool flag(std::string_view name, bool otherwise);
+  std::optional<std::string> text(std::string_view name);
+  std::string text(std::string_view name, const char* otherwise) {
+    return text(name).value_or(otherwise);
+  }
+  std::optional<Spectrum> color(std::string_view name);
+  std::optional<Vec3> triple(std::string_view name);
+  std::optional<Transform> transform(std::string_view name);
+  /// The nested objects of this tag, in order.
+  std::vector<const Object*> children(std::string_view tag);
+  /// The only nested object of this tag; null when there is none. More than one is noted.
+  const Object* child(std::string_view tag);
+
+  /// The node of a property, or of `otherwise` at the object's place.
+  ConfigNode number_or(std::string_view name, double otherwise);
+  ConfigNode color_or(std::string_view name, double otherwise);
+  /// A color, or a texture as the scene needs it here.
+  ConfigNode texture_or(std::string_view name, double otherwise);
+  /// A number, or the average of a texture with a note that says so.
+  double average(std::string_view name, double otherwise);
+  /// The file's name; throws InputError when `name` is missing.
+  ConfigNode file(std::string_view name);
+  /// Sets `key` of `node` to the transform, if it is stated.
+  void copy_transform(ConfigNode& node, const char* key, std::string_view name = "to_world");
+  /// Sets `key` of `node` when the property is true.
+  void copy_flag(ConfigNode& node, const char* key);
+
+  /// A note at this object.
+  void note(const std::string& message) { map_.note(where(), message); }
+  /// Properties that make no difference here.
+  void ignore(std::initializer_list<std::string_view> names);
+  /// Properties that make no difference at this value, and are left out with a note otherwise.
+  void expect(std::string_view name, double value);
+  /// Notes what was never asked for.
+  void finish();
+
+ private:
+  [[noreturn]] static void fail_kind(const Property& property, const char* expected);
+
+  SceneMap& map_;
+  const Object& object_;
+  UvSense sense_;
+  std::vector<bool> is_read_;
+};
+
+/// The entry of `table` for the object's type. Throws InputError with the nearest type otherwise.
+template <class Mapper>
+const Mapper& mapper_of(const std::map<std::string_view, Mapper>& table, const Object& object);
+[[noreturn]] void fail_type_of(const Object& object, const std::vector<std::string>& known);
+
+template <class Mapper>
+const Mapper& mapper_of(const std::map<std::string_view, Mapper>& table, const Object& object) {
+  const auto found = table.find(object.type);
+  if (found != table.end()) return found->second;
+  std::vector<std::string> known;
+  for (const auto& [type, mapper] : table) known.emplace_back(type);
+  fail_type_of(object, known);
+}
+
+/// Maps an object by `map(part)`, enters it into the list of objects as a `contract` of the type of
+/// its node, and notes what was left out.
+template <class Map>
+ConfigNode map_part(SceneMap& scene, const Object& object, UvSense sense, const char* contract,
+                    const Map& map) {
+  SceneMap::Entry entry(scene, object);
+  Part part(scene, object, sense);
+  ConfigNode node = map(part);
+  part.finish();
+  const ConfigNode* type = node.find("type");
+  if (type != nullptr) entry.done(std::string(contract) + " " + type->text());
+  return node;
+}
+
+}  // namespace pharos::mitsuba
