@@ -1,5 +1,5 @@
-# How everything in this project is compiled. `pharos_options` travels with the library, because
-# modules must agree with it on the instruction set; `pharos_warnings` stays at home.
+# Compile options of the whole project. `pharos_options` is exported with the library, because
+# modules must use the same instruction set as the library. `pharos_warnings` is not exported.
 add_library(pharos_options INTERFACE)
 target_compile_features(pharos_options INTERFACE cxx_std_20)
 target_compile_options(pharos_options INTERFACE -fno-math-errno -fno-trapping-math)
@@ -18,8 +18,8 @@ target_compile_options(pharos_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual
   -Wno-missing-field-initializers)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-  # GCC 12 sees overlapping copies in "text" + std::string (its bug 105651).
-  # It also warns of uninitialized values inside its own AVX-512 headers (its bug 105593).
+  # GCC 12 warns of overlapping copies in "text" + std::string (GCC bug 105651). It also warns of
+  # uninitialized values inside its own AVX-512 headers (GCC bug 105593).
   target_compile_options(pharos_warnings INTERFACE -Wno-restrict -Wno-maybe-uninitialized)
 endif()
 if(PHAROS_WERROR)

@@ -1,4 +1,4 @@
-# Every package that Pharos stands on; the only place that knows Embree 3 from 4.
+# Finds every package on which Pharos depends. Embree 4 is preferred to Embree 3.
 find_package(embree 4 QUIET)
 if(NOT embree_FOUND)
   find_package(embree 3.13 REQUIRED)
@@ -10,7 +10,7 @@ endif()
 message(STATUS "Embree ${embree_VERSION}")
 
 find_package(OpenImageIO REQUIRED)
-# Debian's package names include folders of packages that it does not depend on.
+# Debian's OpenImageIO package lists include folders of packages on which it does not depend.
 foreach(target OpenImageIO::OpenImageIO OpenImageIO::OpenImageIO_Util)
   get_target_property(folders ${target} INTERFACE_INCLUDE_DIRECTORIES)
   set(existing)
@@ -32,9 +32,9 @@ find_package(Boost REQUIRED)
 find_library(xxhash xxhash REQUIRED)
 find_package(ZLIB REQUIRED)
 find_package(pugixml REQUIRED)
-# Optional: module open_pgl.
+# Optional, for the module open_pgl.
 find_package(openpgl 0.7 QUIET)
-# Written into every report page (framework/pharos/experiments/report).
+# Chart.js is written into every report page (framework/pharos/experiments/report).
 find_file(PHAROS_CHART_JS chart.min.js PATHS /usr/share/javascript/chart.js
           DOC "Chart.js 3 as one minified file")
 if(NOT PHAROS_CHART_JS)

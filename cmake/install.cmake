@@ -1,4 +1,4 @@
-# A usable prefix: program, library, headers, plugins and the CMake package.
+# Installs a usable prefix: program, library, headers, plugins and the CMake package.
 include(CMakePackageConfigHelpers)
 install(TARGETS pharos pharos_options EXPORT pharos-targets
         LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})

@@ -1,12 +1,18 @@
 # pharos_add_module(NAME SOURCES file... [TESTS file...] [LIBRARIES target...] [TEST_ONLY]
 #                   [NO_CONFORMANCE])
 #
-# Builds the shared library NAME.pharos.so, which the loader finds in the plugin folder (in the build
-# tree: build/plugins; elsewhere through PHAROS_MODULE_PATH), and the doctest suite test-NAME, which
-# ctest runs under the label NAME. TEST_ONLY modules stand in build/test-plugins (with NO_CONFORMANCE
-# in build/faulty-plugins) and are not installed. The conformance suites of their contracts test all plugins of the module as
-# NAME-conformance, labels NAME and conformance; modules of planted faults say NO_CONFORMANCE. The
-# same function serves modules outside this project after find_package(pharos).
+# Builds two targets. The shared library NAME.pharos.so is found by the loader in the plugin folder
+# (build/plugins in the build tree) or elsewhere through PHAROS_MODULE_PATH. The doctest suite
+# test-NAME is run by ctest under the label NAME.
+#
+# The test NAME-conformance applies the conformance suites of their contracts to all plugins of the
+# module. Its labels are NAME and conformance. Modules of planted faults say NO_CONFORMANCE to leave
+# this test out.
+#
+# TEST_ONLY modules are built in build/test-plugins (with NO_CONFORMANCE in build/faulty-plugins)
+# and are not installed.
+#
+# Modules outside this project use the same function after find_package(pharos).
 include_guard(GLOBAL)
 
 function(pharos_add_module name)

@@ -9,33 +9,33 @@
 
 namespace pharos::aligned {
 
-/// Whether numbers of this purpose can be aligned with edges: those of the lens, and of lights and
-/// directions at the first hit.
+/// Returns whether numbers of this purpose can be aligned with edges: numbers of the lens, and
+/// numbers of lights and directions at the first hit.
 constexpr bool can_be_aligned(Purpose purpose) {
   return purpose == Purpose::lens || purpose == Purpose::light_position ||
          purpose == Purpose::bsdf_direction;
 }
 
-/// The dimensions of these purposes, each of which can_be_aligned(); of light_position those of
-/// `lights` branches.
+/// Returns the dimensions of these purposes. Each purpose must satisfy can_be_aligned().
+/// light_position has `lights` branches, and each branch is a dimension.
 std::vector<Dimension> aligned_dimensions(std::span<const Purpose> purposes, int lights);
 
-/// Tells fast the place of a dimension in a list of aligned ones.
+/// Finds the index of a dimension in a list of aligned dimensions quickly.
 class DimensionPlaces {
  public:
-  /// `dimensions` are some of aligned_dimensions(), in that order.
+  /// `dimensions` is a subset of aligned_dimensions(), in the same order.
   explicit DimensionPlaces(std::span<const Dimension> dimensions);
 
-  /// -1 when the dimension is not in the list.
+  /// Returns the index of the dimension, or -1 if it is not in the list.
   int find(Dimension dimension) const {
     const Branches& b = branches_[static_cast<std::size_t>(dimension.purpose())];
-    // Another bounce is further away than there are branches, in either direction.
+    // The codes of two bounces differ by more than the number of branches, in either direction.
     const std::uint64_t branch = (dimension.code() - b.first_code) >> 8;
     return branch < b.count ? static_cast<int>(b.first_place + branch) : -1;
   }
 
  private:
-  /// Those of one purpose.
+  /// The dimensions of one purpose.
   struct Branches {
     std::uint64_t first_code = 0;
     std::uint32_t count = 0;

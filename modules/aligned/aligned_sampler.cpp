@@ -1,20 +1,23 @@
-// aligned: points whose power spectrum is low along the directions in which the integrand's is high
-// (Werner, Hanika and Dachsbacher, "Optimized and Aligned Anisotropic Monte Carlo Sampling
-// Patterns"). An edge, such as that of an occluder before a light, makes the integrand of two
-// numbers discontinuous across a line; points that are evenly spread along the line's normal, and
-// along both axes, estimate it with a variance that falls about as n^-1.75 instead of n^-1.5.
+// aligned: draws points whose power spectrum is low along the directions in which the power
+// spectrum of the integrand is high (Werner, Hanika and Dachsbacher, "Optimized and Aligned
+// Anisotropic Monte Carlo Sampling Patterns"). An edge, such as the edge of an occluder before a
+// light, makes the integrand of two random numbers discontinuous across a line. If the points are
+// evenly spread along the normal of this line and along both axes, the variance of the estimate
+// falls about as n^-1.75 instead of n^-1.5.
 //
-// Before rendering the integrands are looked at in blocks of pixels, and the principal directions
-// of their edges found. Numbers of `purposes` then are points of the set for these directions,
-// moved by a random offset on the torus for each pixel, in an order of each number's own. The lens
-// is looked at, and the first hit's lights and direction; each light is a number by itself, for
-// which the integrator must sample `all`. All other numbers, and those of integrands without an
-// edge, are the base's.
+// Before rendering, the sampler probes the integrands in blocks of pixels and estimates the
+// principal directions of their edges. The numbers of `purposes` are then points of the set for
+// these directions. A random toroidal shift moves the set for each pixel, and each dimension visits
+// its points in an order of its own. The sampler can align the lens, the lights at the first hit
+// and the direction at the first hit. Each light is a dimension of its own; this requires the
+// integrator to sample `all` lights. The base sampler provides all other numbers, and the numbers
+// of integrands without an edge.
 //
-// Sets have 64, 256, 1024 or 4096 points, the most that the samples of a pixel fill; with fewer
-// than 64 samples all numbers are the base's and nothing is looked at. With `directions: 4` two
-// edges are aligned with at once. Sets for that are made when they are first needed, which takes
-// some seconds for one of 4096 points, and kept in the user's cache.
+// Sets have 64, 256, 1024 or 4096 points. The sampler uses the largest set that the samples of a
+// pixel fill. With fewer than 64 samples, the base sampler provides all numbers and nothing is
+// probed. With `directions: 4`, the points are aligned with two edges at once. The sets for two
+// edges are synthesized when they are first needed, which takes a few seconds for a set of 4096
+// points. They are kept in the user's cache.
 //
 //     sampler: { type: aligned }
 //     integrator: { type: path, light_selection: all }
@@ -40,14 +43,15 @@
 namespace pharos::aligned {
 namespace {
 
-/// Gathers the point sets in use.
+/// Collects the point sets in use.
 class SetTable {
  public:
   static constexpr std::uint32_t kNone = 0xffffffff;
 
   SetTable(const PointSetLibrary& library, std::uint32_t size) : library_(library), size_(size) {}
 
-  /// Where in points() the set for these directions begins; kNone where there are none.
+  /// Returns the index in points() at which the set for these directions begins, or kNone if there
+  /// are no directions.
   std::uint32_t begin_of(const FreeDirections& directions) {
     if (directions.count == 0) return kNone;
     const std::vector<double> wanted(directions.begin(), directions.end());
@@ -60,7 +64,7 @@ class SetTable {
     }
     return entry->second;
   }
-  /// Set after set, each sorted into cells.
+  /// The points of all sets, one set after the other, each sorted into cells.
   const PointSet& points() const { return points_; }
 
  private:
@@ -70,7 +74,7 @@ class SetTable {
   PointSet points_;
 };
 
-/// A product of 128 bits.
+/// The 128 bits of a product.
 struct WideProduct {
   std::uint64_t high, low;
 };
@@ -119,16 +123,16 @@ class PreparedAligned final : public PreparedSampler {
   std::span<const FilmSample> film_samples() const override { return film_samples_; }
 
  private:
-  /// Where in `points_` the set begins. Paths that are of no pixel of the film have that of the
-  /// first pixel: any set's points are uniform.
+  /// Returns the index in `points_` at which the set begins. Paths that belong to no pixel of the
+  /// film use the set of the first pixel, because the points of any set are uniform.
   std::uint32_t set_of(std::uint64_t pixel, int place) const {
     const std::size_t known = pixel < pixel_count_ ? pixel : 0;
     return sets_[static_cast<std::size_t>(place) * pixel_count_ + known];
   }
 
-  /// The sample's point, moved by an offset that all samples of the pixel's set share. Every path
-  /// pays for the hash: both halves of two wide products, each of whose bits hangs on many of both
-  /// factors.
+  /// Returns the sample's point. All samples of the pixel's set share one toroidal shift. The hash
+  /// uses both halves of two wide products, because every path pays for it. Each bit of these
+  /// products depends on many bits of both factors.
   Vec2 shifted(const GridPoint* set, const PathKey& key, Dimension dimension) const {
     const std::uint64_t pixel = key.index * 0xb564ef22ec7aece5ull + key.seed;
     const std::uint64_t part = dimension.code() * 0x9fb21c651e98df25ull +
@@ -138,14 +142,14 @@ class PreparedAligned final : public PreparedSampler {
     const WideProduct bits = wide_product(mixed.high ^ mixed.low, 0xf7c2ebc08f67f2b5ull);
     const std::uint64_t offset = bits.high ^ bits.low;
     const GridPoint p = set[orders_.place(key.sample, static_cast<std::uint32_t>(bits.high))];
-    // Sums of 32 bits wrap around as the torus does.
+    // Sums of 32 bits wrap around like the torus.
     return {to_unit_float((std::uint32_t{p.x} << 16) + static_cast<std::uint32_t>(offset >> 32)),
             to_unit_float((std::uint32_t{p.y} << 16) + static_cast<std::uint32_t>(offset))};
   }
 
   std::unique_ptr<const PreparedSampler> base_;
   DimensionPlaces places_;
-  int bits_;  ///< of a set's size
+  int bits_;  ///< binary logarithm of the number of points per set
   SetOrders orders_;
   std::size_t pixel_count_;
   std::vector<std::uint32_t> sets_;  ///< by dimension, then by pixel
@@ -153,7 +157,7 @@ class PreparedAligned final : public PreparedSampler {
   std::vector<FilmSample> film_samples_;
 };
 
-/// The same directions for all numbers, everywhere.
+/// Returns a field with the stated directions for all dimensions and all pixels.
 DirectionField stated_directions(const std::vector<double>& angles,
                                  std::vector<Dimension> dimensions) {
   FreeDirections stated;
@@ -169,33 +173,38 @@ void AlignedSettings::describe(Schema<AlignedSettings>& s) {
   using S = AlignedSettings;
   s.field("base", &S::base, "Sampler of all numbers that are not aligned").otherwise("pmj02bn");
   s.field("purposes", &S::purposes,
-          "What is aligned: numbers of the first hit's lights and direction, and of the lens")
+          "Which numbers are aligned: light_position and bsdf_direction at the first hit, and lens")
       .check("of light_position, bsdf_direction and lens", [](const std::vector<Purpose>& all) {
         return std::all_of(all.begin(), all.end(), can_be_aligned);
       });
-  s.field("lights", &S::lights, "How many lights are aligned with: the first ones of the scene")
+  s.field("lights", &S::lights,
+          "Largest number of lights that are aligned; the first lights of the scene are taken")
       .at_least(1)
       .at_most(256);
-  s.field("directions", &S::directions, "That points are aligned with at most, both axes included")
+  s.field("directions", &S::directions,
+          "Largest number of directions that points are aligned with, including both axes")
       .at_least(3)
       .at_most(2 + kMostFree);
   s.field("angles", &S::angles,
-          "Normals of the edges, everywhere; without them each block's are estimated")
+          "Normals of the edges for all pixels; if empty, they are estimated for each block")
       .unit("degrees")
       .at_least(-360)
       .at_most(360);
   s.field("samples", &S::samples,
-          "Points of a set, a power of two; without it the largest set of the program that the "
-          "samples a pixel fill, or 64 with a time budget")
+          "Number of points per set, a power of two; by default the size of the largest set of the "
+          "program that the samples per pixel fill, or 64 with a time budget")
       .check("a power of two from 64 to 65536",
              [](const std::optional<std::uint32_t>& n) { return !n || is_set_size(*n); });
   s.field("synthesize", &S::synthesize,
-          "Whether sets of other sizes are made where the program has none so large");
-  s.field("estimation", &S::estimation, "How directions are found");
-  s.field("pair_step", &S::pair_step, "Grid of the sets of two directions")
+          "Whether sets may have any power of two of points; sizes that the program lacks are "
+          "synthesized");
+  s.field("estimation", &S::estimation, "How directions are estimated");
+  s.field("pair_step", &S::pair_step,
+          "Spacing of the grid of directions for sets of two directions")
       .unit("degrees")
       .check("a divisor of 45", [](const int& step) { return step > 0 && 45 % step == 0; });
-  s.field("cache_folder", &S::cache_folder, "Where sets are kept; without it in the user's cache");
+  s.field("cache_folder", &S::cache_folder,
+          "Folder in which synthesized sets are kept; by default in the user's cache");
   s.example("{ angles: [30], samples: 64 }");
   s.example("{ estimation: { surfaces: {} } }");
 }

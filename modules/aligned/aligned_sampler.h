@@ -29,12 +29,12 @@ struct AlignedSettings {
   static void describe(Schema<AlignedSettings>& schema);
 };
 
-/// Points aligned with the edges of integrands.
+/// Draws points that are aligned with the edges of integrands.
 class AlignedSampler final : public Sampler {
  public:
   using Settings = AlignedSettings;
-  /// Throws InputError for purposes that cannot be aligned, more angles than directions, sizes of
-  /// sets that do not exist, and tiles that do not divide the grid.
+  /// Throws InputError for purposes that cannot be aligned, for more angles than directions, for
+  /// set sizes that do not exist, and for tiles that do not divide the grid.
   explicit AlignedSampler(const Settings& settings);
 
   std::unique_ptr<const PreparedSampler> prepare(const PixelGrid& grid, const SamplePlan& plan,
@@ -44,10 +44,10 @@ class AlignedSampler final : public Sampler {
     return settings_.angles.empty() || settings_.base->needs_probe();
   }
 
-  /// The directions that prepare() finds. Throws InputError without a probe.
+  /// Returns the directions that prepare() estimates. Throws InputError without a probe.
   DirectionField estimate(const IntegrandProbe* probe, std::uint64_t seed) const;
 
-  /// Points of a set where the samples of a pixel are known, or 0 for a time budget.
+  /// Returns the number of points per set. `samples_per_pixel` is 0 for a time budget.
   std::uint32_t set_size(std::uint32_t samples_per_pixel) const;
 
  private:

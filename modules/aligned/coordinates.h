@@ -5,12 +5,13 @@
 
 namespace pharos::aligned {
 
-/// Numbers a point: positions in the plane [sides of the unit square], or derivatives by them.
+/// Two numbers per point: positions in the plane [sides of the unit square], or derivatives with
+/// respect to positions.
 struct Coordinates {
   std::vector<double> x, y;
 
   Coordinates() = default;
-  /// All zero.
+  /// Makes `count` pairs of zeros.
   explicit Coordinates(std::size_t count) : x(count), y(count) {}
 
   std::size_t size() const { return x.size(); }

@@ -10,21 +10,22 @@
 namespace pharos::aligned {
 namespace {
 
-/// What was seen of one dimension of one region.
+/// The probed samples of one dimension in one region.
 struct Sight {
-  std::vector<float> values;        ///< at all points of the grid, tile after tile
-  std::vector<FilmSample> samples;  ///< of the image
+  std::vector<float> values;        ///< values at all points of the grid, tile after tile
+  std::vector<FilmSample> samples;  ///< samples that may count in the image
 };
 
-/// Looks at one dimension of one region.
+/// Probes one dimension of one region.
 class RegionProbe {
  public:
   RegionProbe(const IntegrandProbe& probe, const ProbeGrid& grid,
               std::span<const std::uint32_t> pixels, Dimension dimension, std::uint64_t seed)
       : probe_(probe), grid_(grid), pixels_(pixels), dimension_(dimension), seed_(seed) {}
 
-  /// What is not finite counts as zero. Samples are left over of lights alone: for other numbers
-  /// paths are cut after the next vertex, and so are no samples of the image.
+  /// Evaluates all points of the grid. Values that are not finite count as zero. Film samples are
+  /// kept for lights only: for other dimensions, paths are cut after the next vertex and are
+  /// therefore no samples of the image.
   Sight look(bool keeps_samples) const {
     const std::vector<std::uint32_t> pixels = tile_pixels();
     Sight sight;
@@ -46,8 +47,9 @@ class RegionProbe {
   }
 
  private:
-  /// The mean of a tile's light samples, with all other light of the path that they share. The
-  /// tile is a random one for its pixel, so that this has the pixel's mean.
+  /// Returns the mean of a tile's light samples, together with all other light of the path that
+  /// they share. The tile is a random one for its pixel, so the expected value of this mean is the
+  /// value of the pixel.
   FilmSample film_sample(const ProbeQuery& query, Vec2 first, std::span<const Rgb> colors) const {
     Rgb sum;
     for (const Rgb color : colors) sum += color;
@@ -56,7 +58,8 @@ class RegionProbe {
     return path;
   }
 
-  /// A pixel for each tile: spread evenly over the region, and unrelated to where the tile lies.
+  /// Chooses a pixel for each tile. The pixels are spread evenly over the region, and their
+  /// positions are independent of the positions of the tiles.
   std::vector<std::uint32_t> tile_pixels() const {
     const auto tiles = static_cast<std::size_t>(grid_.tile_count());
     RandomStream random(seed_, tiles);
@@ -86,7 +89,7 @@ class RegionProbe {
   std::uint64_t seed_;
 };
 
-/// By region, whether a pixel of it will be rendered.
+/// Returns for each region whether at least one of its pixels will be rendered.
 std::vector<bool> rendered_regions(const PixelRegions& regions, const IntegrandProbe& probe) {
   const PixelRect window = probe.window();
   const int width = probe.grid().width;

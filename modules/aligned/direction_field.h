@@ -13,22 +13,23 @@
 
 namespace pharos::aligned {
 
-/// How the directions of integrands are estimated.
+/// Settings of the estimation of directions.
 struct EstimationSettings {
   int block = 16;                           ///< edge of a block [pixels]
-  std::optional<SurfaceSettings> surfaces;  ///< divides blocks by surface; none: they stay whole
+  std::optional<SurfaceSettings> surfaces;  ///< divides blocks by surface; empty: whole blocks
   ProbeGrid grid;
   EdgeSettings edges;
   PrincipalSettings principal;
-  bool reuse = false;  ///< whether what was looked at counts in the image
+  bool reuse = false;  ///< whether probed samples count in the image
 
   static void describe(Schema<EstimationSettings>& schema);
 };
 
-/// What numbers are aligned with, everywhere on a film.
+/// The directions with which each dimension is aligned, for all pixels of a film.
 class DirectionField {
  public:
-  /// `directions`: those of the first dimension region by region, then of the next.
+  /// `directions` holds the directions of the first dimension, region by region, then the
+  /// directions of the next dimension.
   DirectionField(PixelRegions regions, std::vector<Dimension> dimensions,
                  std::vector<FreeDirections> directions, std::vector<FilmSample> samples = {})
       : regions_(std::move(regions)),
@@ -38,11 +39,11 @@ class DirectionField {
 
   const PixelRegions& regions() const { return regions_; }
   const std::vector<Dimension>& dimensions() const { return dimensions_; }
-  /// Of a dimension, by its place in dimensions(), in a region.
+  /// The directions in a region. `dimension` is an index into dimensions().
   const FreeDirections& at(std::size_t dimension, std::size_t region) const {
     return directions_[dimension * regions_.count() + region];
   }
-  /// Estimates of the image: one of each tile of light samples, with `reuse`.
+  /// Estimates of the image: with `reuse`, one for each tile of light samples.
   const std::vector<FilmSample>& samples() const { return samples_; }
 
  private:
@@ -52,12 +53,12 @@ class DirectionField {
   std::vector<FilmSample> samples_;
 };
 
-/// Looks at the integrands of `dimensions` and finds at most `most` principal directions in each
-/// region that has a pixel in the probe's window; there are none in others. Of each region
-/// grid.size() points are probed, whatever its size, of grid.tile_count() pixels. All other numbers
-/// of a path are held, and only its light up to the vertex after the one that the number decides on
-/// counts, as later ones would be noise. The same for any number of threads; `seed` decides on all
-/// that is random.
+/// Probes the integrands of `dimensions` and estimates at most `most` principal directions in each
+/// region that has a pixel in the probe's window. Other regions have no directions. Each region is
+/// probed at grid.size() points, whatever its size, and these points belong to grid.tile_count()
+/// pixels. All other random numbers of a path are held constant. Light is counted only up to the
+/// vertex after the one that the dimension selects, because light from later vertices would be
+/// noise. The result is the same for any number of threads. `seed` determines all random choices.
 DirectionField estimate_directions(const IntegrandProbe& probe, std::vector<Dimension> dimensions,
                                    const EstimationSettings& settings, int most,
                                    std::uint64_t seed);

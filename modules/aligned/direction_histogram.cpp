@@ -9,8 +9,8 @@ namespace {
 
 constexpr double kPiDouble = 3.14159265358979323846;
 
-/// A Gaussian filter of square tiles, along one axis and then along the other. At borders the part
-/// of it that lies within the tile has the weight of all.
+/// A separable Gaussian filter for square tiles. At borders, the part of the filter that lies
+/// within the tile is normalized to a total weight of one.
 class GaussianFilter {
  public:
   GaussianFilter(float sigma, int edge) : radius_(static_cast<int>(std::ceil(3 * sigma))) {
@@ -25,7 +25,7 @@ class GaussianFilter {
     }
   }
 
-  /// Filters `in`, row by row, into `out`, with `between` for what lies between both steps.
+  /// Filters `in`, row by row, into `out`. `between` holds the result of the first of both steps.
   void apply(std::span<const float> in, std::span<float> between, std::span<float> out) const {
     const int edge = static_cast<int>(scales_.size());
     filter_columns(in, between, edge);
@@ -37,7 +37,7 @@ class GaussianFilter {
   int last(int at, int edge) const { return std::min(at + radius_, edge - 1); }
   float weight(int offset) const { return weights_[static_cast<std::size_t>(std::abs(offset))]; }
 
-  /// Filters along y and lets x and y change places: twice this is the whole filter.
+  /// Filters along y and transposes the tile. Two calls make the whole filter.
   void filter_columns(std::span<const float> in, std::span<float> out, int edge) const {
     const auto width = static_cast<std::size_t>(edge);
     std::vector<float> row(width);
@@ -53,11 +53,12 @@ class GaussianFilter {
   }
 
   int radius_;
-  std::vector<float> weights_;  ///< by distance
-  std::vector<float> scales_;   ///< by place
+  std::vector<float> weights_;  ///< by distance from the center [cells]
+  std::vector<float> scales_;   ///< by position along an axis: normalization of the weights
 };
 
-/// Sobel's estimate of the gradient [value / cell] at a cell that is not at the border.
+/// Returns Sobel's estimate of the gradient [value / cell] at a cell that does not lie at the
+/// border.
 Vec2 sobel(const float* cell, std::ptrdiff_t row) {
   const float *above = cell + row, *below = cell - row;
   return {((above[1] - above[-1]) + 2 * (cell[1] - cell[-1]) + (below[1] - below[-1])) / 8,
@@ -90,11 +91,11 @@ DirectionHistogram direction_histogram(std::span<const float> values, const Prob
     filter.apply(values.subspan(i, size), between, std::span(smooth).subspan(i, size));
   }
   DirectionHistogram histogram{};
-  constexpr float kRounding = 1e-4f;  // of filtered values, relative to the largest
+  constexpr float kRounding = 1e-4f;  // of filtered values, relative to the largest value
   const auto [low, high] = std::minmax_element(smooth.begin(), smooth.end());
   const float range = *high - *low;
   if (!(range > kRounding * std::max(std::abs(*low), std::abs(*high)))) return histogram;
-  // What a step of height one has for a slope once it is filtered [1 / cell].
+  // The slope of a filtered step of height one [1 / cell].
   const auto step_slope = static_cast<float>(1 / (std::sqrt(2 * kPiDouble) * settings.sigma));
   const int margin = std::max(1, static_cast<int>(std::ceil(settings.sigma)));
   for (std::size_t i = 0; i < smooth.size(); i += size) {

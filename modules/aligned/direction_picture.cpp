@@ -7,10 +7,10 @@
 namespace pharos::aligned {
 namespace {
 
-/// Where the segments of a region lie [pixels of the picture].
+/// The position of a region's segments [pixels of the picture].
 struct Place {
   Vec2 center;
-  float edge = 0;  ///< of a square of the region's size
+  float edge = 0;  ///< edge of a square that has the area of the region
 };
 
 Place place_of(std::span<const std::uint32_t> pixels, int width, int scale) {
@@ -24,11 +24,11 @@ Place place_of(std::span<const std::uint32_t> pixels, int width, int scale) {
           static_cast<float>(scale) * std::sqrt(static_cast<float>(pixels.size()))};
 }
 
-/// Blends a round-ended segment of `direction` into the image, with smooth borders.
+/// Blends a segment of `direction` with round ends and smooth borders into the image.
 void draw_segment(Image& image, const Place& place, int direction, Rgb color) {
   const float half_length = 0.4f * place.edge, half_width = std::max(0.03f * place.edge, 0.75f);
   const float angle = radians(static_cast<float>(direction));
-  const Vec2 along{std::cos(angle), -std::sin(angle)};  // rows count downwards
+  const Vec2 along{std::cos(angle), -std::sin(angle)};  // row numbers increase downward
   const int reach = static_cast<int>(std::ceil(half_length + half_width)) + 1;
   const int x0 = static_cast<int>(place.center.x), y0 = static_cast<int>(place.center.y);
   for (int y = std::max(y0 - reach, 0); y <= std::min(y0 + reach, image.height() - 1); ++y) {

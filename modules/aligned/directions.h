@@ -4,41 +4,43 @@
 #include <array>
 #include <compare>
 
-/// Directions of the plane of two primary numbers. They are whole degrees in [0, 180), from the
-/// first number's axis towards the second's, and axial: theta and theta + 180 are one direction.
-/// The direction of an edge is that of its normal, along which the power spectrum of an integrand
-/// with the edge is high.
+/// Directions in the plane of two primary numbers. A direction is a whole number of degrees in [0,
+/// 180), measured from the first number's axis toward the second number's axis. Directions are
+/// axial: theta and theta + 180 are the same direction. The direction of an edge is the direction
+/// of its normal, because the power spectrum of an integrand with this edge is high along the
+/// normal.
 namespace pharos::aligned {
 
 inline constexpr int kDirections = 180;
 
-/// The angle between two directions, 0 to 90 degrees.
+/// Returns the angle between two directions, 0 to 90 degrees.
 constexpr int degrees_between(int a, int b) {
   const int difference = a > b ? a - b : b - a;
   return std::min(difference, kDirections - difference);
 }
 
-/// The angle between a direction and the nearer axis, 0 to 45 degrees.
+/// Returns the angle between a direction and the nearer axis, 0 to 45 degrees.
 constexpr int degrees_from_axis(int direction) {
   return std::min(degrees_between(direction, 0), degrees_between(direction, 90));
 }
 
-/// Any whole number of degrees as a direction.
+/// Maps any whole number of degrees to a direction.
 constexpr int as_direction(int degrees) {
   return (degrees % kDirections + kDirections) % kDirections;
 }
 
-/// The most directions beside the axes that a point set is aligned with.
+/// The largest number of directions, in addition to the axes, with which a point set is aligned.
 inline constexpr int kMostFree = 2;
 
-/// The directions beside the axes that one number of one region is aligned with, ascending.
+/// The directions, in addition to the axes, with which one dimension in one region is aligned, in
+/// ascending order.
 struct FreeDirections {
-  int count = 0;                         ///< 0: there is nothing to align with
-  std::array<int, kMostFree> degrees{};  ///< those from `count` on are zero
+  int count = 0;                         ///< 0: the dimension is not aligned
+  std::array<int, kMostFree> degrees{};  ///< elements from `count` on are zero
 
   const int* begin() const { return degrees.data(); }
   const int* end() const { return degrees.data() + count; }
-  /// Adds one more, of fewer than kMostFree.
+  /// Adds a direction. There must be fewer than kMostFree directions.
   void add(int direction) {
     int* const last = degrees.data() + count++;
     int* const place = std::upper_bound(degrees.data(), last, direction);

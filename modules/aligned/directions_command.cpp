@@ -1,7 +1,8 @@
-// directions: a picture of the directions that the sampler `aligned` finds in a scene, one for each
-// number that it aligns: the render, and in each block the principal directions of the edges in the
-// plane of the two numbers (figure 7 of the paper). The sampler is that of the render config, or
-// one with default settings where the config has another.
+// directions: draws the directions that the sampler `aligned` estimates in a scene. There is one
+// picture for each dimension that the sampler aligns. It shows the render, and in each block the
+// principal directions of the edges in the plane of the two numbers (figure 7 of the paper). The
+// command uses the sampler of the render config. If the config has another sampler, the command
+// uses `aligned` with default settings.
 //
 //     pharos directions --render configs/cornell-box.yaml -o directions.png
 #include "directions_command.h"
@@ -39,7 +40,7 @@ DirectionField directions_of(const RenderConfig& config) {
   return sampler_of(config)->estimate(integrator->probe().get(), config.seed);
 }
 
-/// Share of regions in which there is something to align with [1].
+/// Returns the share of regions that have at least one direction [1].
 double aligned_share(const DirectionField& field, std::size_t dimension) {
   std::size_t count = 0;
   for (std::size_t region = 0; region < field.regions().count(); ++region) {
@@ -52,9 +53,10 @@ double aligned_share(const DirectionField& field, std::size_t dimension) {
 
 void DirectionsCommand::Settings::describe(Schema<Settings>& s) {
   s.field("render", &Settings::render, "Render config").required();
-  s.field("output", &Settings::output, "Picture (.png)").required();
-  s.field("samples", &Settings::samples, "Of a pixel of the image beneath").at_least(1);
-  s.field("scale", &Settings::scale, "Edge of a pixel of the image beneath")
+  s.field("output", &Settings::output, "File for the picture (.png)").required();
+  s.field("samples", &Settings::samples, "Samples per pixel of the image in the background")
+      .at_least(1);
+  s.field("scale", &Settings::scale, "Edge of a pixel of the image in the background")
       .unit("pixels")
       .at_least(1)
       .at_most(16);

@@ -8,7 +8,7 @@
 
 namespace pharos::aligned {
 
-/// See directions_command.cpp.
+/// The command `directions`; see directions_command.cpp.
 class DirectionsCommand final : public Command {
  public:
   struct Settings {
@@ -19,7 +19,7 @@ class DirectionsCommand final : public Command {
 
     static void describe(Schema<Settings>& schema);
   };
-  /// Throws InputError for a picture of another kind than PNG.
+  /// Throws InputError if the picture is not a PNG file.
   explicit DirectionsCommand(const Settings& settings);
   CommandEnd run(const CommandControl& control) const override;
 

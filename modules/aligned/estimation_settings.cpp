@@ -1,4 +1,4 @@
-// The parameters of the estimation of directions, which are settings of the sampler `aligned`.
+// The parameters of the estimation of directions. They are settings of the sampler `aligned`.
 
 #include "direction_field.h"
 
@@ -6,25 +6,25 @@ namespace pharos::aligned {
 
 void EstimationSettings::describe(Schema<EstimationSettings>& s) {
   using S = EstimationSettings;
-  s.field("block", &S::block, "Edge of the blocks that share directions")
+  s.field("block", &S::block, "Edge of the blocks of pixels that share directions")
       .unit("pixels")
       .at_least(1)
       .at_most(1024);
-  s.field("surfaces", &S::surfaces, "Divides blocks by the surface that pixels see");
-  s.field("grid", &S::grid, "Where the integrand of a block is looked at");
+  s.field("surfaces", &S::surfaces, "Divides each block by the surfaces that its pixels see");
+  s.field("grid", &S::grid, "Grid of points at which the integrand of a block is probed");
   s.field("edges", &S::edges, "What counts as an edge");
-  s.field("principal", &S::principal, "Which directions of edges stand out");
+  s.field("principal", &S::principal, "Which directions of edges are principal directions");
   s.field("reuse", &S::reuse,
-          "Whether the light samples that were looked at count in the image, each tile of them as "
-          "one sample of its pixel; needs a film with `filter: box`, and is rarely worth it");
+          "Whether probed light samples count in the image, each tile as one sample of its pixel; "
+          "needs a film with `filter: box` and rarely pays off");
 }
 
 void ProbeGrid::describe(Schema<ProbeGrid>& s) {
-  s.field("cells", &ProbeGrid::cells, "Of the grid along an axis, a point in each")
+  s.field("cells", &ProbeGrid::cells, "Cells of the grid along an axis; each cell has one point")
       .at_least(8)
       .at_most(1024);
   s.field("tiles", &ProbeGrid::tiles,
-          "Of the grid along an axis, each of one pixel of the region; a divisor of cells")
+          "Tiles of the grid along an axis, a divisor of cells; each tile belongs to one pixel")
       .at_least(1)
       .at_most(64);
 }
@@ -43,42 +43,47 @@ void EdgeSettings::describe(Schema<EdgeSettings>& s) {
 
 void PrincipalSettings::describe(Schema<PrincipalSettings>& s) {
   using S = PrincipalSettings;
-  s.field("axis_width", &S::axis_width, "Directions this near to an axis are its own")
+  s.field("axis_width", &S::axis_width,
+          "Directions at most this far from an axis belong to the axis")
       .unit("degrees")
       .at_least(0)
       .at_most(44);
   s.field("kappa", &S::kappa, "Concentration of the von Mises distributions that are fitted")
       .at_least(1)
       .at_most(1000);
-  s.field("floor", &S::floor, "Least share of a direction, over the mean of all")
+  s.field("floor", &S::floor, "Smallest share of a direction, relative to the mean of all")
       .above(0)
       .at_most(1);
   s.field("window", &S::window, "How far from the highest bin a distribution's mean may lie")
       .unit("degrees")
       .at_least(0)
       .at_most(45);
-  s.field("min_distance", &S::min_distance, "Between two principal directions")
+  s.field("min_distance", &S::min_distance, "Smallest angle between two principal directions")
       .unit("degrees")
       .at_least(1)
       .at_most(90);
-  s.field("mass_width", &S::mass_width, "Shares this far from a mean are added up")
+  s.field("mass_width", &S::mass_width,
+          "Shares of directions at most this far from a mean are summed")
       .unit("degrees")
       .at_least(0)
       .at_most(45);
-  s.field("least_mass", &S::least_mass, "Sum of shares that makes a mean a principal direction")
+  s.field("least_mass", &S::least_mass,
+          "Smallest sum of shares for which a mean is a principal direction")
       .at_least(0)
       .at_most(1);
 }
 
 void SurfaceSettings::describe(Schema<SurfaceSettings>& s) {
-  s.field("angle", &SurfaceSettings::angle, "Most between normals of one surface")
+  s.field("angle", &SurfaceSettings::angle, "Largest angle between normals of one surface")
       .unit("degrees")
       .at_least(0)
       .at_most(180);
   s.field("depth", &SurfaceSettings::depth,
-          "Most difference of two depths of one surface, over the smaller one")
+          "Largest difference of two depths of one surface, relative to the smaller depth")
       .at_least(0);
-  s.field("fewest", &SurfaceSettings::fewest, "Smaller regions join others").unit("pixels");
+  s.field("fewest", &SurfaceSettings::fewest,
+          "Smallest size of a region; smaller regions join others")
+      .unit("pixels");
 }
 
 }  // namespace pharos::aligned

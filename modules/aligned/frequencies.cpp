@@ -11,27 +11,29 @@ namespace {
 
 constexpr double kRadians = std::numbers::pi / 180;
 
-/// The mean of 1 / (1 + (slope sin phi)^2) over the angles phi from `first` to `last`, within a
-/// right angle: as if the sine rose evenly between them.
+/// Returns the mean of 1 / (1 + (slope sin phi)^2) over the angles phi from `first` to `last`,
+/// within a right angle, as if the sine increased linearly between them.
 double mean_across(double slope, double first, double last) {
-  constexpr double kNarrow = 1e-6;  // quotients of smaller differences are rounding alone
+  constexpr double kNarrow = 1e-6;  // quotients of smaller differences consist of rounding errors
   if (last - first < kNarrow) return 1 / (1 + slope * std::sin(first) * slope * std::sin(first));
   const double to = slope * std::sin(std::min(last, std::numbers::pi / 2));
   const double from = slope * std::sin(first);
   return (std::atan(to) - std::atan(from)) / (to - from);
 }
 
-/// How fast the energy of an edge falls as the sine of its frequency's angle to the normal grows.
+/// Returns how fast the energy of an edge falls as the sine of the angle between its frequency and
+/// the normal grows.
 double slope_of(double squared_length, const SuppressionRule& rule) {
   return std::numbers::sqrt2 * std::numbers::pi * rule.edge_length * std::sqrt(squared_length);
 }
 
-/// Leaves those of the highest weights, at most `most`, of equal ones all or none.
+/// Keeps the frequencies with the highest weights, at most `most`. Of frequencies with equal
+/// weights it keeps all or none.
 void keep_heaviest(std::vector<TargetPower>& frequencies, std::size_t most) {
   if (frequencies.size() <= most) return;
   const auto first_left_out = frequencies.begin() + static_cast<std::ptrdiff_t>(most);
   std::ranges::nth_element(frequencies, first_left_out, std::greater{}, &TargetPower::weight);
-  // What is equal by symmetry differs by rounding.
+  // Weights that are equal by symmetry differ by rounding.
   const double bound = first_left_out->weight * (1 + 1e-9);
   std::erase_if(frequencies, [&](const TargetPower& v) { return v.weight <= bound; });
 }
@@ -57,34 +59,35 @@ void TargetPower::describe(Schema<TargetPower>& s) {
       .required()
       .at_least(-kHighest)
       .at_most(kHighest);
-  s.field("power", &TargetPower::power, "What its power should be; 1 is that of random points")
-      .at_least(0);
-  s.field("weight", &TargetPower::weight, "Weight of its error").at_least(0);
+  s.field("power", &TargetPower::power, "Target power; random points have 1").at_least(0);
+  s.field("weight", &TargetPower::weight, "Weight of the error of this power").at_least(0);
 }
 
 void SuppressionRule::describe(Schema<SuppressionRule>& s) {
-  s.field("radius", &SuppressionRule::radius, "Highest length of suppressed frequencies")
+  s.field("radius", &SuppressionRule::radius, "Largest length of suppressed frequencies")
       .unit("square root of the number of points")
       .above(0)
       .at_most(8);
-  s.field("exact", &SuppressionRule::exact, "Share of edges taken to be normal to a direction")
+  s.field("exact", &SuppressionRule::exact,
+          "Share of edges whose normal is assumed to be exactly a direction")
       .at_least(0)
       .at_most(1);
   s.field("half_angle", &SuppressionRule::half_angle,
-          "Normals of the other edges are taken to lie so near to each direction")
+          "Largest assumed angle between the normals of the other edges and a direction")
       .unit("degrees")
       .at_least(0)
       .at_most(45);
-  s.field("edge_length", &SuppressionRule::edge_length, "How long edges are taken to be")
+  s.field("edge_length", &SuppressionRule::edge_length, "Assumed length of edges")
       .unit("edge of the square")
       .above(0)
       .at_most(1.5);
   s.field("anywhere", &SuppressionRule::anywhere,
-          "Edges of any normal, for each edge along one direction")
+          "Number of edges with arbitrary normals for each edge along one direction")
       .at_least(0)
       .at_most(16);
-  s.field("share", &SuppressionRule::share,
-          "How many frequencies are suppressed: those where such edges have most energy")
+  s.field(
+       "share", &SuppressionRule::share,
+       "Largest number of suppressed frequencies; those with most energy of such edges are taken")
       .unit("number of points")
       .above(0)
       .at_most(16);
@@ -111,7 +114,7 @@ double edge_energy(int x, int y, Direction normal, const SuppressionRule& rule) 
 }
 
 double mean_edge_energy(int x, int y, const SuppressionRule& rule) {
-  // Of cos^2 / (1 + (slope sin)^2) / |v|^2 over all angles.
+  // The mean of cos^2 / (1 + (slope sin)^2) / |v|^2 over all angles.
   const double squared = static_cast<double>(x) * x + static_cast<double>(y) * y;
   const double slope = slope_of(squared, rule);
   return 1 / ((1 + std::sqrt(1 + slope * slope)) * squared);

@@ -8,7 +8,7 @@ PHAROS_MODULE(registry) {
   using namespace pharos::aligned;
   registry.add<AlignedSampler>("aligned", "Points aligned with the edges of integrands");
   registry.add<DirectionsCommand>("directions",
-                                  "Make a picture of the directions that edges have in a scene");
+                                  "Draw the estimated directions of the edges in a scene");
   registry.add<SynthesizeCommand>("synthesize",
-                                  "Make point sets with low energy in stated directions");
+                                  "Make point sets with low energy along stated directions");
 }

@@ -11,44 +11,48 @@
 
 namespace pharos::aligned {
 
-/// The pixels of a film divided into regions, which share the directions of their integrands
-/// (section 5.3 of the paper). Pixels are numbered row by row.
+/// A partition of the pixels of a film into regions. The pixels of a region share the directions of
+/// their integrands (section 5.3 of the paper). Pixels are numbered row by row.
 class PixelRegions {
  public:
   PixelRegions() = default;
-  /// `region_of[i]` is the number of the region that pixel i is in; numbers may be anything.
+  /// `region_of[i]` is the label of the region that contains pixel i. Labels may be arbitrary
+  /// numbers.
   explicit PixelRegions(std::span<const std::uint32_t> region_of);
 
   std::size_t count() const { return starts_.empty() ? 0 : starts_.size() - 1; }
   std::size_t pixel_count() const { return region_of_.size(); }
-  /// The region of a pixel, below count(); regions are numbered by their first pixels.
+  /// Returns the region of a pixel, a number below count(). Regions are numbered in the order of
+  /// their first pixels.
   std::uint32_t of(std::size_t pixel) const { return region_of_[pixel]; }
-  /// The pixels of a region, ascending.
+  /// Returns the pixels of a region in ascending order.
   std::span<const std::uint32_t> pixels(std::size_t region) const {
     return std::span(pixels_).subspan(starts_[region], starts_[region + 1] - starts_[region]);
   }
 
  private:
   std::vector<std::uint32_t> region_of_;
-  std::vector<std::uint32_t> pixels_;  ///< region after region
-  std::vector<std::size_t> starts_;    ///< in `pixels_`, and its end
+  std::vector<std::uint32_t> pixels_;  ///< pixels of all regions, one region after the other
+  std::vector<std::size_t> starts_;    ///< first index of each region in `pixels_`, and the end
 };
 
-/// Square blocks of `edge` pixels, those at the right and lower border smaller.
+/// Divides the film into square blocks of `edge` pixels. Blocks at the right and lower border are
+/// smaller.
 PixelRegions block_regions(const PixelGrid& grid, int edge);
 
-/// When two first hits are of one surface.
+/// The conditions under which two first hits lie on the same surface.
 struct SurfaceSettings {
-  float angle = 15;           ///< most between their normals [degrees]
-  float depth = 0.25f;        ///< most difference of their depths over the smaller one [1]
-  std::uint32_t fewest = 32;  ///< smaller regions join others [pixels]
+  float angle = 15;     ///< largest angle between their normals [degrees]
+  float depth = 0.25f;  ///< largest difference of their depths, relative to the smaller depth [1]
+  std::uint32_t fewest = 32;  ///< smallest size of a region; smaller regions join others [pixels]
 
   static void describe(Schema<SurfaceSettings>& schema);
 };
 
-/// The same blocks, divided by what their pixels see: pixels of one surface are a region.
-/// Regions of too few pixels join the largest of the same surface in a neighboring block, those
-/// that find none the largest one of their block. Pixels that see nothing are alike.
+/// Divides the same blocks by the surfaces that their pixels see: the pixels of one surface form a
+/// region. A region with too few pixels joins the largest region of the same surface in a
+/// neighboring block. If there is none, it joins the largest region of its own block. All pixels
+/// that see nothing belong to one surface.
 PixelRegions surface_regions(const IntegrandProbe& probe, int edge,
                              const SurfaceSettings& settings);
 

@@ -5,7 +5,7 @@
 namespace pharos::aligned {
 namespace {
 
-/// (A number just below a whole one may give 65,536, which is zero.)
+/// A number just below a whole number may give 65,536, which wraps around to zero.
 std::uint16_t cell_of(double u) {
   return static_cast<std::uint16_t>(static_cast<std::uint32_t>((u - std::floor(u)) * 0x1p16));
 }

@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
+#include <pharos/core/archive.h>
 #include <pharos/core/atomic_file.h>
-#include <pharos/core/binary_stream.h>
 #include <pharos/core/error.h>
 
 #include "synthesis.h"
@@ -16,8 +16,6 @@
 namespace pharos::aligned {
 namespace {
 
-constexpr const char* kForm = "point_sets";
-constexpr std::uint32_t kVersion = 1;
 /// More than there are in any library: a damaged number must not become memory.
 constexpr std::uint32_t kMostSets = 1u << 14;
 
@@ -41,15 +39,25 @@ PointSet load_set(std::istream& in, std::uint32_t points) {
   return set;
 }
 
+/// What stands before the points.
+struct Head {
+  std::uint64_t key = 0;
+  std::uint32_t sets = 0, points = 0;
+  std::uint64_t checksum = 0;
+
+  void archive(Archive& archive) {
+    archive.heading("point_sets", 1);
+    archive(key, sets, points, checksum);
+  }
+};
+
 }  // namespace
 
 void save_point_sets(std::ostream& out, const StoredSets& stored) {
   const std::size_t points = stored.sets.empty() ? 0 : stored.sets.front().size();
-  save_heading(out, kForm, kVersion);
-  save_number(out, stored.key);
-  save_number(out, static_cast<std::uint32_t>(stored.sets.size()));
-  save_number(out, static_cast<std::uint32_t>(points));
-  save_number(out, checksum(stored.sets));
+  Head head{stored.key, static_cast<std::uint32_t>(stored.sets.size()),
+            static_cast<std::uint32_t>(points), checksum(stored.sets)};
+  save(out, head);
   for (const PointSet& set : stored.sets) {
     out.write(reinterpret_cast<const char*>(set.data()),
               static_cast<std::streamsize>(set.size() * sizeof(GridPoint)));
@@ -57,15 +65,17 @@ void save_point_sets(std::ostream& out, const StoredSets& stored) {
 }
 
 StoredSets load_point_sets(std::istream& in) {
-  expect_heading(in, kForm, kVersion);
-  StoredSets stored;
-  stored.key = load_number<std::uint64_t>(in);
-  const auto sets = load_number<std::uint32_t>(in), points = load_number<std::uint32_t>(in);
-  const auto expected = load_number<std::uint64_t>(in);
-  if (sets > kMostSets || points > kMostPoints) throw InputError("what was saved is damaged");
-  for (std::uint32_t i = 0; i < sets; ++i) stored.sets.push_back(load_set(in, points));
+  Head head;
+  load(in, head);
+  if (head.sets > kMostSets || head.points > kMostPoints) {
+    throw InputError("what was saved is damaged");
+  }
+  StoredSets stored{.key = head.key};
+  for (std::uint32_t i = 0; i < head.sets; ++i) stored.sets.push_back(load_set(in, head.points));
   const bool ends = in.peek() == std::istream::traits_type::eof();
-  if (!ends || checksum(stored.sets) != expected) throw InputError("what was saved is damaged");
+  if (!ends || checksum(stored.sets) != head.checksum) {
+    throw InputError("what was saved is damaged");
+  }
   return stored;
 }
 

@@ -8,32 +8,34 @@
 
 #include "point_set.h"
 
-/// Files of point sets. The binary form holds any number of sets of the same size; numbers are
+/// Files of point sets. The binary form holds any number of sets of the same size. Numbers are
 /// little-endian:
 ///
 ///     line      "pharos point_sets 1"
-///     uint64    key: what the sets are, for whoever wrote them
+///     uint64    key: identifies the sets for the writer of the file
 ///     uint32    number of sets
-///     uint32    points of each
-///     uint64    checksum: XXH3 (64 bits) of the last set, its seed that of the set before, and so
-///     on uint16    x, y of each point, one set after the other: GridPoint
+///     uint32    number of points per set
+///     uint64    checksum: XXH3 (64 bits) of the last set, with the checksum of the previous set
+///               as seed, and so on for all previous sets
+///     uint16    x, y of each point, one set after the other: GridPoint
 namespace pharos::aligned {
 
-/// What a file holds.
+/// The content of a file.
 struct StoredSets {
   std::uint64_t key = 0;
-  std::vector<PointSet> sets;  ///< all of one size
+  std::vector<PointSet> sets;  ///< all sets have the same size
 };
 
 /// Writes the binary form.
 void save_point_sets(std::ostream& out, const StoredSets& stored);
-/// Reads it, to the end of `in`. Throws InputError, which is not located, for anything else,
-/// damaged and cut off files included.
+/// Reads the binary form up to the end of `in`. Throws InputError without a location for any other
+/// content, including damaged and truncated files.
 StoredSets load_point_sets(std::istream& in);
 
-/// Writes a file of the binary form, whole or not at all. Throws RunError.
+/// Writes a file of the binary form, completely or not at all. Throws RunError.
 void write_point_sets(const std::filesystem::path& file, const StoredSets& stored);
-/// Writes the points as text, "x y" a line, exact; whole or not at all. Throws RunError.
+/// Writes the points as text, one line "x y" per point, with exact numbers; completely or not at
+/// all. Throws RunError.
 void write_point_list(const std::filesystem::path& file, const PointSet& points);
 
 }  // namespace pharos::aligned

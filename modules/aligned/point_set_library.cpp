@@ -17,13 +17,14 @@ namespace {
 constexpr std::array<Symmetry, 4> kSymmetries{
     {{false, false}, {true, false}, {false, true}, {true, true}}};
 
-/// The whole multiple of `step` that is nearest to an angle, in [0, 180).
+/// Returns the multiple of `step` that is nearest to an angle, in [0, 180).
 int rounded(double degrees, int step) {
   const double turned = degrees - 180 * std::floor(degrees / 180);
   return static_cast<int>(std::lround(turned / step)) * step % 180;
 }
 
-/// The set of two directions is the same, whatever their order.
+/// Applies the symmetry to all directions and sorts them: the set of two directions does not depend
+/// on their order.
 std::vector<int> turned(std::span<const int> directions, Symmetry symmetry) {
   std::vector<int> all;
   std::ranges::transform(directions, std::back_inserter(all), symmetry);
@@ -51,7 +52,7 @@ void check_count(std::span<const double> directions) {
 SetChoice choose_set(std::span<const int> directions, std::uint32_t points) {
   SetChoice choice{{points, turned(directions, kSymmetries.front())}, kSymmetries.front()};
   for (const Symmetry symmetry : kSymmetries) {
-    // Applied twice a symmetry gives the same directions: it leads back from there.
+    // A symmetry applied twice is the identity, so the same symmetry maps the set back.
     std::vector<int> there = turned(directions, symmetry);
     if (there < choice.set.directions) choice = {{points, std::move(there)}, symmetry};
   }
@@ -76,7 +77,7 @@ PointSetLibrary::PointSetLibrary(Options options)
 std::vector<int> PointSetLibrary::snapped(std::span<const double> wanted) const {
   check_count(wanted);
   std::vector<int> on_grid;
-  double left = 0;  // the direction that stays where the grid does not hold two
+  double left = 0;  // the direction that remains if the grid does not hold two
   for (const double degrees : wanted) {
     const int direction = rounded(degrees, wanted.size() == 1 ? 1 : pair_step_);
     const bool is_known = direction % 90 == 0 || std::ranges::count(on_grid, direction) > 0;

@@ -14,20 +14,21 @@
 namespace pharos::aligned {
 namespace {
 
-/// Points whose waves are multiplied at once: few enough for their table to stay in the cache.
+/// Number of points whose waves are multiplied at once. It is small enough for their table to stay
+/// in the cache.
 constexpr std::size_t kBlock = 128;
 constexpr std::size_t kVectors = kBlock / SixteenFloats::kCount;
 
-/// Amplitudes are added up in so many parts, whatever the number of threads.
+/// Largest number of partial sums of amplitudes, for any number of threads.
 constexpr std::size_t kMostParts = 16;
 
-/// exp(-2 pi i f u) of one frequency for the coordinates u of a block of points; 0 where there is
-/// no point.
+/// exp(-2 pi i f u) of one frequency f for the coordinates u of a block of points; 0 at unused
+/// places.
 struct Waves {
   SixteenFloats real[kVectors], imaginary[kVectors];
 };
 
-/// The products, which are the waves of the sum of two frequencies.
+/// Computes the products of two waves, which are the waves of the sum of both frequencies.
 void multiply(const Waves& a, const Waves& b, Waves& product) {
   for (std::size_t k = 0; k < kVectors; ++k) {
     const SixteenFloats real = a.real[k] * b.real[k] - a.imaginary[k] * b.imaginary[k];
@@ -36,7 +37,7 @@ void multiply(const Waves& a, const Waves& b, Waves& product) {
   }
 }
 
-/// The waves of `frequency` for coordinates [begin, end), at most a block of them.
+/// Returns the waves of `frequency` for coordinates [begin, end), at most one block of coordinates.
 Waves waves_of(const std::vector<double>& coordinates, std::size_t begin, std::size_t end,
                int frequency) {
   float real[kBlock] = {}, imaginary[kBlock] = {};
@@ -52,7 +53,7 @@ Waves waves_of(const std::vector<double>& coordinates, std::size_t begin, std::s
   return waves;
 }
 
-/// Where part `part` of `parts` begins among `count`.
+/// Returns the index at which part `part` of `parts` begins, for `count` elements.
 std::size_t part_begin(std::size_t part, std::size_t parts, std::size_t count) {
   return part * count / parts;
 }
@@ -63,7 +64,7 @@ std::size_t block_count(const Coordinates& points) {
 
 }  // namespace
 
-/// A block of points with the waves of their y for all frequencies.
+/// A block of points with the waves of the points' y coordinates for all frequencies.
 class PowerSpectrumLoss::Block {
  public:
   Block(const PowerSpectrumLoss& loss, const Coordinates& points, std::size_t number)
@@ -78,7 +79,8 @@ class PowerSpectrumLoss::Block {
     for (std::size_t y = 1; y < along_y_.size(); ++y) multiply(along_y_[y - 1], once, along_y_[y]);
   }
 
-  /// Adds the sums of this block's waves to `sums`: real and imaginary part of each term.
+  /// Adds the sums of this block's waves to `sums`, which holds the real and imaginary part of each
+  /// term.
   void add_amplitudes(std::vector<double>& sums) const {
     for_each_row([&](const Row& row, const Waves& along_x) {
       for (std::size_t i = row.begin; i < row.end; ++i) {
@@ -95,8 +97,9 @@ class PowerSpectrumLoss::Block {
     });
   }
 
-  /// Adds to the gradient of this block's points, for each term with the factor f, the imaginary
-  /// part of conj(f) times their wave, times the frequency. `factors` has both parts of each.
+  /// Adds the contribution of all terms to the gradient of this block's points. The contribution of
+  /// a term with factor f is the imaginary part of conj(f) times the wave of the point, times the
+  /// frequency. `factors` holds the real and imaginary part of each factor.
   void add_gradient(const std::vector<float>& factors, Coordinates& gradient) const {
     SixteenFloats by_x[kVectors], by_y[kVectors];
     for_each_row([&](const Row& row, const Waves& along_x) {
@@ -125,7 +128,7 @@ class PowerSpectrumLoss::Block {
   }
 
  private:
-  /// Calls `use` with every row and the waves of its x.
+  /// Calls `use` with each row and the waves of the row's x.
   template <class Use>
   void for_each_row(Use&& use) const {
     Waves along_x = first_;
@@ -160,7 +163,7 @@ PowerSpectrumLoss::PowerSpectrumLoss(const std::vector<TargetPower>& frequencies
   }
 }
 
-/// F of each term: real and imaginary part.
+/// Returns F of each term: real and imaginary part.
 std::vector<double> PowerSpectrumLoss::amplitudes(const Coordinates& points) const {
   const std::size_t blocks = block_count(points), parts = std::min(kMostParts, blocks);
   std::vector<std::vector<double>> sums(parts);
@@ -189,9 +192,10 @@ double PowerSpectrumLoss::evaluate(const Coordinates& points, double scale,
     const double root = std::sqrt((real * real + imaginary * imaginary) / count);
     const double error = root - std::sqrt(term.power);
     loss += term.weight * error * error;
-    // The derivative of the squared error by P_v; without a power there is no direction to go.
+    // The derivative of the squared error with respect to P_v. If the power is zero, the gradient
+    // has no direction and is set to zero.
     const double slope = root > 0 ? error / root : 0;
-    // d P_v / d x = (4 pi v_x / N) Im(conj(F_v) exp(-2 pi i v.x)), and the same in y.
+    // d P_v / d x = (4 pi v_x / N) Im(conj(F_v) exp(-2 pi i v.x)), and likewise for y.
     const double factor = scale * term.weight * slope * 4 * std::numbers::pi / count;
     factors[2 * i] = static_cast<float>(factor * real);
     factors[2 * i + 1] = static_cast<float>(factor * imaginary);

@@ -5,12 +5,12 @@
 namespace pharos::aligned {
 namespace {
 
-/// The directions around which modes are still looked for.
+/// The directions around which modes are still searched for.
 class Candidates {
  public:
   Candidates() { open_.set(); }
 
-  /// The one with the largest share; -1 when none has any.
+  /// Returns the candidate with the largest share, or -1 if no candidate has a share above zero.
   int best(const DirectionDistribution& p) const {
     int best = -1;
     double largest = 0;
@@ -21,7 +21,7 @@ class Candidates {
     }
     return best;
   }
-  /// Takes out what is nearer than `distance` to a direction, and the direction itself.
+  /// Removes a direction and all directions that are less than `distance` away from it.
   void close(int direction, int distance) {
     open_.reset(static_cast<std::size_t>(direction));
     for (int k = 0; k < kDirections; ++k) {

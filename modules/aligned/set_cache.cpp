@@ -20,10 +20,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// To be raised whenever synthesize() makes other points of the same settings.
+/// The version must increase whenever synthesize() makes other points from the same settings.
 constexpr int kSynthesisVersion = 4;
 
-/// All that determines the points.
+/// Returns a text with all settings that determine the points.
 std::string text_of(const SynthesisSettings& s) {
   const SuppressionRule& r = s.rule;
   std::string text = fmt::format("{} | {} | {} | {} {} | {} {} | {} | {} {} {} {} {} {}",
@@ -41,7 +41,7 @@ std::uint64_t key_of(const SynthesisSettings& settings) {
   return XXH3_64bits(text.data(), text.size());
 }
 
-/// Throws InputError when the file holds anything but the set of these settings.
+/// Reads the set of these settings. Throws InputError if the file holds anything else.
 PointSet read_set(const fs::path& file, const SynthesisSettings& settings) {
   if (const std::string problem = file_problem(file); !problem.empty()) throw InputError(problem);
   std::ifstream in(file, std::ios::binary);
@@ -76,7 +76,7 @@ std::optional<PointSet> SetCache::find(const SynthesisSettings& settings) const 
 }
 
 void SetCache::keep(const SynthesisSettings& settings, const PointSet& set) const {
-  // Threads of one process would write the same temporary file.
+  // Without the lock, several threads of a process would write the same temporary file.
   static std::mutex writing;
   const std::scoped_lock lock(writing);
   const fs::path path = file(settings);

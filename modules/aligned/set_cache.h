@@ -9,23 +9,25 @@
 
 namespace pharos::aligned {
 
-/// The folder for point sets in the user's cache, see user_cache_folder(): aligned-sets.
+/// Returns the folder for point sets in the user's cache (see user_cache_folder()): aligned-sets.
 std::filesystem::path default_set_folder();
 
-/// Synthesized sets in a folder, a file each, named by all settings that determine the points and
-/// guarded by a checksum. Losing files, or the folder, costs time and changes nothing. Safe to be
-/// used by several threads and processes at once.
+/// Stores synthesized sets in a folder, with one file per set. All settings that determine the
+/// points form the name of the file, and a checksum protects its content. Losing files or the
+/// folder costs time but changes no result. Safe for concurrent use by several threads and
+/// processes.
 class SetCache {
  public:
-  /// The folder is made when the first set is kept.
+  /// The folder is created when the first set is stored.
   explicit SetCache(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  /// The set of these settings; none where there is no file, or a damaged one, which is warned of.
+  /// Returns the set of these settings. The result is empty if the file does not exist or is
+  /// damaged; a damaged file causes a warning.
   std::optional<PointSet> find(const SynthesisSettings& settings) const;
-  /// Keeps a set. Where it cannot be written that is warned of.
+  /// Stores a set. Logs a warning if the set cannot be written.
   void keep(const SynthesisSettings& settings, const PointSet& set) const;
 
-  /// The file of these settings.
+  /// Returns the path of the file for these settings.
   std::filesystem::path file(const SynthesisSettings& settings) const;
 
  private:

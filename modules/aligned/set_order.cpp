@@ -10,7 +10,7 @@ namespace {
 void sort(std::span<GridPoint> points, bool by_x) {
   if (points.size() < 2) return;
   const std::size_t half = points.size() / 2;
-  // Points of the same x are told apart by y, and the other way round: only equal ones are not.
+  // Points with the same x are ordered by y, and vice versa. Only equal points have no order.
   const auto is_lower = [by_x](GridPoint a, GridPoint b) {
     return by_x ? std::tie(a.x, a.y) < std::tie(b.x, b.y) : std::tie(a.y, a.x) < std::tie(b.y, b.x);
   };
@@ -28,7 +28,7 @@ void sort_into_cells(std::span<GridPoint> points) {
 
 SetOrders::SetOrders(int bits) : mask_((1u << bits) - 1), shift_(32 - bits) {
   reversed_.assign(std::size_t{1} << bits, 0);
-  // An index has the bits of its half, and one more at the other end.
+  // Reversed, an index has the bits of its half, shifted by one, and one more bit at the other end.
   for (std::uint32_t i = 1; i <= mask_; ++i) {
     reversed_[i] = reversed_[i / 2] / 2 | (i % 2) << 31;
   }

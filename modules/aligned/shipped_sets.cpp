@@ -1,5 +1,5 @@
-// The files sets/*.bin, as `pharos synthesize --shipped sets` writes them, lie in the library
-// itself.
+// The files sets/*.bin are embedded in the library. `pharos synthesize --shipped sets` writes these
+// files.
 #include "shipped_sets.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 #include "point_set_file.h"
 
-// What the assembler copies in, between two labels.
+// Lets the assembler embed a file between two labels.
 #define PHAROS_EMBED(name, file)                                              \
   asm(".pushsection .rodata\n"                                                \
       ".local " #name                                                         \
@@ -38,7 +38,7 @@ std::vector<PointSet> load(const char* begin, const char* end) {
   return load_point_sets(in).sets;
 }
 
-/// All sets of each size.
+/// Returns all sets of each size.
 const std::array<std::vector<PointSet>, kShippedSizes.size()>& all_sets() {
   static const std::array sets{load(pharos_sets_64_begin, pharos_sets_64_end),
                                load(pharos_sets_256_begin, pharos_sets_256_end),

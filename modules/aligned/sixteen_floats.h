@@ -5,8 +5,8 @@
 
 namespace pharos::aligned {
 
-/// Sixteen floats, computed with side by side in as many registers as that takes. Whatever their
-/// width, results have the same bits.
+/// Sixteen floats that are processed side by side, in as many registers as necessary. Results have
+/// the same bits for any width of the registers.
 struct SixteenFloats {
 #if defined(__AVX__)
   static constexpr std::size_t kRegisterWidth = 8;
@@ -14,7 +14,7 @@ struct SixteenFloats {
   static constexpr std::size_t kRegisterWidth = 4;
 #endif
   static constexpr std::size_t kCount = 16, kRegisters = kCount / kRegisterWidth;
-  // (Compilers keep wider vectors than the processor has in memory.)
+  // Compilers keep vectors in memory if they are wider than the processor's registers.
   using Register = float __attribute__((vector_size(4 * kRegisterWidth)));
 
   Register registers[kRegisters] = {};
@@ -23,7 +23,7 @@ struct SixteenFloats {
     return registers[i / kRegisterWidth][i % kRegisterWidth];
   }
 
-  /// Halves are added until one number is left.
+  /// Returns the sum of all floats. Halves are added until one number is left.
   float sum() const {
     float sums[kCount / 2];
     for (std::size_t r = 0; r < kRegisters / 2; ++r) {

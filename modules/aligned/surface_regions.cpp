@@ -10,14 +10,14 @@
 namespace pharos::aligned {
 namespace {
 
-/// The pixels of a block that see one surface, known by the first of them.
+/// The pixels of a block that see one surface. The first of these pixels represents the surface.
 struct Patch {
   FirstHit hit;
   std::uint32_t pixels = 0;
-  std::uint32_t region = 0;  ///< number of the patch that it has joined, at first its own
+  std::uint32_t region = 0;  ///< the patch that this patch has joined, initially itself
 };
 
-/// Whether two first hits are of one surface.
+/// Returns whether two first hits lie on the same surface.
 class IsSameSurface {
  public:
   explicit IsSameSurface(const SurfaceSettings& settings)
@@ -47,7 +47,7 @@ std::vector<FirstHit> first_hits(const IntegrandProbe& probe) {
   return hits;
 }
 
-/// The blocks of a film, block after block divided into patches.
+/// The patches of a film's blocks, block after block.
 class Patches {
  public:
   Patches(const PixelGrid& grid, int edge, const std::vector<FirstHit>& hits,
@@ -67,7 +67,7 @@ class Patches {
     starts_.push_back(patches_.size());
   }
 
-  /// Lets patches of fewer pixels join others that are large enough.
+  /// Lets patches with fewer than `fewest` pixels join patches that are large enough.
   void join_small(std::uint32_t fewest) {
     for (std::size_t block = 0; block < blocks_.count(); ++block) {
       for (std::size_t i = starts_[block]; i < starts_[block + 1]; ++i) {
@@ -76,10 +76,11 @@ class Patches {
     }
   }
 
-  /// By pixel.
+  /// Returns the region of each pixel.
   std::vector<std::uint32_t> regions() const {
     std::vector<std::uint32_t> regions;
-    // A patch may join one that has joined another: that one is large enough to stay itself.
+    // A patch may join a patch that has itself joined another. The patch at the end is large enough
+    // to remain.
     for (const std::uint32_t patch : patch_of_) {
       regions.push_back(patches_[patches_[patch].region].region);
     }
@@ -87,7 +88,8 @@ class Patches {
   }
 
  private:
-  /// The patch of this surface among those from number `first` on, made where there is none.
+  /// Returns the patch of this surface among the patches from index `first` on. Adds a patch if
+  /// there is none.
   std::size_t patch_for(const FirstHit& hit, std::size_t first) {
     for (std::size_t i = first; i < patches_.size(); ++i) {
       if (is_same_(patches_[i].hit, hit)) return i;
@@ -96,8 +98,9 @@ class Patches {
     return patches_.size() - 1;
   }
 
-  /// The largest patch of the same surface in one of the blocks around; without one that has enough
-  /// pixels the largest one of the block, or the first of these, which may be the patch itself.
+  /// Returns the largest patch of the same surface in one of the four neighboring blocks. If this
+  /// patch has too few pixels, returns the largest patch of the block itself. Of patches of equal
+  /// size, the first is taken. The result may be the patch itself.
   std::uint32_t partner_of(std::size_t patch, std::size_t block, std::uint32_t fewest) const {
     std::size_t best = patch;
     const auto take_larger = [&](std::size_t i) {
@@ -124,8 +127,8 @@ class Patches {
   PixelRegions blocks_;
   IsSameSurface is_same_;
   std::vector<Patch> patches_;
-  std::vector<std::size_t> starts_;      ///< of the blocks' patches, and their end
-  std::vector<std::uint32_t> patch_of_;  ///< by pixel
+  std::vector<std::size_t> starts_;      ///< first patch of each block, and the end
+  std::vector<std::uint32_t> patch_of_;  ///< patch of each pixel
 };
 
 }  // namespace

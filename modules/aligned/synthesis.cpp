@@ -19,7 +19,7 @@
 namespace pharos::aligned {
 namespace {
 
-/// Tells this use of a seed from others.
+/// Distinguishes this use of a seed from other uses.
 constexpr std::uint64_t kStartStream = 0x616c69676e6564;
 
 void check(const SynthesisSettings& settings) {
@@ -44,7 +44,7 @@ Coordinates starting_points(std::uint32_t points, std::uint64_t seed) {
   return start;
 }
 
-/// Both axes and the free directions.
+/// Returns both axes and the free directions.
 std::vector<Direction> all_directions(const SynthesisSettings& settings) {
   std::vector<Direction> all{direction_of(0), direction_of(90)};
   for (const double degrees : settings.directions) all.push_back(direction_of(degrees));
@@ -56,7 +56,7 @@ double wasserstein_weight(const SynthesisSettings& settings) {
   return settings.wasserstein * std::min(1.0, kPoints / settings.points);
 }
 
-/// Eq. 10: the losses whose weights are not zero.
+/// The sum of the losses with nonzero weights (eq. 10).
 class TotalLoss {
  public:
   explicit TotalLoss(const SynthesisSettings& settings) : settings_(settings) {
@@ -86,8 +86,8 @@ class TotalLoss {
   std::optional<WassersteinLoss> wasserstein_;
 };
 
-/// The points on their way down. Adam makes steps of a length that does not depend on the losses'
-/// units, but on their balance.
+/// The points during gradient descent. The length of Adam's steps depends on the balance of the
+/// losses, but not on their units.
 class Descent {
  public:
   explicit Descent(const SynthesisSettings& settings)
@@ -107,8 +107,9 @@ class Descent {
   }
 
  private:
-  /// What leaves the square comes in on its other side, before projections are sorted again: a rank
-  /// lost there would put all others off by one.
+  /// Wraps a coordinate around the torus: points that leave the square enter on the opposite side
+  /// before projections are sorted again. Otherwise, a missing rank would shift the ranks of all
+  /// other points by one.
   static double on_torus(double u) { return u - std::floor(u); }
 
   Coordinates points_;

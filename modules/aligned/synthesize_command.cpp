@@ -1,5 +1,6 @@
-// synthesize: makes sets of points with low energy in stated directions, writes them as text ("x y"
-// a line) or in the binary form of point_set_file.h, and draws points and spectrum.
+// synthesize: makes sets of points with low energy along stated directions. It writes them as text
+// (one line "x y" per point) or in the binary form of point_set_file.h, and draws the points and
+// their spectrum.
 //
 //     pharos synthesize --points 4096 --directions 30,75 -o points.txt --picture points.png
 //     pharos synthesize --library ~/.cache/pharos/aligned-sets --points 2048
@@ -28,7 +29,8 @@ namespace {
 namespace fs = std::filesystem;
 using Settings = SynthesizeCommand::Settings;
 
-/// A member of the settings that synthesize() takes, as one of the command's.
+/// Converts a pointer to a member of SynthesisSettings to a pointer to a member of the command's
+/// settings.
 template <class T>
 constexpr T Settings::*own(T SynthesisSettings::*member) {
   return member;
@@ -43,10 +45,12 @@ void make_folder(const fs::path& folder) {
   check_writable(folder / "set.bin");
 }
 
-/// Makes sets one after the other by `make(name, control)`; false where one of them was stopped.
+/// Makes sets one after the other with `make(name, control)`. Returns false if one of them was
+/// stopped.
 template <class Make>
 bool make_all(const std::vector<SetName>& names, const CommandControl& control, Make&& make) {
-  // A pass over the points for each frequency, of which there are as many.
+  // Each frequency costs one pass over the points, and the number of frequencies is proportional to
+  // the number of points.
   const auto cost = [](const SetName& name) {
     return static_cast<double>(name.points) * name.points;
   };
@@ -107,7 +111,8 @@ void Settings::describe(Schema<Settings>& s) {
                                     [](const TargetPower& v) { return v.x == 0 && v.y == 0; });
       });
   s.field("seed", own(&SynthesisSettings::seed), "Of the jittered grid that the points start from");
-  s.field("output", &Settings::output, "File for the points: .txt, or .bin in steps of 2^-16");
+  s.field("output", &Settings::output,
+          "File for the points: .txt, or .bin with coordinates in steps of 2^-16");
   s.field("picture", &Settings::picture, "Picture of the points beside their spectrum (.png)");
   s.field("frequency", &Settings::frequency, "Highest frequency of the picture, along each axis")
       .unit("1/edge")
@@ -117,13 +122,15 @@ void Settings::describe(Schema<Settings>& s) {
       .unit("pixels")
       .at_least(16)
       .at_most(4096);
-  s.field("library", &Settings::library,
-          "Folder for all sets of one and two directions that the library would synthesize when "
-          "asked for them, of so many points");
-  s.field("pair_step", &Settings::pair_step, "Grid of the library's sets of two directions")
+  s.field(
+      "library", &Settings::library,
+      "Folder for all sets of one and two directions with this number of points that the library "
+      "would otherwise synthesize when they are requested");
+  s.field("pair_step", &Settings::pair_step,
+          "Spacing of the grid of directions for the library's sets of two directions")
       .unit("degrees")
       .check("a divisor of 45", [](const int& step) { return step > 0 && 45 % step == 0; });
-  s.field("shipped", &Settings::shipped, "Folder for the sets that come along with the program");
+  s.field("shipped", &Settings::shipped, "Folder for the sets that are part of the program");
   s.example("{ points: 1024, directions: [30], output: points.txt }");
   s.example("{ points: 256, spectrum: 1, wasserstein: 0, picture: points.png }");
 }

@@ -10,23 +10,23 @@
 
 namespace pharos::aligned {
 
-/// See synthesize_command.cpp.
+/// The command `synthesize`; see synthesize_command.cpp.
 class SynthesizeCommand final : public Command {
  public:
   struct Settings : SynthesisSettings {
     std::filesystem::path output;   ///< .txt or .bin
     std::filesystem::path picture;  ///< .png
-    int frequency = 128;            ///< highest one of the picture, along each axis
-    int size = 514;                 ///< edge of its squares [pixels]
-    std::filesystem::path library;  ///< folder as the cache of PointSetLibrary
-    int pair_step = 5;              ///< of the sets that it gets
+    int frequency = 128;            ///< highest frequency of the picture, along each axis
+    int size = 514;                 ///< edge of each square of the picture [pixels]
+    std::filesystem::path library;  ///< folder with the same files as the cache of PointSetLibrary
+    int pair_step = 5;  ///< spacing of the grid of directions for sets of two directions [degrees]
     std::filesystem::path shipped;  ///< folder for the sets that are part of the program
 
     static void describe(Schema<Settings>& schema);
   };
 
-  /// Throws InputError where nothing is to be written, or the sets of a library were to have other
-  /// settings than they have.
+  /// Throws InputError if no output is requested, or if the settings differ from the settings that
+  /// the sets of a library have.
   explicit SynthesizeCommand(const Settings& settings);
   CommandEnd run(const CommandControl& control) const override;
 

@@ -61,8 +61,8 @@ double DirectionDistribution::divergence(const VonMises& q) const {
 }
 
 DirectionDistribution::Gradient DirectionDistribution::gradient(const VonMises& q) const {
-  // The expected derivative of log q is zero, so that only its product with log(q / p) remains, and
-  // what is the same in all bins may be left out of it.
+  // The expected derivative of log q is zero. Only its product with log(q / p) remains, and terms
+  // that are equal for all bins may be left out.
   const Terms t = terms(q);
   double mean_cos = 0, mean_sin = 0;
   std::vector<double> cosines, sines;
@@ -98,7 +98,7 @@ VonMises descend(const DirectionDistribution& p, VonMises start, const DescentSe
   statistics::Adam mean_descent, kappa_descent;
   double mean = start.mean, log_kappa = std::log(start.kappa);
   for (int i = 0; i < settings.steps; ++i) {
-    // Steps that shrink to nothing end at the minimum itself.
+    // Steps that shrink to zero end at the minimum itself.
     const double left = 1 - static_cast<double>(i) / settings.steps;
     const double kappa = std::exp(log_kappa);
     const auto gradient = p.gradient({mean, kappa});

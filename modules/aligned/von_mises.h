@@ -4,36 +4,39 @@
 
 #include "direction_histogram.h"
 
-/// Von Mises distributions of directions, fitted to histograms by the reverse Kullback-Leibler
-/// divergence (section 5.2 of the paper), which seeks one mode and leaves the others alone.
+/// Von Mises distributions of directions, fitted to histograms with the reverse Kullback-Leibler
+/// divergence (section 5.2 of the paper). This divergence is mode-seeking: the fit covers one mode
+/// and ignores the others.
 namespace pharos::aligned {
 
-/// A distribution over directions with the density, up to a factor, exp(kappa cos 2 (x - mean)):
-/// that of eq. 16 with doubled angles, as directions are axial.
+/// A distribution over directions. Up to a constant factor, its density is exp(kappa cos 2 (x -
+/// mean)): the density of eq. 16 with doubled angles, because directions are axial.
 struct VonMises {
   double mean = 0;  ///< [degrees], in [0, 180)
   double kappa =
       50;  ///< concentration [1]; the standard deviation is about 29 / sqrt(kappa) degrees
 };
 
-/// What is fitted to: the distribution p of an integrand's directions, in whole degrees. Directions
-/// near the axes tell nothing, as all point sets are aligned with these: divergences are between
-/// distributions of the other directions alone, and do not shun the neighborhood of the axes.
+/// The distribution p to which von Mises distributions are fitted: the distribution of an
+/// integrand's directions, in whole degrees. Directions near the axes carry no information, because
+/// all point sets are aligned with the axes. Divergences therefore compare distributions over the
+/// other directions only, and they do not penalize means near the axes.
 class DirectionDistribution {
  public:
-  /// Directions less than `axis_width` + 1 degrees from an axis are left out. Bins of less than
-  /// `floor` times the mean of all count as that, so that empty ones have a logarithm.
+  /// Directions less than `axis_width` + 1 degrees from an axis are left out. The share of a bin is
+  /// at least `floor` times the mean of all shares, so empty bins have a logarithm.
   DirectionDistribution(const DirectionHistogram& histogram, int axis_width, double floor);
 
-  /// Whether there is nothing but near the axes.
+  /// Returns whether all mass of the histogram lies near the axes.
   bool empty() const { return total_ == 0; }
-  /// The share [1] of a direction; zero near the axes.
+  /// Returns the share of a direction [1]; zero near the axes.
   double share(int direction) const { return shares_[static_cast<std::size_t>(direction)]; }
-  /// The share [1] that the directions within `width` degrees, those near the axes left out, have
-  /// of the whole histogram, axes included: what is left over beside strong axes is no mode.
+  /// Returns the share of the whole histogram [1] that the directions within `width` degrees hold,
+  /// except directions near the axes. The whole histogram includes the axes, so a small rest beside
+  /// strong axes is not a mode.
   double mass(int direction, int width) const;
 
-  /// D(q || p) [nats] (eq. 17).
+  /// Returns D(q || p) [nats] (eq. 17).
   double divergence(const VonMises& q) const;
 
   /// The derivatives of divergence().
@@ -44,35 +47,35 @@ class DirectionDistribution {
   Gradient gradient(const VonMises& q) const;
 
  private:
-  /// A direction that is not near the axes.
+  /// A direction that does not lie near an axis.
   struct Bin {
     double degrees;
     double log_share;
   };
-  /// Of q, over the bins: its probabilities, and their logarithms less those of p.
+  /// The probabilities of q in all bins, and the differences between the logarithms of q and p.
   struct Terms;
   Terms terms(const VonMises& q) const;
 
   DirectionHistogram shares_{};
-  double total_ = 0;     ///< of the histogram, but for the axes
-  double of_whole_ = 0;  ///< share of that in all of it [1]
+  double total_ = 0;     ///< sum of the histogram without the axes
+  double of_whole_ = 0;  ///< this sum divided by the sum of the whole histogram [1]
   std::vector<Bin> bins_;
 };
 
-/// The whole degree at most `window` degrees from `start` that is the mean of the von Mises
-/// distribution of concentration `kappa` with the least divergence. It may lie near an axis: then
-/// what was found is the foot of the axis' own mode.
+/// Returns the mean, a whole number of degrees at most `window` degrees from `start`, of the von
+/// Mises distribution with concentration `kappa` that has the least divergence. The mean may lie
+/// near an axis. In this case, the search has found the flank of the axis's own mode.
 int best_mean(const DirectionDistribution& p, double kappa, int start, int window);
 
-/// How descend() goes.
+/// The parameters of descend().
 struct DescentSettings {
   int steps = 400;
-  double mean_step = 0.25;   ///< length of the first steps of the mean [degrees]
-  double kappa_step = 0.05;  ///< the same of the logarithm of kappa [1]
+  double mean_step = 0.25;   ///< length of the first step of the mean [degrees]
+  double kappa_step = 0.05;  ///< length of the first step of the logarithm of kappa [1]
 };
 
-/// The local minimum of the divergence in mean and concentration that gradient descent reaches from
-/// `start` (eq. 18).
+/// Returns the local minimum of the divergence, with respect to mean and concentration, that
+/// gradient descent reaches from `start` (eq. 18).
 VonMises descend(const DirectionDistribution& p, VonMises start,
                  const DescentSettings& settings = {});
 

@@ -12,7 +12,8 @@ namespace pharos::aligned {
 double projected_quantile(Direction d, double u) {
   const double c = std::max(std::abs(d.x), std::abs(d.y));
   const double s = std::min(std::abs(d.x), std::abs(d.y));
-  // Where the square is equally high, about its center, and where its corners make it lower.
+  // The square has constant height around its center. Further outside, its corners reduce the
+  // height.
   if (2 * c * std::abs(u) <= c - s) return u * c;
   const double from_corner = std::sqrt(2 * s * c * std::max(0.0, 0.5 - std::abs(u)));
   return std::copysign((c + s) / 2 - from_corner, u);
@@ -29,7 +30,7 @@ WassersteinLoss::WassersteinLoss(std::span<const Direction> directions, std::siz
   }
 }
 
-/// How far the projection of each point is from its target.
+/// Returns the distance between the projection of each point and its target.
 std::vector<double> WassersteinLoss::errors(const Projection& projection,
                                             const Coordinates& points) {
   const Direction d = projection.direction;

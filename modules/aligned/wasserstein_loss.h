@@ -9,13 +9,14 @@
 
 namespace pharos::aligned {
 
-/// Inverse of the distribution of (p - center).d of points p that are uniform in the unit square
-/// (eq. 15 of the paper): where the share u + 1/2 of them lies below, for u in [-1/2, 1/2].
-/// Directions that are symmetric to each other have the same.
+/// Returns the inverse of the cumulative distribution of (p - center).d for points p that are
+/// uniform in the unit square (eq. 15 of the paper): the position below which the share u + 1/2 of
+/// the points lies, for u in [-1/2, 1/2]. Directions that are symmetric to each other have the same
+/// inverse.
 double projected_quantile(Direction d, double u);
 
-/// How far points are from being stratified in stated directions (eq. 14 of the paper): the mean
-/// squared distance of their projections, sorted, from the middles of strata of equal share,
+/// The deviation of points from stratification along stated directions (eq. 14 of the paper): the
+/// mean squared distance of the sorted projections from the centers of strata of equal share,
 ///
 ///     L_SW = mean over directions d and points j of (N e_j)^2,
 ///     e_j = sorted (p.d)_j - projected_quantile(d, (j + 1/2) / N - 1/2).
@@ -23,11 +24,11 @@ double projected_quantile(Direction d, double u);
 /// Distances are in units of 1 / N, the mean width of a stratum along an axis.
 class WassersteinLoss {
  public:
-  /// For sets of `points` points; `directions` must not be empty.
+  /// Prepares the loss for sets of `points` points. `directions` must not be empty.
   WassersteinLoss(std::span<const Direction> directions, std::size_t points);
 
-  /// The loss of `points`, `scale` times whose gradient is added to `gradient`. Results are the
-  /// same for any number of threads.
+  /// Returns the loss of `points` and adds `scale` times its gradient to `gradient`. Results are
+  /// the same for any number of threads.
   double evaluate(const Coordinates& points, double scale, Coordinates& gradient) const;
 
  private:

@@ -1,7 +1,5 @@
 #include "guider.h"
 
-#include "model.h"
-
 namespace pharos::focal {
 namespace {
 
@@ -18,9 +16,8 @@ class FocalDistribution final : public GuidingDistribution {
     return Proposal{.direction = *direction};
   }
 
-  Density density(const ResolvedVertex& vertex) const override {
-    return {static_cast<float>(density_.directional_density(origin_, vertex.direction)),
-            Measure::solid_angle};
+  float density(const ResolvedVertex& vertex) const override {
+    return static_cast<float>(density_.directional_density(origin_, vertex.direction));
   }
 
  private:
@@ -28,28 +25,11 @@ class FocalDistribution final : public GuidingDistribution {
   Point3 origin_;
 };
 
-class BoundFocalGuider final : public BoundGuider {
- public:
-  explicit BoundFocalGuider(std::shared_ptr<const FocalModel> model) : model_(std::move(model)) {}
-
-  const GuidingDistribution* query(const GuidingQuery& query, Arena& arena) const override {
-    if (query.scattering.purely_discrete()) return nullptr;
-    return arena.make<FocalDistribution>(model_->focal_density(), query.current.position);
-  }
-
- private:
-  std::shared_ptr<const FocalModel> model_;
-};
-
 }  // namespace
 
-GuiderTraits FocalGuider::traits() const {
-  return {.model = kFocalModel};
-}
-
-std::unique_ptr<const BoundGuider> FocalGuider::bind(
-    std::shared_ptr<const GuidingModel> model) const {
-  return std::make_unique<BoundFocalGuider>(bind_model<FocalModel>(model, *this));
+const GuidingDistribution* FocalGuider::query(const FocalModel& model, const GuidingQuery& query,
+                                              Arena& arena) const {
+  return arena.make<FocalDistribution>(model.focal_density(), query.current.position);
 }
 
 }  // namespace pharos::focal

@@ -3,16 +3,20 @@
 #include <pharos/config/registry.h>
 #include <pharos/guiding/contract/guider.h>
 
+#include "model.h"
+
 namespace pharos::focal {
 
-/// Samples directions through focal points: aims at converging ones and away from diverging ones.
-class FocalGuider final : public Guider {
+/// Samples directions toward converging focal points and away from diverging ones (Rath et al.
+/// 2023).
+class FocalGuider final : public GuiderOf<FocalModel> {
  public:
   using Settings = NoSettings;
-  explicit FocalGuider(Settings) {}
+  explicit FocalGuider(const Settings& = {}) {}
 
-  GuiderTraits traits() const override;
-  std::unique_ptr<const BoundGuider> bind(std::shared_ptr<const GuidingModel> model) const override;
+  GuiderTraits traits() const override { return {}; }
+  const GuidingDistribution* query(const FocalModel& model, const GuidingQuery& query,
+                                   Arena& arena) const override;
 };
 
 }  // namespace pharos::focal

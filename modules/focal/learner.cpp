@@ -68,15 +68,15 @@ FocalLearner::FocalLearner(const Settings& settings) : settings_(settings) {
 }
 
 LearnerTraits FocalLearner::traits() const {
-  return {kFocalModel, {.light_samples = true}};
+  return {.records = {.light_samples = true}};
 }
 
 std::unique_ptr<LearningState> FocalLearner::begin(const LearningContext& context) const {
   return std::make_unique<FocalLearningState>(settings_, context);
 }
 
-std::shared_ptr<const GuidingModel> FocalLearner::load_model(std::istream& in) const {
-  return std::make_shared<FocalModel>(in);
+std::shared_ptr<GuidingModel> FocalLearner::empty_model() const {
+  return std::make_shared<FocalModel>();
 }
 
 }  // namespace pharos::focal

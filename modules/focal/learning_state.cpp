@@ -6,16 +6,11 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-#include <pharos/core/binary_stream.h>
-
 #include "model.h"
-#include "octree_file.h"
 
 namespace pharos::focal {
 namespace {
 
-constexpr const char* kHeading = "focal_learning";
-constexpr std::uint32_t kVersion = 1;
 /// Segments are splatted in groups of this size, each into sums of its own, this many at a time.
 constexpr std::size_t kGroup = 4096, kGroups = 16;
 
@@ -52,66 +47,6 @@ void fold(std::vector<double>& masses, const std::vector<double>& sums, double d
   for (std::size_t i = 0; i < masses.size(); ++i) {
     masses[i] = decay * masses[i] + sums[i] / paths;
   }
-}
-
-[[noreturn]] void fail() {
-  throw InputError("what was learned of focal points is damaged");
-}
-
-void save_masses(const std::vector<double>& masses, std::ostream& out) {
-  for (const double mass : masses) save_number(out, mass);
-}
-
-std::vector<double> load_masses(std::istream& in, std::size_t count) {
-  std::vector<double> masses(count);
-  for (double& mass : masses) {
-    mass = load_finite<double>(in);
-    if (mass < 0) fail();
-  }
-  return masses;
-}
-
-void save_learned(const LearningOctree& learned, std::ostream& out) {
-  save_octree(learned.octree, out);
-  save_masses(learned.masses, out);
-}
-
-LearningOctree load_learned(std::istream& in) {
-  Octree octree = load_octree(in);
-  const std::size_t slots = 8 * octree.nodes().size();
-  return {std::move(octree), load_masses(in, slots)};
-}
-
-void save_vector(Vec3 v, std::ostream& out) {
-  for (int axis = 0; axis < 3; ++axis) save_number(out, v[axis]);
-}
-
-Vec3 load_vector(std::istream& in) {
-  Vec3 v;
-  for (int axis = 0; axis < 3; ++axis) v[axis] = load_finite<float>(in);
-  return v;
-}
-
-void save_segment(const Segment& s, std::ostream& out) {
-  save_vector(s.origin, out);
-  save_vector(s.direction, out);
-  for (const float number :
-       {s.length, s.contribution, s.unguided_pdf, s.guided_pdf, s.unguided_fraction}) {
-    save_number(out, number);
-  }
-  save_number(out, s.whole_line);
-}
-
-Segment load_segment(std::istream& in) {
-  Segment s{.origin = load_vector(in), .direction = load_vector(in)};
-  s.length = load_number<float>(in);  // infinite where it left the scene
-  if (!(s.length >= 0)) fail();
-  s.contribution = load_finite<float>(in);
-  s.unguided_pdf = load_finite<float>(in);
-  s.guided_pdf = load_finite<float>(in);
-  s.unguided_fraction = load_finite<float>(in);
-  s.whole_line = load_number<std::uint8_t>(in) != 0;
-  return s;
 }
 
 }  // namespace
@@ -172,7 +107,7 @@ void FocalLearningState::splat(std::span<const Segment> segments, FocalSums& sum
   }
 }
 
-std::shared_ptr<const GuidingModel> FocalLearningState::update(std::uint32_t iteration, bool last) {
+Learned FocalLearningState::update(std::uint32_t iteration, bool last) {
   splat_waiting();
   // An iteration that found no light is no reason to forget what earlier ones did.
   if (sums_.total() > 0) {
@@ -188,7 +123,7 @@ std::shared_ptr<const GuidingModel> FocalLearningState::update(std::uint32_t ite
   // Without a guide so far, there is nothing to narrow.
   narrowing_ = knows_something_ && narrows(iteration + 1);
   paths_ = 0;
-  return knows_something_ ? model(last) : nullptr;
+  return {knows_something_ ? model(last) : nullptr};
 }
 
 void FocalLearningState::refine(double total_mass) {
@@ -221,56 +156,21 @@ std::shared_ptr<const GuidingModel> FocalLearningState::model(bool last) const {
                    pruned(density_.diverging, settings_.prune_ratio)});
 }
 
-void FocalLearningState::save(std::ostream& out) const {
-  save_heading(out, kHeading, kVersion);
-  save_learned(converging_, out);
-  save_learned(diverging_, out);
-  save_number(out, knows_something_);
-  save_number(out, narrowing_);
-  save_number(out, max_depth_);
-  save_number(out, growths_left_);
-  save_number(out, paths_);
-  save_masses(sums_.converging, out);
-  save_masses(sums_.diverging, out);
-  save_number(out, static_cast<std::uint32_t>(waiting_.size()));
-  for (const Segment& segment : waiting_) save_segment(segment, out);
-}
-
-void FocalLearningState::load(std::istream& in) {
-  FocalLearningState loaded(*this);
-  loaded.read(in);
-  *this = std::move(loaded);
-}
-
-void FocalLearningState::read(std::istream& in) {
-  expect_heading(in, kHeading, kVersion);
-  converging_ = load_learned(in);
-  diverging_ = load_learned(in);
-  if (converging_.octree.box() != diverging_.octree.box()) fail();
-  use_octrees();
-  knows_something_ = load_number<std::uint8_t>(in) != 0;
-  narrowing_ = load_number<std::uint8_t>(in) != 0;
-  max_depth_ = load_number<int>(in);
-  growths_left_ = load_number<int>(in);
-  if (max_depth_ < 0 || max_depth_ >= Octree::kMostLevels) fail();
-  paths_ = load_number<std::uint64_t>(in);
-  sums_.converging = load_masses(in, converging_.masses.size());
-  sums_.diverging = load_masses(in, diverging_.masses.size());
-  waiting_.clear();
-  for (auto count = load_number<std::uint32_t>(in); count > 0; --count) {
-    waiting_.push_back(load_segment(in));
+void FocalLearningState::archive(Archive& archive) {
+  const auto expect = [&](bool holds) {
+    archive.expect(holds, "what was learned of focal points");
+  };
+  archive.heading("focal_learning", 2);
+  archive(converging_, diverging_, knows_something_, narrowing_, max_depth_, growths_left_, paths_);
+  expect(converging_.octree.box() == diverging_.octree.box() && max_depth_ >= 0 &&
+         max_depth_ < Octree::kMostLevels);
+  if (archive.loads()) use_octrees();
+  archive(sums_.converging, sums_.diverging, waiting_);
+  expect(sums_.converging.size() == converging_.masses.size() &&
+         sums_.diverging.size() == diverging_.masses.size());
+  for (const auto* sums : {&sums_.converging, &sums_.diverging}) {
+    for (const double sum : *sums) expect(sum >= 0);
   }
-}
-
-void FocalLearningState::merge(const LearningState& other) {
-  const auto& theirs = dynamic_cast<const FocalLearningState&>(other);
-  if (theirs.converging_.octree != converging_.octree ||
-      theirs.diverging_.octree != diverging_.octree || theirs.narrowing_ != narrowing_) {
-    throw InputError("focal learning of another iteration or scene cannot be merged");
-  }
-  sums_.add(theirs.sums_);
-  waiting_.insert(waiting_.end(), theirs.waiting_.begin(), theirs.waiting_.end());
-  paths_ += theirs.paths_;
 }
 
 }  // namespace pharos::focal

@@ -17,10 +17,8 @@ class FocalLearningState final : public LearningState {
   FocalLearningState(const FocalSettings& settings, const LearningContext& context);
 
   void absorb(const PathLog& log) override;
-  std::shared_ptr<const GuidingModel> update(std::uint32_t iteration, bool last) override;
-  void save(std::ostream& out) const override;
-  void load(std::istream& in) override;
-  void merge(const LearningState& other) override;
+  Learned update(std::uint32_t iteration, bool last) override;
+  void archive(Archive& archive) override;
 
  private:
   bool narrows(std::uint32_t iteration) const;
@@ -31,7 +29,6 @@ class FocalLearningState final : public LearningState {
   void grow_region(double total_mass);
   /// Puts the refined octrees in force.
   void use_octrees();
-  void read(std::istream& in);
   std::shared_ptr<const GuidingModel> model(bool last) const;
 
   FocalSettings settings_;

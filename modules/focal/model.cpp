@@ -5,10 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <pharos/core/binary_stream.h>
-
-#include "octree_file.h"
-
 namespace pharos::focal {
 namespace {
 
@@ -23,33 +19,24 @@ Vec3 to_float(const Double3& v) {
 
 }  // namespace
 
-FocalModel::FocalModel(std::istream& in) {
-  expect_heading(in, kFocalModel, kVersion);
-  density_.converging = load_octree(in);
-  density_.diverging = load_octree(in);
+ModelInfo FocalModel::info() const {
+  ModelInfo info{.name = std::string(kName), .version = 2, .bytes = density_.size_bytes()};
+  const Box& box = density_.converging.box();
+  info.bounds = {to_float(box.low), to_float(box.low) + to_float(box.size)};
+  info.facts = {depth_fact("converging", density_.converging),
+                depth_fact("diverging", density_.diverging),
+                {"share of diverging points", fmt::format("{:.4f}", density_.diverging.mass())}};
+  return info;
+}
+
+void FocalModel::archive(Archive& archive) {
+  archive(density_.converging, density_.diverging);
   // Directions are drawn as if the masses added up to one: a density that does not is no density.
   constexpr double kRounding = 1e-4;
   const double mass = density_.converging.mass() + density_.diverging.mass();
-  const bool is_sound =
-      density_.converging.box() == density_.diverging.box() && std::abs(mass - 1) <= kRounding;
-  if (!is_sound) throw InputError("the focal model is damaged");
-}
-
-void FocalModel::save(std::ostream& out) const {
-  save_heading(out, kFocalModel, kVersion);
-  save_octree(density_.converging, out);
-  save_octree(density_.diverging, out);
-}
-
-Bounds3 FocalModel::bounds() const {
-  const Box& box = density_.converging.box();
-  return {to_float(box.low), to_float(box.low) + to_float(box.size)};
-}
-
-std::vector<ModelFact> FocalModel::facts() const {
-  return {depth_fact("converging", density_.converging),
-          depth_fact("diverging", density_.diverging),
-          {"share of diverging points", fmt::format("{:.4f}", density_.diverging.mass())}};
+  archive.expect(
+      density_.converging.box() == density_.diverging.box() && std::abs(mass - 1) <= kRounding,
+      "the focal model");
 }
 
 }  // namespace pharos::focal

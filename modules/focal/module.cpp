@@ -5,6 +5,7 @@
 
 PHAROS_MODULE(registry) {
   using namespace pharos::focal;
-  registry.add<FocalLearner>("focal", "Octrees of points where light meets (focal path guiding)");
-  registry.add<FocalGuider>("focal", "Directions through the points where light meets");
+  registry.add<FocalLearner>("focal",
+                             "Learns octrees of the points where light meets (focal path guiding)");
+  registry.add<FocalGuider>("focal", "Samples directions through the points where light meets");
 }

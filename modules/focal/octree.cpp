@@ -11,7 +11,7 @@ double ratio(double part, double rest) {
   return part + rest > 0 ? part / (part + rest) : 0.5;
 }
 
-/// The root's is 0.
+/// Returns the level of each node. The root has level 0.
 std::vector<unsigned> levels_of(const std::vector<Octree::Node>& nodes) {
   std::vector<unsigned> levels(nodes.size());
   for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -43,7 +43,7 @@ bool Box::contains(Point3 p) const {
 
 Octree::Octree(const Box& box, std::vector<Node> nodes)
     : box_(box), nodes_(std::move(nodes)), mass_nodes_(nodes_), warps_(nodes_.size()) {
-  // Masses of whole nodes relative to the cell of their parent: children stand after parents.
+  // Masses of nodes, relative to the cell of the node. Children are stored after their parents.
   std::vector<double> masses(nodes_.size());
   for (std::size_t i = nodes_.size(); i-- > 0;) {
     const Node& node = nodes_[i];
@@ -102,16 +102,16 @@ double Octree::density(Point3 p) const {
 
 Double3 Octree::sample(const Double3& u) const {
   Double3 rest = u;
-  // Takes the lower half of an axis with probability p, and makes of the number a new one. By
-  // arithmetic, as nobody can foresee which way a branch would go.
+  // Selects the lower half of an axis with probability p, and rescales the random number for reuse.
+  // The code uses arithmetic instead of a branch, because the branch would be unpredictable.
   const auto choose = [](double& number, double p) -> unsigned {
     const unsigned upper = number >= p ? 1 : 0;
     const double is_upper = upper;
     number = std::min((number - is_upper * p) / (p + is_upper * (1 - 2 * p)), kBelowOne);
     return upper;
   };
-  double edge = 1;                        // of the cell, relative to the box
-  std::array<std::uint32_t, 3> corner{};  // of the cell, in units of its edge
+  double edge = 1;                        // edge of the cell, relative to the box
+  std::array<std::uint32_t, 3> corner{};  // corner of the cell, in units of the cell's edge
   for (std::uint32_t i = 0;;) {
     const Warp& warp = warps_[i];
     const unsigned x = choose(rest[0], warp.x);

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include <pharos/core/archive.h>
 #include <pharos/core/bounds.h>
 #include <pharos/core/vec.h>
 
@@ -17,8 +18,8 @@
 
 namespace pharos::focal {
 
-/// A point or an extent in double precision: cells may be 2^-15 of the region, and their crossings
-/// differ in the last digits of a float.
+/// A point or an extent in double precision. Cells may have an edge of 2^-15 of the region, and
+/// the distances to their faces differ only in the last digits of a float.
 using Double3 = std::array<double, 3>;
 
 /// An axis-aligned box [scene units].
@@ -26,26 +27,28 @@ struct Box {
   Double3 low{}, size{};
 
   double volume() const { return size[0] * size[1] * size[2]; }
-  /// The child cell `c` of its eight: bit d of `c` is set in the upper half along axis d.
+  /// Returns child cell `c` of the eight children. Bit d of `c` is set if the child is the upper
+  /// half along axis d.
   Box child(unsigned c) const;
   bool contains(Point3 p) const;
   friend bool operator==(const Box&, const Box&) = default;
 };
 
-/// A line as a box sees it. Distances along it are in scene units, as the direction is a unit
-/// vector; before the origin they are negative.
+/// A line relative to a box. Distances along the line are in scene units, because the direction is
+/// a unit vector. Distances before the origin are negative.
 struct Line {
   Line(const Box& box, Point3 from, Vec3 direction);
 
-  Double3 entry;    ///< where it enters the slab of the box, by axis
-  Double3 width;    ///< how long it stays in there, by axis
-  unsigned mirror;  ///< bit d is set where it goes down along axis d
+  Double3 entry;    ///< distance at which the line enters the slab of the box, by axis
+  Double3 width;    ///< length of the line within the slab, by axis
+  unsigned mirror;  ///< bit d is set if the line goes downward along axis d
 };
 
 inline Line::Line(const Box& box, Point3 from, Vec3 direction) {
-  // Along a zero component the line meets planes at no distance that matters. Where it lies within
-  // a plane between cells, what is ahead of the origin counts to the upper cell and what is behind
-  // to the lower one: never to both.
+  // If a component of the direction is zero, the line crosses the planes of this axis only at
+  // distances that do not matter. If the line lies within a plane between cells, the side ahead of
+  // the origin belongs to the upper cell and the side behind the origin belongs to the lower cell.
+  // Neither side belongs to both.
   constexpr double kParallel = 1e60;
   mirror = 0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -61,38 +64,39 @@ inline Line::Line(const Box& box, Point3 from, Vec3 direction) {
 /// The two halves of a line at its origin.
 enum class Side { ahead, behind };
 
-/// Stretches of a line within the eight children of a node [Octree::unit(level) of that]; a child
-/// that the line misses has end < begin.
+/// The intervals of a line within the eight children of a node [Octree::unit() of the node's
+/// level]. If the line misses a child, the child has end < begin.
 struct Spans {
   Lanes begin, end;
 
-  /// At least 0.
+  /// Returns the lengths of the intervals, at least 0.
   Lanes lengths() const {
     const Lanes signed_lengths = end - begin;
     return {larger(signed_lengths.lower, Quad{}), larger(signed_lengths.upper, Quad{})};
   }
 };
 
-/// An adaptive octree over a box with a constant density in each leaf: one half, converging or
-/// diverging, of the two-signed density of focal points. Nodes stand breadth-first, two in a cache
-/// line; immutable.
+/// An adaptive octree over a box with a constant density in each leaf. It is one half, converging
+/// or diverging, of the density of focal points. Nodes are stored in breadth-first order, two per
+/// cache line. Immutable.
 class Octree {
  public:
-  /// Levels of nodes: leaves have edges down to 2^-kMostLevels of the box.
+  /// Maximum number of levels of nodes. Leaves have edges down to 2^-kMostLevels of the box.
   static constexpr int kMostLevels = 24;
 
-  /// The eight children of a node. A child is a leaf with a density [1/scene unit^3], or an inner
-  /// node by its index, marked by the sign bit (densities have none).
+  /// The eight children of a node. A child is either a leaf with a density [1/scene unit^3], or an
+  /// inner node with an index. The sign bit marks inner nodes, because densities are never
+  /// negative.
   struct alignas(32) Node {
     Words children{};
 
     bool is_leaf(unsigned c) const { return static_cast<std::int32_t>(children[c]) >= 0; }
     float density(unsigned c) const { return std::bit_cast<float>(children[c]); }
-    /// With child order[c] in place of child c.
+    /// Returns a node with child order[c] in place of child c.
     Node mirrored(const Words& order) const { return {permuted(children, order)}; }
-    /// The inner children as bits.
+    /// Returns a bit mask of the inner children.
     std::uint64_t inner_bits() const { return high_bits(children); }
-    /// Densities of leaves; 0 in the lanes of inner children.
+    /// Returns the densities of leaves, and 0 in the lanes of inner children.
     Lanes densities() const { return positive_floats(children); }
     std::uint32_t index(unsigned c) const { return children[c] & ~kInner; }
     void set_density(unsigned c, float density) {
@@ -102,58 +106,63 @@ class Octree {
     friend bool operator==(const Node& a, const Node& b) {
       return std::memcmp(&a, &b, sizeof a) == 0;
     }
+    void archive(Archive& archive);
   };
 
-  /// A node as traverse() shows it: its children as the line meets them, and for leaves their
-  /// masses [1] in place of densities.
+  /// A node as traverse() passes it to visitors: its children are mirrored so that
+  /// the line goes upward along all axes, and leaves have masses [1] instead of densities.
   struct CrossedNode {
     Node node;
 
     bool is_leaf(unsigned c) const { return node.is_leaf(c); }
     float mass(unsigned c) const { return node.density(c); }
-    /// 0 in the lanes of inner children.
+    /// Returns the masses of leaves, and 0 in the lanes of inner children.
     Lanes masses() const { return node.densities(); }
   };
 
-  /// One node without density.
+  /// Makes an octree with one node and zero density.
   Octree() : Octree(Box{}, {Node{}}) {}
-  /// `nodes` breadth-first from the root on: children after their parents, at most kMostLevels.
+  /// `nodes` is in breadth-first order from the root, with children after their parents, and has at
+  /// most kMostLevels levels.
   Octree(const Box& box, std::vector<Node> nodes);
 
   const Box& box() const { return box_; }
   const std::vector<Node>& nodes() const { return nodes_; }
-  /// The integral of the density over the box [1].
+  /// Returns the integral of the density over the box [1].
   double mass() const { return mass_; }
   std::size_t leaf_count() const { return nodes_.size() * 7 + 1; }
-  /// Levels of leaves; the root's own children are level 1.
+  /// Returns the number of levels of leaves. The children of the root are level 1.
   int depth() const;
   friend bool operator==(const Octree& a, const Octree& b) {
     return a.box_ == b.box_ && a.nodes_ == b.nodes_;
   }
   std::size_t size_bytes() const { return nodes_.size() * (2 * sizeof(Node) + sizeof(Warp)); }
+  /// Loading throws InputError for anything that is no octree.
+  void archive(Archive& archive);
 
-  /// The density at a point [1/scene unit^3], 0 outside.
+  /// Returns the density at a point [1/scene unit^3], 0 outside the box.
   double density(Point3 p) const;
-  /// The integral of density t^2 dt over a side of `line`, a line through box() [1/sr]: the density
-  /// of directions that point to (or, behind, away from) points drawn from the tree (Rath et al.
-  /// 2023, eq. 4, 6 and 7).
+  /// Returns the integral of density t^2 dt over a side of `line`, a line relative to box() [1/sr].
+  /// This is the density of directions that point toward points drawn from the tree (for the side
+  /// `behind`: away from these points; Rath et al. 2023, eq. 4, 6 and 7).
   template <Side side>
   [[gnu::always_inline]] double directional_density(const Line& line) const;
-  /// A point drawn with density() / mass() from numbers in [0, 1): hierarchical sample warping
-  /// (McCool and Harwood 1997).
+  /// Samples a point with the density density() / mass() from random numbers in [0, 1), by
+  /// hierarchical sample warping (McCool and Harwood 1997).
   Double3 sample(const Double3& u) const;
 
-  /// Calls `visit(i, node, spans, level)` for every node i that a side of `line` (of a line through
-  /// box()) crosses, with the stretches within its children. Lengths are in units of unit(level)
-  /// scene units, so that the steps of the line are the same on all levels. Node and spans are
-  /// mirrored so that the line goes upwards along all axes: what is said of c is of child
-  /// c ^ line.mirror. In no particular but always the same order. Inlined, so that sums of visitors
-  /// stay in registers.
+  /// Calls `visit(i, node, spans, level)` for every node i that a side of `line` crosses (a line
+  /// relative to box()). `spans` holds the intervals of the line within the node's children.
+  /// Lengths are in units of unit(level) scene units, so the steps along the line are the same on
+  /// all levels. Node and spans are mirrored so that the line goes upward along all axes: entry c
+  /// belongs to child c ^ line.mirror. The order of the calls is arbitrary but always the same. The
+  /// function is inlined, so the sums of visitors stay in registers.
   template <Side side, class Visit>
   [[gnu::always_inline]] void traverse(const Line& line, Visit&& visit) const;
-  /// What traverse() measures lengths in at nodes of a level, the root's being 0 [scene units].
+  /// The unit in which traverse() measures lengths at nodes of a level [scene units]. The root has
+  /// level 0.
   static constexpr double unit(unsigned level) { return 0.5 / static_cast<double>(1u << level); }
-  /// Of a leaf that is a child of such a node [scene unit^3].
+  /// Returns the volume of a leaf whose parent is a node of this level [scene unit^3].
   double leaf_volume(unsigned level) const {
     return box_.volume() * unit(level) * unit(level) * unit(level);
   }
@@ -164,13 +173,13 @@ class Octree {
 
   static constexpr std::uint32_t kInner = 0x80000000u;
 
-  /// Probabilities of lower halves, axis by axis: x, y given x, z given x and y.
+  /// Probabilities of the lower halves, axis by axis: x, y given x, z given x and y.
   struct alignas(32) Warp {
     float x = 0.5f, y[2] = {0.5f, 0.5f}, z[4] = {0.5f, 0.5f, 0.5f, 0.5f};
   };
 
-  /// Visits the `crossed` nodes of `front`, at most kRound. Their children go to `next`; returns
-  /// those of them that are to be visited, as bits.
+  /// Visits the `crossed` nodes of `front`, at most kRound nodes. Writes their children to `next`
+  /// and returns a bit mask of the children that remain to be visited.
   template <Side side, class Visit>
   [[gnu::always_inline]] std::uint64_t cross(const Front& front, std::uint64_t crossed,
                                              const Steps& steps, Front& next, Visit& visit) const;
@@ -179,31 +188,31 @@ class Octree {
 
   Box box_;
   std::vector<Node> nodes_;
-  std::vector<Node> mass_nodes_;  ///< nodes_ with the masses of leaves in place of densities
+  std::vector<Node> mass_nodes_;  ///< nodes_ with masses of leaves instead of densities
   std::vector<Warp> warps_;
   double mass_ = 0;
-  double third_per_volume_ = 0;  ///< of the box; 0 where that is empty [1/scene unit^3]
+  double third_per_volume_ = 0;  ///< 1 / (3 box volume); 0 for an empty box [1/scene unit^3]
 };
 
-/// What the crossings of all nodes have in common [units of the node's level]. The children below
-/// one another along z are computed together: x and y are the same for them.
+/// The steps that the intersections of all nodes have in common [units of the node's level]. Two
+/// children that are neighbors along z share their steps in x and y and are computed together.
 struct Octree::Steps {
   explicit Steps(const Line& line);
 
-  Quad begin_x, begin_y, middle_z;  ///< how much later the line enters each child than its node
-  Quad end_x, end_y, end_z;         ///< and leaves each, by axis
-  Words order;                      ///< of the children as the line meets them
+  Quad begin_x, begin_y, middle_z;  ///< distance from node entry to child entry, by axis
+  Quad end_x, end_y, end_z;         ///< distance from node entry to child exit, by axis
+  Words order;                      ///< mirrored indices of the children
 };
 
-/// The children of up to kRound nodes that a line crosses on one level [units of those].
+/// The children of up to kRound nodes that a line crosses on one level [units of this level].
 struct alignas(64) Octree::Front {
   static constexpr int kRound = 8;
 
-  double x[8 * kRound], y[8 * kRound], z[8 * kRound];  ///< where the line enters their slabs
-  std::uint32_t children[8 * kRound];                  ///< as in nodes
-  std::uint64_t pending;                               ///< those that have yet to be visited
+  double x[8 * kRound], y[8 * kRound], z[8 * kRound];  ///< line's entry into the slabs, by axis
+  std::uint32_t children[8 * kRound];  ///< densities or indices of the children, as in nodes
+  std::uint64_t pending;               ///< bit mask of the children that remain to be visited
 
-  /// Takes the first kRound of the pending ones off.
+  /// Removes the first kRound of the pending children and returns them.
   static std::uint64_t take_round(std::uint64_t& pending) {
     std::uint64_t round = std::exchange(pending, 0);
     if (std::popcount(round) > kRound) [[unlikely]] {
@@ -237,7 +246,7 @@ inline std::uint64_t Octree::cross(const Front& front, std::uint64_t crossed, co
     const CrossedNode node{mass_nodes_[i].mirrored(steps.order)};
     const Quad entry_x = Quad::broadcast(&front.x[at]), entry_y = Quad::broadcast(&front.y[at]),
                entry_z = Quad::broadcast(&front.z[at]);
-    // Units are half as long as the parents'.
+    // Units are half as long as the units of the parents.
     const Quad x = twice_plus(entry_x, steps.begin_x), y = twice_plus(entry_y, steps.begin_y);
     const Quad z = entry_z + entry_z, middle = twice_plus(entry_z, steps.middle_z);
     Quad begin = larger(x, y);
@@ -246,7 +255,8 @@ inline std::uint64_t Octree::cross(const Front& front, std::uint64_t crossed, co
     if constexpr (side == Side::behind) end = smaller(end, Quad{});
     const Spans spans{{larger(begin, z), larger(begin, middle)},
                       {smaller(end, middle), smaller(end, twice_plus(entry_z, steps.end_z))}};
-    // All that a child may need, at its own place: which will be visited is not known yet.
+    // Stores everything that a child may need at the child's own place, because it is not yet known
+    // which children will be visited.
     for (const unsigned half : {0u, 4u})
       x.store(&next.x[slot + half]), y.store(&next.y[slot + half]);
     z.store(&next.z[slot]);
@@ -262,10 +272,10 @@ inline std::uint64_t Octree::cross(const Front& front, std::uint64_t crossed, co
 
 template <Side side, class Visit>
 inline void Octree::traverse(const Line& line, Visit&& visit) const {
-  // Level by level, as nodes of one level can be worked on at once. Where the children of a node
-  // are put depends on the number of nodes before it alone, so that the processor need not wait for
-  // what these hold; a mask tells which children are to be visited. More than kRound nodes of a
-  // level are taken in several rounds.
+  // The traversal proceeds level by level, because nodes of one level can be processed at once. The
+  // place of a node's children depends only on the number of nodes before the node, so the
+  // processor does not have to wait for the content of these nodes. A mask marks the children to be
+  // visited. If a level has more than kRound nodes, they are processed in several rounds.
   Front fronts[kMostLevels + 1];
   Front* front = fronts;
   front->x[0] = line.entry[0];
@@ -273,7 +283,7 @@ inline void Octree::traverse(const Line& line, Visit&& visit) const {
   front->z[0] = line.entry[2];
   front->children[0] = 0;
   const Steps steps(line);
-  std::uint32_t unfinished = 0;  // levels with nodes left for another round
+  std::uint32_t unfinished = 0;  // levels with nodes that remain for another round
   for (std::uint64_t pending = 1;;) {
     const std::uint64_t round = Front::take_round(pending);
     const auto level = static_cast<unsigned>(front - fronts);
@@ -303,7 +313,7 @@ inline double Octree::directional_density(const Line& line) const {
   Quad sum{};
   traverse<side>(line, [&](std::uint32_t, const CrossedNode& node, const Spans& spans, unsigned) {
     const Lanes lengths = spans.lengths(), masses = node.masses();
-    // t1^3 - t0^3 over the length, without its cancellation.
+    // (t1^3 - t0^3) / (t1 - t0), without the cancellation of the difference of cubes.
     const auto squares = [](const Quad& t0, const Quad& t1) { return t0 * (t0 + t1) + t1 * t1; };
     sum = sum + masses.lower * lengths.lower * squares(spans.begin.lower, spans.end.lower);
     sum = sum + masses.upper * lengths.upper * squares(spans.begin.upper, spans.end.upper);

@@ -11,8 +11,8 @@ namespace {
 
 using Node = Octree::Node;
 
-/// Folds values of leaves into values of nodes: `fold(child values)` of every node, `leaf(i, c)`
-/// being the value of a leaf.
+/// Computes values of nodes from values of leaves. The value of a node is `fold(child values)`, and
+/// the value of a leaf is `leaf(i, c)`.
 template <class Leaf, class Fold>
 std::vector<double> fold_up(const std::vector<Node>& nodes, Leaf&& leaf, Fold&& fold) {
   std::vector<double> folded(nodes.size());
@@ -30,14 +30,14 @@ double sum_of(const std::array<double, 8>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
-/// What a new node is made of: a node of the old octree, or an even spread of mass.
+/// The source of a new node: a node of the old octree, or a uniform distribution of mass.
 struct Source {
   std::optional<std::uint32_t> node;
   double mass = 0;
-  int depth = 0;  ///< of its children
+  int depth = 0;  ///< depth of its children
 };
 
-/// Makes the nodes of a refined octree, breadth-first.
+/// Makes the nodes of a refined octree in breadth-first order.
 class Refinement {
  public:
   Refinement(const LearningOctree& old, const SplitRule& rule)
@@ -89,6 +89,13 @@ class Refinement {
 
 }  // namespace
 
+void LearningOctree::archive(Archive& archive) {
+  archive(octree, masses);
+  bool is_sound = masses.size() == 8 * octree.nodes().size();
+  for (const double mass : masses) is_sound &= mass >= 0;
+  archive.expect(is_sound, "what was learned of focal points");
+}
+
 double LearningOctree::mass() const {
   return std::accumulate(masses.begin(), masses.end(), 0.0);
 }
@@ -110,7 +117,7 @@ LearningOctree enlarged(const LearningOctree& learned) {
     box.low[axis] -= 0.5 * box.size[axis];
     box.size[axis] *= 2;
   }
-  // Each child of the old root is the innermost cell of the child of the new one around it.
+  // Each child of the old root becomes the innermost cell of the new root's child that contains it.
   std::vector<Node> nodes(9);
   std::vector<double> masses(72);
   const auto shifted = [](Node node) {
@@ -132,7 +139,8 @@ LearningOctree enlarged(const LearningOctree& learned) {
 
 bool is_densest_at_boundary(const Octree& octree) {
   const std::vector<Node>& nodes = octree.nodes();
-  // Which faces a node touches: bit d for the lower one of axis d, bit 3 + d for the upper one.
+  // The faces of the box that a node touches: bit d for the lower face of axis d, bit 3 + d for the
+  // upper face.
   std::vector<unsigned> touched(nodes.size(), 0x3f);
   float densest = 0;
   bool at_boundary = false;

@@ -11,8 +11,8 @@
 
 namespace pharos::focal {
 
-/// How many doubles a register holds. (Registers of eight were slower: of what a node takes, half
-/// needs only four numbers.)
+/// The number of doubles per register. Registers of eight doubles were slower, because half of the
+/// work for a node needs only four numbers.
 #if defined(__AVX__)
 inline constexpr int kRegisterWidth = 4;
 #else
@@ -20,17 +20,18 @@ inline constexpr int kRegisterWidth = 2;
 #endif
 using Register = double __attribute__((vector_size(8 * kRegisterWidth)));
 
-/// Four numbers, computed with side by side in registers.
+/// Four numbers that are processed side by side in registers.
 struct alignas(32) Quad {
   static constexpr int kRegisters = 4 / kRegisterWidth;
   Register registers[kRegisters];
 
-  /// (A difference, as the compiler must not leave a sum with +0 out.)
+  /// Copies a number to all places. The code uses a difference, because the compiler must not omit
+  /// a sum with +0.
   static Quad all(double value) {
     return each([&](int) { return value - Register{}; });
   }
-  /// The number at an address, from there straight to all places. (With all() compilers multiply
-  /// first and spread the product.)
+  /// Loads the number at an address directly into all places. With all(), compilers multiply first
+  /// and then broadcast the product.
   static Quad broadcast(const double* from) {
 #if defined(__AVX__)
     return {{_mm256_broadcast_sd(from)}};
@@ -38,7 +39,7 @@ struct alignas(32) Quad {
     return all(*from);
 #endif
   }
-  /// From and to an address that is a multiple of 32.
+  /// Loads numbers from an address that is a multiple of 32; store() requires the same alignment.
   static Quad load(const double* from) {
     Quad quad;
     std::memcpy(&quad, __builtin_assume_aligned(from, 32), sizeof quad);
@@ -65,7 +66,7 @@ struct alignas(32) Quad {
     return each([&](int k) { return a.registers[k] * b.registers[k]; });
   }
 
-  /// Makes four numbers of `compute(k)`, the register k.
+  /// Makes four numbers. `compute(k)` returns register k.
   template <class Compute>
   static Quad each(Compute&& compute) {
     Quad quad;
@@ -74,8 +75,8 @@ struct alignas(32) Quad {
   }
 };
 
-/// Eight numbers, one for each child of a node: of the children at the lower end of z, then of
-/// those at its upper end.
+/// Eight numbers, one for each child of a node: first the children at the lower end of z, then the
+/// children at its upper end.
 struct Lanes {
   Quad lower, upper;
 
@@ -86,7 +87,7 @@ struct Lanes {
   }
 };
 
-/// Eight words of 32 bits. (An array would pass through memory on its way to a register.)
+/// Eight words of 32 bits. An array would pass through memory on its way to a register.
 #if defined(__AVX__)
 using Words = std::uint32_t __attribute__((vector_size(32)));
 #else
@@ -115,7 +116,8 @@ inline Quad smaller(const Quad& a, const Quad& b) {
   });
 }
 
-/// 2 a + b as one fused operation: compilers turn 2 a into a + a and add b after that.
+/// Returns 2 a + b as one fused operation. Compilers would otherwise turn 2 a into a + a and then
+/// add b.
 inline Quad twice_plus(const Quad& a, const Quad& b) {
   return Quad::each([&](int k) -> Register {
     const Register &x = a.registers[k], &y = b.registers[k];
@@ -127,7 +129,7 @@ inline Quad twice_plus(const Quad& a, const Quad& b) {
   });
 }
 
-/// The negative numbers, as bits.
+/// Returns a bit mask of the negative numbers.
 inline std::uint64_t negative_bits(const Quad& a) {
   std::uint64_t bits = 0;
   for (int k = 0; k < Quad::kRegisters; ++k) {
@@ -146,7 +148,7 @@ inline std::uint64_t negative_bits(const Lanes& a) {
   return negative_bits(a.lower) | negative_bits(a.upper) << 4;
 }
 
-/// The words in another order: word `order[i]` at place i.
+/// Returns the words in another order: word `order[i]` at place i.
 inline Words permuted(const Words& words, const Words& order) {
 #if defined(__AVX2__)
   return std::bit_cast<Words>(
@@ -158,7 +160,7 @@ inline Words permuted(const Words& words, const Words& order) {
 #endif
 }
 
-/// The words whose highest bit is set, as bits.
+/// Returns a bit mask of the words whose highest bit is set.
 inline std::uint64_t high_bits(const Words& words) {
 #if defined(__AVX__)
   return static_cast<unsigned>(_mm256_movemask_ps(std::bit_cast<__m256>(words)));
@@ -169,10 +171,11 @@ inline std::uint64_t high_bits(const Words& words) {
 #endif
 }
 
-/// The words as floats; 0 for those whose highest bit is set.
+/// Returns the words as floats, and 0 for words whose highest bit is set.
 inline Lanes positive_floats(const Words& words) {
 #if defined(__AVX__)
-  // With that bit they are negative or no numbers: of these and 0 the maximum is 0.
+  // Words with the highest bit set are negative or NaN as floats. The maximum of such a float and 0
+  // is 0.
   const __m256 floats = _mm256_max_ps(std::bit_cast<__m256>(words), _mm256_setzero_ps());
   return {{_mm256_cvtps_pd(_mm256_castps256_ps128(floats))},
           {_mm256_cvtps_pd(_mm256_extractf128_ps(floats, 1))}};

@@ -2,11 +2,12 @@
 
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace pharos::focal {
 namespace {
 
-/// Distances along a segment's line that count, ahead of the origin and behind it.
+/// The distances along a segment's line that count, ahead of the origin and behind it.
 struct Reach {
   explicit Reach(const Segment& s)
       : ahead(s.whole_line ? kInfinity : s.length), behind(s.whole_line ? -kInfinity : 0.0f) {}
@@ -14,7 +15,7 @@ struct Reach {
 };
 
 /// Adds `amount(density, t0, t1)` to every leaf that a side of the line crosses within (begin,
-/// end); `density` is the leaf's.
+/// end). `density` is the density of the leaf.
 template <Side side, class Amount>
 void add_to_leaves(const Octree& octree, const Line& line, double begin, double end,
                    std::vector<double>& sums, Amount&& amount) {
@@ -32,7 +33,7 @@ void add_to_leaves(const Octree& octree, const Line& line, double begin, double 
   octree.traverse<side>(line, visit);
 }
 
-/// Length of the line within the box between two distances.
+/// Returns the length of the line within the box between two distances.
 double length_within(const Line& line, double begin, double end) {
   for (int axis = 0; axis < 3; ++axis) {
     begin = std::max(begin, line.entry[axis]);
@@ -41,8 +42,8 @@ double length_within(const Line& line, double begin, double end) {
   return std::max(end - begin, 0.0);
 }
 
-/// Splats `contribution` along the line between two distances, by length over `unit`, or over all
-/// of the length there where `unit` is 0.
+/// Splats `contribution` along the line between two distances, weighted by length divided by
+/// `unit`. If `unit` is 0, the divisor is the whole splatted length.
 template <Side side>
 void splat_length(const Octree& octree, const Line& line, double begin, double end,
                   double contribution, double unit, std::vector<double>& sums) {
@@ -66,7 +67,7 @@ void splat_length(const Segment& segment, const FocalDensity& density, double un
 void splat_narrowed(const Segment& segment, const FocalDensity& density, bool mis_compensation,
                     FocalSums& sums) {
   const double own = density.directional_density(segment.origin, segment.direction);
-  const float unguided = mis_compensation ? segment.unguided_fraction : 0.0f;
+  const float unguided = mis_compensation ? segment.unguided_share : 0.0f;
   const double guided = mis_compensation && segment.guided_pdf > 0 ? segment.guided_pdf : own;
   const double pdf = unguided * double{segment.unguided_pdf} + (1 - unguided) * guided;
   if (!(own > 0) || !(pdf > 0)) return;
@@ -85,6 +86,18 @@ bool meets_whole_line(const RecordedVertex& end, const ExtentRule& rule) {
   return end.kind == VertexKind::surface && end.roughness < rule.roughness;
 }
 
+/// Unguided sampling, and all guides as one technique.
+std::pair<Technique, Technique> techniques_of(const PathView& path, const RecordedVertex& vertex) {
+  const std::span<const Technique> all = path.techniques(vertex);
+  if (all.empty()) return {{.share = 1}, {}};
+  Technique guided;
+  for (const Technique& t : all.subspan(1)) guided.share += t.share;
+  for (const Technique& t : all.subspan(1)) {
+    if (t.share > 0) guided.density += t.share / guided.share * t.density;
+  }
+  return {all[0], guided};
+}
+
 }  // namespace
 
 void extract_segments(const PathView& path, const ExtentRule& rule, std::vector<Rgb>& incident,
@@ -99,16 +112,23 @@ void extract_segments(const PathView& path, const ExtentRule& rule, std::vector<
     if (!(contribution > 0) || !std::isfinite(contribution)) continue;
     const bool escapes = end.kind == VertexKind::environment;
     // In a medium the density is over distances too: what of it is the direction's is not known.
-    const bool directional = vertex.measure == Measure::solid_angle;
+    const bool directional = end.kind != VertexKind::volume;
+    const auto [unguided, guided] = techniques_of(path, vertex);
     segments.push_back({.origin = vertex.position,
                         .direction = vertex.direction,
                         .length = escapes ? kInfinity : length(end.position - vertex.position),
                         .contribution = contribution,
-                        .unguided_pdf = directional ? vertex.unguided_pdf : 0.0f,
-                        .guided_pdf = directional ? vertex.guided_pdf : 0.0f,
-                        .unguided_fraction = vertex.unguided_fraction,
+                        .unguided_pdf = directional ? unguided.density : 0.0f,
+                        .guided_pdf = directional ? guided.density : 0.0f,
+                        .unguided_share = unguided.share,
                         .whole_line = meets_whole_line(end, rule)});
   }
+}
+
+void Segment::archive(Archive& archive) {
+  archive(origin, direction, contribution, unguided_pdf, guided_pdf, unguided_share, whole_line);
+  archive.unchecked(length);
+  archive.expect(length >= 0, "a segment of a path");
 }
 
 void FocalSums::add(const FocalSums& other) {

@@ -3,6 +3,8 @@
 #include <pharos/config/schema.h>
 #include <pharos/guiding/contract/guider.h>
 
+#include "model.h"
+
 namespace pharos::open_pgl {
 
 struct OpenPglGuiderSettings {
@@ -11,13 +13,14 @@ struct OpenPglGuiderSettings {
 };
 
 /// Samples directions from a field of Open PGL.
-class OpenPglGuider final : public Guider {
+class OpenPglGuider final : public GuiderOf<OpenPglModel> {
  public:
   using Settings = OpenPglGuiderSettings;
   explicit OpenPglGuider(const Settings& settings) : settings_(settings) {}
 
-  GuiderTraits traits() const override;
-  std::unique_ptr<const BoundGuider> bind(std::shared_ptr<const GuidingModel> model) const override;
+  GuiderTraits traits() const override { return {}; }
+  const GuidingDistribution* query(const OpenPglModel& model, const GuidingQuery& query,
+                                   Arena& arena) const override;
 
  private:
   Settings settings_;

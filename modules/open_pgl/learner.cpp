@@ -30,17 +30,15 @@ void OpenPglSettings::describe(Schema<OpenPglSettings>& s) {
 }
 
 LearnerTraits OpenPglLearner::traits() const {
-  return {.model = OpenPglModel::kName,
-          .records = {.light_samples = true},
-          .model_version = OpenPglModel::kVersion};
+  return {.records = {.light_samples = true}};
 }
 
 std::unique_ptr<LearningState> OpenPglLearner::begin(const LearningContext& context) const {
   return std::make_unique<OpenPglLearningState>(settings_, context.region);
 }
 
-std::shared_ptr<const GuidingModel> OpenPglLearner::load_model(std::istream& in) const {
-  return std::make_shared<OpenPglModel>(in);
+std::shared_ptr<GuidingModel> OpenPglLearner::empty_model() const {
+  return std::make_shared<OpenPglModel>();
 }
 
 }  // namespace pharos::open_pgl

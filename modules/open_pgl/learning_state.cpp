@@ -1,14 +1,9 @@
 #include "learning_state.h"
 
-#include <pharos/core/binary_stream.h>
-
 #include "model.h"
 
 namespace pharos::open_pgl {
 namespace {
-
-constexpr const char* kHeading = "open_pgl_learning";
-constexpr std::uint32_t kVersion = 1;
 
 PGL_DIRECTIONAL_DISTRIBUTION_TYPE type_of(Directions directions) {
   switch (directions) {
@@ -68,16 +63,13 @@ OpenPglLearningState::OpenPglLearningState(const OpenPglSettings& settings, cons
 
 void OpenPglLearningState::absorb(const PathLog& log) {
   for (std::size_t i = 0; i < log.size(); ++i) extract_samples(log[i], rule_, scratch_, samples_);
-  if (samples_.size() >= settings_.batch_samples) {
-    learn();
-    learned_early_ = true;
-  }
+  if (samples_.size() >= settings_.batch_samples) learn();
 }
 
-std::shared_ptr<const GuidingModel> OpenPglLearningState::update(std::uint32_t, bool) {
+Learned OpenPglLearningState::update(std::uint32_t, bool) {
   learn();
-  learned_early_ = false;
-  return lessons_ == 0 ? nullptr : std::make_shared<OpenPglModel>(bytes_of(*field_));
+  if (lessons_ == 0) return {};
+  return {std::make_shared<OpenPglModel>(bytes_of(*field_))};
 }
 
 void OpenPglLearningState::learn() {
@@ -90,39 +82,13 @@ void OpenPglLearningState::learn() {
   ++lessons_;
 }
 
-void OpenPglLearningState::save(std::ostream& out) const {
-  save_heading(out, kHeading, kVersion);
-  save_number(out, lessons_);
-  save_number(out, static_cast<std::uint8_t>(learned_early_));
+void OpenPglLearningState::archive(Archive& archive) {
+  archive.heading("open_pgl_learning", 2);
+  archive(lessons_, samples_);
   // The library stores only fields that have learned.
-  if (lessons_ > 0) save_bytes(bytes_of(*field_), out);
-  save_number(out, static_cast<std::uint64_t>(samples_.size()));
-  for (const Sample& sample : samples_) save_sample(sample, out);
-}
-
-void OpenPglLearningState::load(std::istream& in) {
-  expect_heading(in, kHeading, kVersion);
-  const auto lessons = load_number<std::uint64_t>(in);
-  const bool learned_early = load_number<std::uint8_t>(in) != 0;
-  auto field = lessons > 0 ? field_of(load_bytes(in)) : new_field(settings_, region_);
-  std::vector<Sample> samples;
-  for (auto count = load_number<std::uint64_t>(in); count > 0; --count) {
-    samples.push_back(load_sample(in));
-  }
-  lessons_ = lessons;
-  learned_early_ = learned_early;
-  field_ = std::move(field);
-  samples_ = std::move(samples);
-}
-
-void OpenPglLearningState::merge(const LearningState& other) {
-  const auto& theirs = dynamic_cast<const OpenPglLearningState&>(other);
-  if (theirs.lessons_ != lessons_ || learned_early_ || theirs.learned_early_) {
-    throw InputError(
-        "learning of Open PGL in another iteration, or after more than `batch_samples`, cannot be "
-        "merged");
-  }
-  samples_.insert(samples_.end(), theirs.samples_.begin(), theirs.samples_.end());
+  std::string bytes = lessons_ > 0 && !archive.loads() ? bytes_of(*field_) : std::string();
+  if (lessons_ > 0) archive_bytes(archive, bytes);
+  if (archive.loads()) field_ = lessons_ > 0 ? field_of(bytes) : new_field(settings_, region_);
 }
 
 }  // namespace pharos::open_pgl

@@ -19,10 +19,8 @@ class OpenPglLearningState final : public LearningState {
   OpenPglLearningState(const OpenPglSettings& settings, const Bounds3& region);
 
   void absorb(const PathLog& log) override;
-  std::shared_ptr<const GuidingModel> update(std::uint32_t iteration, bool last) override;
-  void save(std::ostream& out) const override;
-  void load(std::istream& in) override;
-  void merge(const LearningState& other) override;
+  Learned update(std::uint32_t iteration, bool last) override;
+  void archive(Archive& archive) override;
 
  private:
   /// Lets the field learn from the samples that wait: at the end of an iteration, or when they are
@@ -34,7 +32,6 @@ class OpenPglLearningState final : public LearningState {
   SampleRule rule_;
   std::unique_ptr<openpgl::cpp::Field> field_;
   std::uint64_t lessons_ = 0;    ///< calls of learn() with samples
-  bool learned_early_ = false;   ///< from samples of this iteration, before its end
   std::vector<Sample> samples_;  ///< that wait
   PathScratch scratch_;
 };

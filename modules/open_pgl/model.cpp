@@ -2,43 +2,35 @@
 
 #include <fmt/format.h>
 
-#include <pharos/core/binary_stream.h>
-
-#include "query.h"
-
 namespace pharos::open_pgl {
 
 OpenPglModel::OpenPglModel(std::string bytes)
     : bytes_(std::move(bytes)), field_(field_of(bytes_)) {}
 
-OpenPglModel::OpenPglModel(std::istream& in) {
-  expect_heading(in, kName, kVersion);
-  bytes_ = load_bytes(in);
-  field_ = field_of(bytes_);
+const Workplace* OpenPglModel::at(const Query& query) const {
+  std::unique_ptr<Workplace>& workplace = workplaces_.local();
+  if (workplace == nullptr) workplace = std::make_unique<Workplace>(*field_);
+  return workplace->take(query) ? workplace.get() : nullptr;
 }
 
-void OpenPglModel::save(std::ostream& out) const {
-  save_heading(out, kName, kVersion);
-  save_bytes(bytes_, out);
-}
-
-Bounds3 OpenPglModel::bounds() const {
+ModelInfo OpenPglModel::info() const {
+  ModelInfo info{.name = std::string(kName), .version = 2, .bytes = bytes_.size()};
+  if (field_ == nullptr) return info;
   const pgl_box3f box = field_->GetSceneBounds();
-  return {{box.lower.x, box.lower.y, box.lower.z}, {box.upper.x, box.upper.y, box.upper.z}};
+  info.bounds = {{box.lower.x, box.lower.y, box.lower.z}, {box.upper.x, box.upper.y, box.upper.z}};
+  info.facts = {{"updates", fmt::format("{}", field_->GetIteration())}};
+  return info;
 }
 
-std::vector<ModelFact> OpenPglModel::facts() const {
-  return {{"updates", fmt::format("{}", field_->GetIteration())}};
+void OpenPglModel::archive(Archive& archive) {
+  archive_bytes(archive, bytes_);
+  if (archive.loads()) field_ = field_of(bytes_);
 }
 
-double OpenPglModel::density(Point3 point) const {
+double OpenPglModel::density(Point3 point, const Vec3* direction) const {
   Workplace workplace(*field_);
-  return workplace.take(Query{.position = point}) ? 1 : 0;
-}
-
-double OpenPglModel::density(Point3 point, Vec3 direction) const {
-  Workplace workplace(*field_);
-  return workplace.take(Query{.position = point}) ? workplace.pdf(direction) : 0;
+  if (!workplace.take(Query{.position = point})) return 0;
+  return direction == nullptr ? 1 : workplace.pdf(*direction);
 }
 
 }  // namespace pharos::open_pgl

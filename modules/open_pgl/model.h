@@ -3,40 +3,36 @@
 #include <memory>
 #include <string>
 
+#include <tbb/enumerable_thread_specific.h>
+
 #include <pharos/guiding/contract/model.h>
 
-#include "pgl_field.h"
+#include "query.h"
 
 namespace pharos::open_pgl {
 
 /// A field of Open PGL that changes no more.
 class OpenPglModel final : public GuidingModel {
  public:
-  /// The kind of model. A learner and a guider that both name it go together.
-  static constexpr const char* kName = "open_pgl_field";
-  static constexpr std::uint32_t kVersion = 1;
+  static constexpr std::string_view kName = "open_pgl";
 
+  OpenPglModel() = default;
   /// `bytes` as bytes_of() makes them.
   explicit OpenPglModel(std::string bytes);
-  /// What save() wrote. Throws InputError when it is something else or damaged.
-  explicit OpenPglModel(std::istream& in);
 
-  const openpgl::cpp::Field& field() const { return *field_; }
+  /// This thread's workplace, which has taken the query; null: the field knows nothing there.
+  const Workplace* at(const Query& query) const;
 
-  std::string name() const override { return kName; }
-  std::uint32_t version() const override { return kVersion; }
-  /// As it is stored; in memory the library's cells are about as large.
-  std::size_t size_bytes() const override { return bytes_.size(); }
-  void save(std::ostream& out) const override;
-  Bounds3 bounds() const override;
-  std::vector<ModelFact> facts() const override;
-  /// 1 where the field knows something: the library tells no more.
-  double density(Point3 point) const override;
-  double density(Point3 point, Vec3 direction) const override;
+  /// The size is that of the stored field; in memory the library's cells are about as large.
+  ModelInfo info() const override;
+  void archive(Archive& archive) override;
+  /// At a point alone 1 if the field knows something there: the library tells no more.
+  double density(Point3 point, const Vec3* direction) const override;
 
  private:
   std::string bytes_;
   std::unique_ptr<openpgl::cpp::Field> field_;
+  mutable tbb::enumerable_thread_specific<std::unique_ptr<Workplace>> workplaces_;
 };
 
 }  // namespace pharos::open_pgl

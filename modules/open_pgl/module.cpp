@@ -6,7 +6,9 @@
 
 PHAROS_MODULE(registry) {
   using namespace pharos::open_pgl;
-  device();  // before any limit on threads is in force, which it would keep for ever
-  registry.add<OpenPglLearner>("open_pgl", "Fields of the library Open PGL");
-  registry.add<OpenPglGuider>("open_pgl", "Directions from fields of the library Open PGL");
+  device();  // made before any limit on threads is in force, because it would keep this limit
+  registry.add<OpenPglLearner>(
+      "open_pgl",
+      "Fields of the library Open PGL: mixtures or quadtrees in the cells of a kd-tree");
+  registry.add<OpenPglGuider>("open_pgl", "Directions sampled from fields of the library Open PGL");
 }

@@ -6,13 +6,12 @@
 #include <unistd.h>
 #include <xxhash.h>
 
-#include <pharos/core/binary_stream.h>
 #include <pharos/core/error.h>
 
 namespace pharos::open_pgl {
 namespace {
 
-/// A file's name that is nobody else's, as long as the object lives.
+/// A temporary file with a unique name; the destructor removes it.
 class TemporaryFile {
  public:
   TemporaryFile() {
@@ -42,7 +41,7 @@ std::uint64_t checksum(const std::string& bytes) {
 }  // namespace
 
 openpgl::cpp::Device& device() {
-  // Eight lanes are what every processor of the last ten years has.
+  // Every processor of the last ten years has eight lanes.
   static openpgl::cpp::Device device(PGL_DEVICE_TYPE_CPU_8);
   return device;
 }
@@ -69,24 +68,10 @@ std::unique_ptr<openpgl::cpp::Field> field_of(const std::string& bytes) {
   }
 }
 
-void save_bytes(const std::string& bytes, std::ostream& out) {
-  save_number(out, static_cast<std::uint64_t>(bytes.size()));
-  save_number(out, checksum(bytes));
-  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-}
-
-std::string load_bytes(std::istream& in) {
-  const auto size = load_number<std::uint64_t>(in), expected = load_number<std::uint64_t>(in);
-  std::string bytes;
-  constexpr std::uint64_t kPiece = 1 << 20;  // a damaged length must not take all memory
-  while (bytes.size() < size && in) {
-    const std::size_t piece = std::min<std::uint64_t>(kPiece, size - bytes.size()),
-                      before = bytes.size();
-    bytes.resize(before + piece);
-    in.read(bytes.data() + before, static_cast<std::streamsize>(piece));
-  }
-  if (!in || checksum(bytes) != expected) throw InputError("the field of Open PGL is damaged");
-  return bytes;
+void archive_bytes(Archive& archive, std::string& bytes) {
+  std::uint64_t expected = checksum(bytes);
+  archive(expected, bytes);
+  archive.expect(checksum(bytes) == expected, "the field of Open PGL");
 }
 
 }  // namespace pharos::open_pgl

@@ -7,8 +7,8 @@
 namespace pharos::open_pgl {
 namespace {
 
-/// The number in [0,1) by which the library picks one of the neighboring cells. A function of the
-/// place alone: a vertex must be given the same cell whenever it is asked for.
+/// Returns the number in [0,1) that the library uses to choose one of the neighboring cells. It
+/// depends on the position alone, because a vertex must get the same cell in every query.
 float neighbor_number(Point3 p) {
   std::uint64_t hash = 0;
   for (int axis = 0; axis < 3; ++axis) {

@@ -6,7 +6,7 @@
 
 namespace pharos::open_pgl {
 
-/// What the library is asked at a vertex.
+/// A query to the library at a vertex.
 struct Query {
   Point3 position;
   bool in_volume = false;
@@ -15,8 +15,8 @@ struct Query {
   bool operator==(const Query&) const = default;
 };
 
-/// The library's query objects of one thread. They are large and live on the heap, so that there is
-/// one of each kind, which answers the query it took last.
+/// The library's query objects of one thread. They are large and live on the heap, so there is only
+/// one of each kind. It answers the last query that was taken.
 class Workplace {
  public:
   explicit Workplace(const openpgl::cpp::Field& field)
@@ -24,9 +24,10 @@ class Workplace {
   Workplace(const Workplace&) = delete;
   Workplace& operator=(const Workplace&) = delete;
 
-  /// Makes the distribution of a query, if it is not at hand. False where the field knows nothing.
+  /// Makes the distribution of a query, unless it was the last one taken. Returns false if the
+  /// field has no data there.
   bool take(const Query& query);
-  /// A direction of the query taken last, and densities [1/sr].
+  /// Samples a direction for the last query taken; pdf() returns its density [1/sr].
   Vec3 sample(Vec2 u) const;
   float pdf(Vec3 direction) const;
 
@@ -35,7 +36,7 @@ class Workplace {
   openpgl::cpp::SurfaceSamplingDistribution surface_;
   openpgl::cpp::VolumeSamplingDistribution volume_;
   Query taken_;
-  bool holds_ = false;  ///< the distribution of `taken_`
+  bool holds_ = false;  ///< whether the objects hold the distribution of `taken_`
 };
 
 }  // namespace pharos::open_pgl

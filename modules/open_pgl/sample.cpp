@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <pharos/core/binary_stream.h>
 #include <pharos/guiding/toolkit/guidable_steps.h>
 #include <pharos/guiding/toolkit/image_distance.h>
 
@@ -36,21 +35,9 @@ void extract_samples(const PathView& path, const SampleRule& rule, PathScratch& 
   });
 }
 
-void save_sample(const Sample& sample, std::ostream& out) {
-  for (int axis = 0; axis < 3; ++axis) save_number(out, sample.position[axis]);
-  for (int axis = 0; axis < 3; ++axis) save_number(out, sample.direction[axis]);
-  for (const float v : {sample.distance, sample.weight, sample.pdf}) save_number(out, v);
-  save_number(out, static_cast<std::uint8_t>(sample.in_volume));
-}
-
-Sample load_sample(std::istream& in) {
-  Sample sample;
-  for (int axis = 0; axis < 3; ++axis) sample.position[axis] = load_number<float>(in);
-  for (int axis = 0; axis < 3; ++axis) sample.direction[axis] = load_number<float>(in);
-  for (float* v : {&sample.distance, &sample.weight, &sample.pdf}) *v = load_number<float>(in);
-  sample.in_volume = load_number<std::uint8_t>(in) != 0;
-  if (!is_sound(sample)) throw InputError("a sample for Open PGL is damaged");
-  return sample;
+void Sample::archive(Archive& archive) {
+  archive(position, direction, distance, weight, pdf, in_volume);
+  archive.expect(is_sound(*this), "a sample for Open PGL");
 }
 
 }  // namespace pharos::open_pgl

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <iosfwd>
 #include <vector>
 
 #include <pharos/core/vec.h>
@@ -16,6 +15,8 @@ struct Sample {
   float weight = 0;    ///< L / p, mean of the channels; 0 where nothing came
   float pdf = 0;       ///< of the direction, > 0 [1/sr]
   bool in_volume = false;
+
+  void archive(Archive& archive);
 };
 
 /// What extract_samples() needs to know.
@@ -35,9 +36,5 @@ struct PathScratch {
 /// them is enough to make the library's field useless.
 void extract_samples(const PathView& path, const SampleRule& rule, PathScratch& scratch,
                      std::vector<Sample>& samples);
-
-void save_sample(const Sample& sample, std::ostream& out);
-/// Throws InputError for what save_sample() does not write.
-Sample load_sample(std::istream& in);
 
 }  // namespace pharos::open_pgl

@@ -7,14 +7,10 @@
 #include <tuple>
 #include <utility>
 
-#include <pharos/core/binary_stream.h>
 #include <pharos/core/warp.h>
 
 namespace pharos::parallax_aware_mixtures {
 namespace {
-
-constexpr const char* kHeading = "vmf_cell_mixture";
-constexpr std::uint32_t kVersion = 1;
 
 Direction to_vector(Point3 p) {
   return {p.x, p.y, p.z};
@@ -29,15 +25,6 @@ Direction spiral_direction(std::size_t i, std::size_t count) {
   const double z = 1 - (2 * static_cast<double>(i) + 1) / static_cast<double>(count);
   const double sine = std::sqrt((1 - z) * (1 + z)), phi = kGoldenAngle * static_cast<double>(i);
   return {sine * std::cos(phi), sine * std::sin(phi), z};
-}
-
-void save_vector(const Direction& v, std::ostream& out) {
-  for (const double x : v) save_number(out, x);
-}
-Direction load_vector(std::istream& in) {
-  Direction v;
-  for (double& x : v) x = load_finite<double>(in);
-  return v;
 }
 
 }  // namespace
@@ -143,21 +130,12 @@ class CellUpdate {
     seen_ = parallax_aware_mixtures::fit(cell_.mixture_, directions_, rules(changing));
   }
 
-  /// Merges the cheapest pair as long as one is cheap enough.
   void merge() {
     cell_.since_merge_ = 0;
-    while (cell_.mixture_.size() > 1) {
-      std::size_t best_i = 0, best_j = 0;
-      double least = settings_.merge_threshold;
-      for (std::size_t i = 0; i < cell_.mixture_.size(); ++i) {
-        for (std::size_t j = i + 1; j < cell_.mixture_.size(); ++j) {
-          const double cost = cost_anywhere(i, j, least);
-          if (cost < least) std::tie(least, best_i, best_j) = std::tuple(cost, i, j);
-        }
-      }
-      if (best_j == 0) return;
-      join(best_i, best_j);
-    }
+    merge_cheapest_pairs(
+        settings_.merge_threshold, [&] { return cell_.mixture_.size(); },
+        [&](std::size_t i, std::size_t j, double bound) { return cost_anywhere(i, j, bound); },
+        [&](std::size_t i, std::size_t j) { join(i, j); });
   }
 
   /// The cost of merging two lobes, from wherever in the cell it is largest. Only whether it is
@@ -195,24 +173,17 @@ class CellUpdate {
     erase(cell_.assessments_);
   }
 
-  /// Splits lobes that the samples contradict, and fits their halves, until none is left or there
-  /// is no room or no data for more.
   void split_where_needed() {
     const std::vector<Assessment> now = assess();
     for (std::size_t k = 0; k < now.size(); ++k) cell_.assessments_[k] += now[k];
-    std::vector<std::size_t> changed = split();
-    while (!changed.empty()) {
-      fit(changed);
-      // What the halves are like these samples tell anew.
-      const std::vector<Assessment> again = assess();
-      for (const std::size_t k : changed) {
-        // But where their light is, the whole lobe knew.
-        Assessment& known = cell_.assessments_[k];
-        known = {.inverse = known.inverse, .certainty = known.certainty};
-        known += again[k];
-      }
-      changed = split();
-    }
+    split_until_settled([&] { return assess(); }, [&] { return split(); },
+                        [&](std::span<const std::size_t> changed) { fit(changed); },
+                        [&](std::size_t k, const Assessment& again) {
+                          // The whole lobe knew where the light of its halves is.
+                          Assessment& known = cell_.assessments_[k];
+                          known = {.inverse = known.inverse, .certainty = known.certainty};
+                          known += again;
+                        });
   }
 
   std::vector<Assessment> assess() const {
@@ -220,27 +191,14 @@ class CellUpdate {
                                            settings_.least_density * warp::sphere_pdf());
   }
 
-  /// Halves what needs it, the worst first; returns the numbers of all halves.
   std::vector<std::size_t> split() {
     const auto divergence = [&](std::size_t k) {
       const Assessment& a = cell_.assessments_[k];
       return a.samples < settings_.split_samples ? 0 : a.divergence();
     };
-    std::vector<std::size_t> worst;
-    for (std::size_t k = 0; k < cell_.mixture_.size(); ++k) {
-      if (divergence(k) > settings_.split_threshold) worst.push_back(k);
-    }
-    std::stable_sort(worst.begin(), worst.end(),
-                     [&](std::size_t a, std::size_t b) { return divergence(a) > divergence(b); });
-    std::vector<std::size_t> changed;
-    for (const std::size_t k : worst) {
-      if (cell_.mixture_.size() >= settings_.most_components) break;
-      if (!halve(k)) continue;
-      changed.push_back(k);
-      changed.push_back(cell_.mixture_.size() - 1);
-    }
-    std::sort(changed.begin(), changed.end());
-    return changed;
+    return halve_worst(
+        settings_.split_threshold, settings_.most_components, [&] { return cell_.mixture_.size(); },
+        divergence, [&](std::size_t k) { return halve(k); });
   }
 
   bool halve(std::size_t k) {
@@ -274,18 +232,9 @@ class CellUpdate {
 
 void CellMixture::update(std::span<const Sample> samples,
                          const ParallaxAwareMixturesSettings& settings) {
-  const auto finds = [](const Sample& s) { return s.weight > 0; };
-  const auto found = static_cast<std::size_t>(std::count_if(samples.begin(), samples.end(), finds));
-  if (found == 0) return;
-  if (knows_something()) {
-    CellUpdate(*this, samples, settings).run();
-  } else if (first_.size() + found < settings.first_samples) {
-    std::copy_if(samples.begin(), samples.end(), std::back_inserter(first_), finds);
-  } else {
-    std::vector<Sample> all = std::exchange(first_, {});
-    all.insert(all.end(), samples.begin(), samples.end());
-    CellUpdate(*this, all, settings).run();
-  }
+  learn_when_enough(
+      samples, knows_something(), settings.first_samples, first_,
+      [&](std::span<const Sample> enough) { CellUpdate(*this, enough, settings).run(); });
 }
 
 void CellMixture::forget(double factor) {
@@ -307,55 +256,22 @@ Point3 CellMixture::pivot() const {
   return to_point(pivot_);
 }
 
-void CellMixture::save(std::ostream& out) const {
-  save_heading(out, kHeading, kVersion);
-  save_vector(pivot_, out);
-  for (const double v : {origins_, found_, since_merge_}) save_number(out, v);
-  save_number(out, static_cast<std::uint32_t>(mixture_.size()));
-  for (std::size_t k = 0; k < mixture_.size(); ++k) {
-    save_vector(mixture_[k].mean, out);
-    save_vector(moments_[k].resultant, out);
+void CellMixture::archive(Archive& archive) {
+  archive(pivot_, origins_, found_, since_merge_, mixture_, moments_, assessments_, first_);
+  const std::size_t count = mixture_.size();
+  bool is_sound = origins_ >= 0 && found_ >= 0 && since_merge_ >= 0 && moments_.size() == count &&
+                  assessments_.size() == count;
+  for (std::size_t k = 0; is_sound && k < count; ++k) {
+    const Lobe& lobe = mixture_[k];
     const Assessment& a = assessments_[k];
-    for (const double v : {mixture_[k].weight, mixture_[k].kappa, moments_[k].weight, a.samples,
-                           a.divergence_sum, a.weight, a.inverse, a.certainty}) {
-      save_number(out, v);
+    for (const double v : {lobe.kappa, moments_[k].weight, a.samples, a.divergence_sum, a.weight,
+                           a.inverse, a.certainty}) {
+      is_sound &= v >= 0;
     }
-    for (const double v : a.spread.reshaped()) save_number(out, v);
+    is_sound &= std::abs(lobe.mean.squaredNorm() - 1) < 1e-6 && lobe.weight > 0 &&
+                a.inverse <= kLargestInverse * a.certainty;
   }
-  save_number(out, static_cast<std::uint32_t>(first_.size()));
-  for (const Sample& sample : first_) sample.save(out);
-}
-
-CellMixture CellMixture::load(std::istream& in) {
-  const auto expect = [](bool holds) {
-    if (!holds) throw InputError("the learning of the von Mises-Fisher mixtures is damaged");
-  };
-  expect_heading(in, kHeading, kVersion);
-  CellMixture cell;
-  cell.pivot_ = load_vector(in);
-  for (double* v : {&cell.origins_, &cell.found_, &cell.since_merge_}) {
-    *v = load_finite<double>(in);
-    expect(*v >= 0);
-  }
-  for (auto count = load_number<std::uint32_t>(in); count > 0; --count) {
-    Lobe& lobe = cell.mixture_.emplace_back();
-    Moments& moments = cell.moments_.emplace_back();
-    Assessment& a = cell.assessments_.emplace_back();
-    lobe.mean = load_vector(in);
-    moments.resultant = load_vector(in);
-    for (double* v : {&lobe.weight, &lobe.kappa, &moments.weight, &a.samples, &a.divergence_sum,
-                      &a.weight, &a.inverse, &a.certainty}) {
-      *v = load_finite<double>(in);
-      expect(*v >= 0);
-    }
-    for (double& v : a.spread.reshaped()) v = load_finite<double>(in);
-    expect(std::abs(lobe.mean.squaredNorm() - 1) < 1e-6 && lobe.weight > 0 &&
-           a.inverse <= kLargestInverse * a.certainty);
-  }
-  for (auto count = load_number<std::uint32_t>(in); count > 0; --count) {
-    cell.first_.push_back(Sample::load(in));
-  }
-  return cell;
+  archive.expect(is_sound, "the learning of the von Mises-Fisher mixtures");
 }
 
 }  // namespace pharos::parallax_aware_mixtures

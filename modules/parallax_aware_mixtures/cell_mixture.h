@@ -1,6 +1,5 @@
 #pragma once
 
-#include <iosfwd>
 #include <span>
 #include <vector>
 
@@ -29,9 +28,7 @@ class CellMixture {
   /// Samples that found something, faded ones in part.
   double samples() const { return found_; }
 
-  void save(std::ostream& out) const;
-  /// Throws InputError when it is something else or damaged.
-  static CellMixture load(std::istream& in);
+  void archive(Archive& archive);
 
  private:
   friend class CellUpdate;

@@ -1,7 +1,5 @@
 #include "guider.h"
 
-#include "model.h"
-#include "scattering_lobes.h"
 #include "seen_lobes.h"
 
 namespace pharos::parallax_aware_mixtures {
@@ -9,55 +7,18 @@ namespace {
 
 class ParallaxAwareMixturesDistribution final : public GuidingDistribution {
  public:
-  ParallaxAwareMixturesDistribution(const SeenLobes& lobes, std::uint32_t region)
-      : lobes_(lobes), region_(region) {}
+  explicit ParallaxAwareMixturesDistribution(const SeenLobes& lobes) : lobes_(lobes) {}
 
   std::optional<Proposal> propose(const VertexStream& stream) const override {
     return Proposal{.direction = lobes_.sample(stream.get_1d(Purpose::guide_choice),
                                                stream.get_2d(Purpose::guide_direction))};
   }
-  Density density(const ResolvedVertex& vertex) const override {
-    return {lobes_.density(vertex.direction), Measure::solid_angle};
+  float density(const ResolvedVertex& vertex) const override {
+    return lobes_.density(vertex.direction);
   }
-  std::uint32_t region() const override { return region_; }
 
  private:
   const SeenLobes& lobes_;
-  std::uint32_t region_;
-};
-
-class BoundVmfGuider final : public BoundGuider {
- public:
-  BoundVmfGuider(std::shared_ptr<const ParallaxAwareMixturesModel> model,
-                 const ParallaxAwareMixturesGuiderSettings& settings)
-      : model_(std::move(model)), settings_(settings) {}
-
-  const GuidingDistribution* query(const GuidingQuery& query, Arena& arena) const override {
-    if (query.scattering.purely_discrete()) return nullptr;
-    const ParallaxAwareMixturesModel::View view = model_->at(query.current.position);
-    if (view.groups.empty()) return nullptr;
-    const ScatteringLobes factors = factors_at(query);
-    const SeenLobes* seen =
-        SeenLobes::make(view.groups, view.offset, {factors.lobes.data(), factors.count}, arena);
-    return seen == nullptr ? nullptr
-                           : arena.make<ParallaxAwareMixturesDistribution>(*seen, view.cell);
-  }
-
- private:
-  ScatteringLobes factors_at(const GuidingQuery& query) const {
-    if (settings_.product == ProductFactor::bsdf) {
-      return fit_scattering(query.scattering, {settings_.bsdf_samples, settings_.bsdf_tail});
-    }
-    const bool is_opaque = query.current.kind == VertexKind::surface &&
-                           !contains(query.scattering.events(), Event::smooth_transmit);
-    if (settings_.product == ProductFactor::none || !is_opaque) return {};
-    const Vec3 n = query.current.shading_normal;
-    const Vec3 towards_path = dot(n, query.towards_previous) < 0 ? -n : n;
-    return {.lobes = {Factor{towards_path, kCosineKappa}}, .count = 1};
-  }
-
-  std::shared_ptr<const ParallaxAwareMixturesModel> model_;
-  ParallaxAwareMixturesGuiderSettings settings_;
 };
 
 }  // namespace
@@ -79,14 +40,28 @@ void ParallaxAwareMixturesGuiderSettings::describe(Schema<ParallaxAwareMixturesG
   s.example("{ product: bsdf }");
 }
 
-GuiderTraits ParallaxAwareMixturesGuider::traits() const {
-  return {.model = ParallaxAwareMixturesModel::kName};
+const GuidingDistribution* ParallaxAwareMixturesGuider::query(
+    const ParallaxAwareMixturesModel& model, const GuidingQuery& query, Arena& arena) const {
+  const std::span<const LobeGroup> groups = model.groups(query.region);
+  if (groups.empty()) return nullptr;
+  const ScatteringLobes factors = factors_at(query);
+  const SeenLobes* seen =
+      SeenLobes::make(groups, model.offset(query.region, query.current.position),
+                      {factors.lobes.data(), factors.count}, arena);
+  return seen == nullptr ? nullptr : arena.make<ParallaxAwareMixturesDistribution>(*seen);
 }
 
-std::unique_ptr<const BoundGuider> ParallaxAwareMixturesGuider::bind(
-    std::shared_ptr<const GuidingModel> model) const {
-  return std::make_unique<BoundVmfGuider>(bind_model<ParallaxAwareMixturesModel>(model, *this),
-                                          settings_);
+/// The lobes that the mixture is multiplied by.
+ScatteringLobes ParallaxAwareMixturesGuider::factors_at(const GuidingQuery& query) const {
+  if (settings_.product == ProductFactor::bsdf) {
+    return fit_scattering(*query.scattering, {settings_.bsdf_samples, settings_.bsdf_tail});
+  }
+  const bool is_opaque = query.current.kind == VertexKind::surface &&
+                         !contains(query.scattering->events(), Event::smooth_transmit);
+  if (settings_.product == ProductFactor::none || !is_opaque) return {};
+  const Vec3 n = query.current.shading_normal;
+  const Vec3 towards_path = dot(n, query.towards_previous) < 0 ? -n : n;
+  return {.lobes = {Factor{towards_path, kCosineKappa}}, .count = 1};
 }
 
 }  // namespace pharos::parallax_aware_mixtures

@@ -7,6 +7,9 @@
 #include <pharos/config/schema.h>
 #include <pharos/guiding/contract/guider.h>
 
+#include "model.h"
+#include "scattering_lobes.h"
+
 namespace pharos {
 namespace parallax_aware_mixtures {
 
@@ -25,15 +28,18 @@ struct ParallaxAwareMixturesGuiderSettings {
 };
 
 /// Samples directions in proportion to mixtures of von Mises-Fisher lobes (Ruppert et al. 2020).
-class ParallaxAwareMixturesGuider final : public Guider {
+class ParallaxAwareMixturesGuider final : public GuiderOf<ParallaxAwareMixturesModel> {
  public:
   using Settings = ParallaxAwareMixturesGuiderSettings;
   explicit ParallaxAwareMixturesGuider(const Settings& settings) : settings_(settings) {}
 
-  GuiderTraits traits() const override;
-  std::unique_ptr<const BoundGuider> bind(std::shared_ptr<const GuidingModel> model) const override;
+  GuiderTraits traits() const override { return {}; }
+  const GuidingDistribution* query(const ParallaxAwareMixturesModel& model,
+                                   const GuidingQuery& query, Arena& arena) const override;
 
  private:
+  ScatteringLobes factors_at(const GuidingQuery& query) const;
+
   Settings settings_;
 };
 

@@ -1,30 +1,17 @@
 #pragma once
 
-#include <pharos/guiding/toolkit/kd_tree_learning.h>
+#include <pharos/guiding/toolkit/mixture_learning.h>
 
 namespace pharos::parallax_aware_mixtures {
 
 /// Parameters of the method; docs and sources are in the README.
-struct ParallaxAwareMixturesSettings {
-  SpatialCells spatial = SpatialCells::kdtree;
+struct ParallaxAwareMixturesSettings : MixtureLearningSettings {
+  ParallaxAwareMixturesSettings() { first_samples = 128; }
+
   bool parallax = true;
-  std::uint32_t cell_samples = 32768;
-  int max_depth = 32;
-  std::uint32_t batch_samples = 1u << 22;
-  std::uint32_t components = 16, most_components = 32;
   double first_kappa = 5;
-  std::uint32_t first_samples = 128;
-  int em_iterations = 100;
-  double em_tolerance = 0.005;
   double prior_share = 0.01, prior_strength = 0.2;
   double most_kappa = 32768;
-  double split_threshold = 0.5;
-  float least_density = 0.01f;
-  std::uint32_t split_samples = 4096;
-  double merge_threshold = 0.025;
-  std::uint32_t merge_samples = 8192;
-  double decay = 1, division_decay = 0.25;
-  float least_pdf = 0.1f;
   float glossy = 0.3f;
 
   static void describe(Schema<ParallaxAwareMixturesSettings>& schema);
@@ -39,7 +26,7 @@ class ParallaxAwareMixturesLearner final : public Learner {
 
   LearnerTraits traits() const override;
   std::unique_ptr<LearningState> begin(const LearningContext& context) const override;
-  std::shared_ptr<const GuidingModel> load_model(std::istream& in) const override;
+  std::shared_ptr<GuidingModel> empty_model() const override;
 
  private:
   Settings settings_;

@@ -12,7 +12,7 @@ std::shared_ptr<const GuidingModel> ParallaxAwareMixturesLearning::model(
     contents.push_back({.pivot = cell.pivot(), .samples = static_cast<float>(cell.samples())});
     append_groups(cell.mixture(), cell.inverse_distances(), contents.back().groups);
   }
-  return std::make_shared<ParallaxAwareMixturesModel>(cells.tree(), contents, cells.origins());
+  return std::make_shared<ParallaxAwareMixturesModel>(cells.tree(), contents);
 }
 
 }  // namespace pharos::parallax_aware_mixtures

@@ -16,7 +16,7 @@ class ParallaxAwareMixturesLearning {
  public:
   using Sample = parallax_aware_mixtures::Sample;
   using Cell = CellMixture;
-  static constexpr const char* kHeading = "vmf_learning";
+  static constexpr const char* kHeading = "parallax_aware_mixtures_learning";
   static constexpr std::uint32_t kVersion = 1;
 
   explicit ParallaxAwareMixturesLearning(const ParallaxAwareMixturesSettings& settings)

@@ -12,7 +12,8 @@
 namespace pharos::parallax_aware_mixtures {
 namespace {
 
-/// The integral of v_a v_b / v: of e^(kappa' cos theta) with norms, kappa' being the length of
+/// Returns the integral of v_a v_b / v, where v is `whole`. It is the integral of e^(kappa' cos
+/// theta) times normalization factors, where kappa' is the length of
 /// kappa_a mu_a + kappa_b mu_b - kappa mu.
 double overlap(const Lobe& a, const Lobe& b, const Lobe& whole) {
   const double rest = (a.kappa * a.mean + b.kappa * b.mean - whole.kappa * whole.mean).norm();
@@ -23,7 +24,7 @@ Vec3 to_vec(const Direction& d) {
   return {static_cast<float>(d[0]), static_cast<float>(d[1]), static_cast<float>(d[2])};
 }
 
-/// Lobes in the form of a test.
+/// Eight lobes, prepared for assess().
 struct TestLobes8 {
   TestLobes8(const Mixture& mixture, std::size_t first) {
     for (std::size_t i = 0; i < kLanes; ++i) {
@@ -40,7 +41,7 @@ struct TestLobes8 {
     }
   }
   Float8 density(Vec3 w) const { return mode * exp2(slope * squared_distance(mean, w)); }
-  /// Second moments xx, xy and yy across a lobe's mean, in world space.
+  /// Returns the second moments xx, xy and yy across a lobe's mean as a matrix in world space.
   statistics::Matrix<3> to_world(std::size_t lane, const double (&moments)[3]) const {
     const Direction a(s[0][lane], s[1][lane], s[2][lane]), b(t[0][lane], t[1][lane], t[2][lane]);
     return moments[0] * a * a.transpose() + moments[1] * (a * b.transpose() + b * a.transpose()) +
@@ -68,7 +69,7 @@ struct Sums8 {
     xx += found * x * x;
     xy += found * x * y;
     yy += found * y * y;
-    // Directions near the mean know best how far away the light is.
+    // Samples near the mean are the most reliable for the distance of the light.
     const Float8 certain = found * density;
     inverse += certain * sample.inverse_distance;
     certainty += certain;
@@ -81,7 +82,7 @@ struct Sums8 {
                             .spread = lobes.to_world(i, moments),
                             .inverse = inverse[i],
                             .certainty = certainty[i]};
-      // What is too bright for floats says nothing.
+      // Sums that overflow floats are dropped.
       const double sum =
           part.divergence_sum + part.weight + part.spread.sum() + part.inverse + part.certainty;
       if (std::isfinite(sum)) all[i] += part;
@@ -89,7 +90,7 @@ struct Sums8 {
   }
 };
 
-/// What all samples have in common.
+/// Constants that are the same for all samples.
 struct Scale {
   float over_light;     ///< 1 / Phi
   float least_density;  ///< [1/sr]
@@ -124,7 +125,7 @@ PlacedLobe PlacedLobe::seen_from(const Direction& step) const {
   PlacedLobe seen = *this;
   const Direction to = lobe.mean - inverse_distance * step;
   const double length = to.norm();
-  if (!(length > 1e-6)) return seen;  // in the very place that it shows
+  if (!(length > 1e-6)) return seen;  // the new origin is the position of the light
   seen.lobe.mean = to / length;
   seen.inverse_distance = inverse_distance / length;
   return seen;

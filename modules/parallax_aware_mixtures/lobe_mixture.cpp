@@ -3,19 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include <pharos/core/binary_stream.h>
-
 #include "vmf.h"
 
 namespace pharos::parallax_aware_mixtures {
 namespace {
 
-constexpr std::uint32_t kMostGroups = 1u << 20;
+constexpr std::size_t kMostGroups = 1u << 20;
 constexpr float kMostKappa = 1e8f;
-
-void expect(bool holds) {
-  if (!holds) throw InputError("the model of von Mises-Fisher mixtures is damaged");
-}
 
 LobeGroup empty_group() {
   LobeGroup group;
@@ -47,40 +41,34 @@ void append_groups(const Mixture& mixture, std::span<const double> inverse_dista
   }
 }
 
-void save_groups(std::span<const LobeGroup> groups, std::ostream& out) {
-  save_number(out, static_cast<std::uint32_t>(groups.size()));
-  for (const LobeGroup& group : groups) {
-    for (const Float8* numbers : {&group.weight, &group.mean[0], &group.mean[1], &group.mean[2],
-                                  &group.kappa, &group.inverse_distance}) {
-      for (std::size_t i = 0; i < kLanes; ++i) save_number(out, (*numbers)[i]);
+void LobeGroup::archive(Archive& archive) {
+  for (Float8* numbers : {&weight, &mean[0], &mean[1], &mean[2], &kappa, &inverse_distance}) {
+    for (std::size_t i = 0; i < kLanes; ++i) {
+      float number = (*numbers)[i];
+      archive(number);
+      (*numbers)[i] = number;
     }
   }
+  for (std::size_t i = 0; archive.loads() && i < kLanes; ++i) set_shape(*this, i, kappa[i]);
 }
 
-std::vector<LobeGroup> load_groups(std::istream& in) {
-  const auto count = load_number<std::uint32_t>(in);
-  expect(count <= kMostGroups);
-  std::vector<LobeGroup> groups;
+bool is_sound(const std::vector<LobeGroup>& groups) {
+  if (groups.empty()) return true;
   double total = 0;
-  while (groups.size() < count) {
-    LobeGroup& group = groups.emplace_back();
-    for (Float8* numbers : {&group.weight, &group.mean[0], &group.mean[1], &group.mean[2],
-                            &group.kappa, &group.inverse_distance}) {
-      for (std::size_t i = 0; i < kLanes; ++i) (*numbers)[i] = load_finite<float>(in);
-    }
+  for (const LobeGroup& group : groups) {
     for (std::size_t i = 0; i < kLanes; ++i) {
       const Vec3 mean{group.mean[0][i], group.mean[1][i], group.mean[2][i]};
       const float kappa = group.kappa[i];
-      expect(group.weight[i] >= 0 && kappa >= kLeastKappa && kappa <= kMostKappa &&
-             std::abs(length_squared(mean) - 1) < 1e-4f && group.inverse_distance[i] >= 0 &&
-             group.inverse_distance[i] <= kLargestInverse);
-      set_shape(group, i, kappa);
+      const bool is_lobe = group.weight[i] >= 0 && kappa >= kLeastKappa && kappa <= kMostKappa &&
+                           std::abs(length_squared(mean) - 1) < 1e-4f &&
+                           group.inverse_distance[i] >= 0 &&
+                           group.inverse_distance[i] <= kLargestInverse;
+      if (!is_lobe) return false;
       total += group.weight[i];
     }
   }
   // Directions are drawn as if the weights added up to one.
-  expect(count == 0 || std::abs(total - 1) < 1e-4);
-  return groups;
+  return groups.size() <= kMostGroups && std::abs(total - 1) < 1e-4;
 }
 
 }  // namespace pharos::parallax_aware_mixtures

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <iosfwd>
 #include <span>
 #include <vector>
 
@@ -9,28 +8,28 @@
 
 namespace pharos::parallax_aware_mixtures {
 
-/// Eight lobes of a mixture as they are seen from its pivot; what is beyond the last one weighs
-/// nothing.
+/// Eight lobes of a mixture as seen from its pivot. Missing lobes have weight 0.
 struct LobeGroup {
-  Float8 weight{};            ///< those of all groups add up to 1
+  Float8 weight{};            ///< the weights of all groups add up to 1
   Float8 mean[3]{};           ///< unit
   Float8 kappa{};             ///< >= kLeastKappa
   Float8 mode{};              ///< the lobe's density at its mean [1/sr]
   Float8 inverse_distance{};  ///< of where its light comes from [1/scene unit]; 0: infinitely far
+
+  void archive(Archive& archive);
 };
 
-/// Lobes that are flatter count as this flat: quotients of differences stay sound.
+/// Lower bound of kappa, so that quotients of differences stay numerically stable.
 inline constexpr float kLeastKappa = 1e-3f;
 
-/// No light is nearer [1/scene unit]: what is beyond is damage.
+/// Upper bound of inverse distances [1/scene unit]. A file with larger ones is damaged.
 inline constexpr double kLargestInverse = 1e12;
 
-/// Appends a mixture's groups; `inverse_distances` has one for each lobe.
+/// Appends the groups of a mixture. `inverse_distances` has one value for each lobe.
 void append_groups(const Mixture& mixture, std::span<const double> inverse_distances,
                    std::vector<LobeGroup>& groups);
 
-void save_groups(std::span<const LobeGroup> groups, std::ostream& out);
-/// Throws InputError when it is no mixture or damaged.
-std::vector<LobeGroup> load_groups(std::istream& in);
+/// Whether these are lobes whose weights sum to one, or none at all.
+bool is_sound(const std::vector<LobeGroup>& groups);
 
 }  // namespace pharos::parallax_aware_mixtures

@@ -10,13 +10,13 @@ namespace pharos::parallax_aware_mixtures {
 
 inline constexpr std::size_t kLanes = 8;
 
-/// |a - w|^2. Of unit vectors it is 2 (1 - cos), and keeps the digits of small angles.
+/// Returns |a - w|^2. For unit vectors this is 2 (1 - cos) and keeps the digits of small angles.
 inline Float8 squared_distance(const Float8 (&a)[3], Vec3 w) {
   const Float8 x = a[0] - w.x, y = a[1] - w.y, z = a[2] - w.z;
   return x * x + y * y + z * z;
 }
 
-/// The largest of eight numbers.
+/// Returns the largest of eight numbers.
 inline float largest_of(const Float8& x) {
   float most = x[0];
   for (int i = 1; i < 8; ++i) most = x[i] > most ? x[i] : most;

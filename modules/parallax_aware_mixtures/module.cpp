@@ -7,7 +7,8 @@ PHAROS_MODULE(registry) {
   using namespace pharos::parallax_aware_mixtures;
   registry.add<ParallaxAwareMixturesLearner>(
       "parallax_aware_mixtures",
-      "Mixtures of von Mises-Fisher lobes that know where their light is");
-  registry.add<ParallaxAwareMixturesGuider>("parallax_aware_mixtures",
-                                            "Directions by von Mises-Fisher lobes, with parallax");
+      "Mixtures of von Mises-Fisher lobes that store the distances of their lights");
+  registry.add<ParallaxAwareMixturesGuider>(
+      "parallax_aware_mixtures",
+      "Directions sampled from von Mises-Fisher lobes, with parallax and products");
 }

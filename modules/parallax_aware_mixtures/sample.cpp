@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <pharos/core/binary_stream.h>
 #include <pharos/guiding/toolkit/guidable_steps.h>
 #include <pharos/guiding/toolkit/image_distance.h>
 
@@ -26,23 +25,11 @@ void extract_samples(const PathView& path, const SampleRule& rule, PathScratch& 
   });
 }
 
-void Sample::save(std::ostream& out) const {
-  for (int axis = 0; axis < 3; ++axis) save_number(out, origin[axis]);
-  for (int axis = 0; axis < 3; ++axis) save_number(out, direction[axis]);
-  for (const float v : {inverse_distance, weight, pdf}) save_number(out, v);
-}
-
-Sample Sample::load(std::istream& in) {
-  Sample sample;
-  for (int axis = 0; axis < 3; ++axis) sample.origin[axis] = load_finite<float>(in);
-  for (int axis = 0; axis < 3; ++axis) sample.direction[axis] = load_finite<float>(in);
-  for (float* v : {&sample.inverse_distance, &sample.weight, &sample.pdf}) {
-    *v = load_finite<float>(in);
-  }
-  const bool is_sound = sample.weight >= 0 && sample.pdf > 0 && sample.inverse_distance >= 0 &&
-                        std::abs(length_squared(sample.direction) - 1) < 1e-3f;
-  if (!is_sound) throw InputError("a sample of the von Mises-Fisher mixtures is damaged");
-  return sample;
+void Sample::archive(Archive& archive) {
+  archive(origin, direction, inverse_distance, weight, pdf);
+  archive.expect(weight >= 0 && pdf > 0 && inverse_distance >= 0 &&
+                     std::abs(length_squared(direction) - 1) < 1e-3f,
+                 "a sample of the von Mises-Fisher mixtures");
 }
 
 }  // namespace pharos::parallax_aware_mixtures

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <iosfwd>
 #include <vector>
 
 #include <pharos/core/vec.h>
@@ -16,9 +15,7 @@ struct Sample {
   float weight = 0;            ///< L / p, mean of the channels; 0 where nothing came
   float pdf = 0;               ///< of the direction, > 0 [1/sr]
 
-  void save(std::ostream& out) const;
-  /// Throws InputError for what save() does not write.
-  static Sample load(std::istream& in);
+  void archive(Archive& archive);
 };
 
 /// What extract_samples() needs to know.

@@ -9,10 +9,10 @@ namespace pharos::parallax_aware_mixtures {
 namespace {
 
 constexpr float kMostKappa = 1e4f;
-/// A lobe of fewer directions would be guessed.
+/// Fewer directions do not determine a lobe.
 constexpr int kFewest = 3;
 
-/// Directions that are to become a lobe.
+/// Sums over the directions that form a lobe.
 struct Heap {
   Vec3 resultant;
   float weight = 0;
@@ -25,7 +25,8 @@ struct Heap {
   }
   Factor lobe(float total) const {
     const float size = length(resultant);
-    // The mean is nearer to the directions than to those that they are drawn from.
+    // Directions are closer to their own mean than to the mean of their distribution. The factor
+    // n / (n - 1) corrects this.
     const auto n = static_cast<float>(count);
     const float apart = std::min(1.0f, (1 - size / weight) * n / (n - 1));
     const float kappa = (1 - apart) * (3 - square(1 - apart)) / (apart * (2 - apart));
@@ -35,7 +36,8 @@ struct Heap {
   }
 };
 
-/// Point i of a fixed set in three dimensions: a line, and a rank-1 lattice by the plastic number.
+/// Point i of a fixed set in three dimensions: equal steps in the first one, and a rank-1 lattice
+/// by the plastic number in the others.
 struct FixedNumbers {
   float choice;
   Vec2 u;
@@ -52,7 +54,7 @@ FixedNumbers fixed_numbers(std::uint32_t i, std::uint32_t count) {
 
 ScatteringLobes fit_scattering(const LocalScattering& scattering, const ScatteringFit& rule) {
   struct Draw {
-    Heap heap;  // of it alone
+    Heap heap;  // of this direction alone
     float pdf;
   };
   std::array<Draw, kMostScatteringSamples> draws;

@@ -5,13 +5,14 @@
 namespace pharos::parallax_aware_mixtures {
 namespace {
 
-/// The lobes' directions from elsewhere: mu / r + offset, to unit length, r being the distance.
+/// Sets the lobes' directions as seen from the vertex: mu r + offset, normalized, where r is the
+/// distance.
 void shift(const LobeGroup& lobes, Vec3 offset, SeenGroup& seen) {
   const Float8& inverse = lobes.inverse_distance;
   const Float8 x = lobes.mean[0] + inverse * offset.x, y = lobes.mean[1] + inverse * offset.y,
                z = lobes.mean[2] + inverse * offset.z;
   const Float8 squared = x * x + y * y + z * z;
-  constexpr float kLeast = 1e-12f;  // in the very place that the lobe shows: any direction
+  constexpr float kLeast = 1e-12f;  // nearer to the light, the direction stays unchanged
   const Mask8 is_apart = squared > kLeast;
   const Float8 over = 1 / sqrt(larger(squared, all8(kLeast)));
   seen.mean[0] = is_apart ? x * over : lobes.mean[0];
@@ -19,17 +20,17 @@ void shift(const LobeGroup& lobes, Vec3 offset, SeenGroup& seen) {
   seen.mean[2] = is_apart ? z * over : lobes.mean[2];
 }
 
-/// The density at the mean, for kappa >= kLeastKappa [1/sr]; of flat lobes by its series, as a
-/// small difference would be left.
+/// Returns the density at the mean for kappa >= kLeastKappa [1/sr]. For flat lobes it uses the
+/// series, because the difference in the formula would lose digits.
 Float8 mode_density8(const Float8& kappa) {
   constexpr float kOverTwoPi = 0.159154943f, kFlat = 0.1f;
   const Float8 flat = 0.5f * kOverTwoPi * (1 + kappa * (1 + (1.0f / 3) * kappa));
   return kappa < kFlat ? flat : kappa * kOverTwoPi / (1 - exp(-2 * kappa));
 }
 
-/// The product with another lobe: kappa' mu' = kappa mu + kappa_f mu_f. Its weight changes by the
-/// quotient of the densities at the means, and by e^(kappa' - kappa - kappa_f), whose exponent is
-/// -kappa kappa_f |mu - mu_f|^2 / (kappa' + kappa + kappa_f).
+/// Multiplies the lobes by another lobe: kappa' mu' = kappa mu + kappa_f mu_f. The weight changes
+/// by the quotient of the densities at the means, and by e^(kappa' - kappa - kappa_f). This
+/// exponent equals -kappa kappa_f |mu - mu_f|^2 / (kappa' + kappa + kappa_f).
 void multiply(const LobeGroup& lobes, const Factor& factor, SeenGroup& seen) {
   const Float8& kappa = lobes.kappa;
   const Vec3 f = factor.kappa * factor.mean;
@@ -43,7 +44,7 @@ void multiply(const LobeGroup& lobes, const Factor& factor, SeenGroup& seen) {
   seen.share = lobes.weight * factor.peak * (lobes.mode / mode) * exp(exponent);
   seen.scale = mode;
   seen.kappa = product;
-  // Opposite lobes of the same concentration leave nothing but a flat one.
+  // The product of opposite lobes of the same concentration is a flat lobe.
   const Mask8 is_flat = length < kLeastKappa;
   seen.mean[0] = is_flat ? seen.mean[0] : x * over;
   seen.mean[1] = is_flat ? seen.mean[1] : y * over;
@@ -90,7 +91,7 @@ float SeenLobes::density(Vec3 direction) const {
 }
 
 Vec3 SeenLobes::sample(float choice, Vec2 u) const {
-  // The last lobe with a share, should rounding leave something of `choice`.
+  // Takes the last lobe with a share if rounding leaves a rest of `choice`.
   std::size_t group = 0, lane = 0;
   for (std::size_t k = 0; k < groups_.size() * kLanes; ++k) {
     const float share = groups_[k / kLanes].share[k % kLanes];

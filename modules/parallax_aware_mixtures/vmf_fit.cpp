@@ -12,7 +12,7 @@
 namespace pharos::parallax_aware_mixtures {
 namespace {
 
-/// Lobes in the form of the E step.
+/// Eight lobes, prepared for the E step.
 struct LogLobes8 {
   LogLobes8(const Mixture& mixture, std::size_t first) {
     for (std::size_t i = 0; i < kLanes; ++i) {
@@ -24,7 +24,7 @@ struct LogLobes8 {
                              : -std::numeric_limits<float>::infinity();
     }
   }
-  /// Logarithms of the lobes' densities times their weights.
+  /// Returns the logarithms of the lobes' densities times their weights.
   Float8 operator()(Vec3 w) const { return log_scale - half_kappa * squared_distance(mean, w); }
   Float8 mean[3];
   Float8 half_kappa, log_scale;
@@ -47,7 +47,7 @@ struct Moments8 {
   }
 };
 
-/// The E step over a few directions: few enough for sums in single precision.
+/// The E step over few directions, so that sums in single precision are accurate enough.
 void expect_part(std::span<const LogLobes8> lobes, std::span<const WeightedDirection> directions,
                  Expectation& result) {
   std::vector<Float8> terms(lobes.size());
@@ -105,7 +105,7 @@ void maximize(std::span<const Moments> moments, const FitRules& rules, Mixture& 
   double seen = 0;
   for (const Moments& m : moments) seen += m.weight;
   const double believed = rules.prior_share * seen;
-  double total = 0, share = 0;  // of those that change
+  double total = 0, share = 0;  // of the lobes that may change
   for (std::size_t i = 0; i < count; ++i) {
     total += moments[number(rules, i)].weight + believed;
     share += mixture[number(rules, i)].weight;

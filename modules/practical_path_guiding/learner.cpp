@@ -43,9 +43,7 @@ void PracticalPathGuidingSettings::describe(Schema<PracticalPathGuidingSettings>
 }
 
 LearnerTraits PracticalPathGuidingLearner::traits() const {
-  return {.model = PracticalPathGuidingModel::kName,
-          .records = {.light_samples = true},
-          .model_version = PracticalPathGuidingModel::kVersion};
+  return {.records = {.light_samples = true}};
 }
 
 std::unique_ptr<LearningState> PracticalPathGuidingLearner::begin(
@@ -53,9 +51,8 @@ std::unique_ptr<LearningState> PracticalPathGuidingLearner::begin(
   return std::make_unique<PracticalPathGuidingLearningState>(settings_, context);
 }
 
-std::shared_ptr<const GuidingModel> PracticalPathGuidingLearner::load_model(
-    std::istream& in) const {
-  return std::make_shared<PracticalPathGuidingModel>(in);
+std::shared_ptr<GuidingModel> PracticalPathGuidingLearner::empty_model() const {
+  return std::make_shared<PracticalPathGuidingModel>();
 }
 
 }  // namespace pharos::practical_path_guiding

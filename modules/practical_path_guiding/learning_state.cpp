@@ -5,16 +5,12 @@
 #include <cmath>
 #include <numeric>
 
-#include <pharos/core/binary_stream.h>
 #include <pharos/core/counting_sort.h>
 
 #include "model.h"
 
 namespace pharos::practical_path_guiding {
 namespace {
-
-constexpr const char* kHeading = "sd_tree_learning";
-constexpr std::uint32_t kVersion = 1;
 
 /// A cube with the scene's lowest corner. (A scene without extent is taken to be of size one.)
 Bounds3 cube_around(const Bounds3& region) {
@@ -97,7 +93,7 @@ void PracticalPathGuidingLearningState::flush() {
   ++batches_;
 }
 
-std::shared_ptr<const GuidingModel> PracticalPathGuidingLearningState::update(std::uint32_t, bool) {
+Learned PracticalPathGuidingLearningState::update(std::uint32_t, bool) {
   flush();
   const double samples = paths_ / film_pixels_;  // a pixel
   const double threshold = settings_.spatial_threshold * std::sqrt(samples / 2);
@@ -108,8 +104,11 @@ std::shared_ptr<const GuidingModel> PracticalPathGuidingLearningState::update(st
   }
   const bool knows_something = std::any_of(cells_.begin(), cells_.end(),
                                            [](const Cell& cell) { return !cell.known.empty(); });
-  auto learned = knows_something ? model() : nullptr;
-  if (learned != nullptr) std::iota(origins_.begin(), origins_.end(), 0u);
+  Learned learned;
+  if (knows_something) {
+    learned = {model(), origins_};
+    std::iota(origins_.begin(), origins_.end(), 0u);
+  }
   for (Cell& cell : cells_) cell.records = 0;
   pixels_.update(settings_.pixel_radius, settings_.least_pixel);
   paths_ = 0;
@@ -121,6 +120,7 @@ void PracticalPathGuidingLearningState::conclude(Cell& cell) const {
   if (cell.learning.total() > 0) {
     cell.known = cell.learning.density(leaf_mass());
     cell.known_light = static_cast<float>(cell.light / cell.records);
+    cell.known_records = static_cast<float>(cell.records);
     cell.learning = cell.learning.refined(leaf_mass(), refinement());
   }
   cell.light = 0;
@@ -145,87 +145,28 @@ void PracticalPathGuidingLearningState::halve(std::uint32_t leaf, std::uint32_t 
 
 std::shared_ptr<const GuidingModel> PracticalPathGuidingLearningState::model() const {
   std::vector<PracticalPathGuidingModel::Cell> cells;
-  for (const Cell& cell : cells_) cells.push_back({cell.known, cell.known_light});
-  return std::make_shared<PracticalPathGuidingModel>(tree_, cells, origins_);
-}
-
-void PracticalPathGuidingLearningState::save(std::ostream& out) const {
-  save_heading(out, kHeading, kVersion);
-  tree_.save(out);
-  for (std::size_t i = 0; i < cells_.size(); ++i) {
-    const Cell& cell = cells_[i];
-    save_number(out, origins_[i]);
-    for (const Point3 corner : {cell.box.low, cell.box.high}) {
-      for (int axis = 0; axis < 3; ++axis) save_number(out, corner[axis]);
-    }
-    save_number(out, cell.records);
-    save_number(out, cell.light);
-    save_number(out, cell.known_light);
-    cell.learning.save(out);
-    save_nodes(cell.known, out);
+  for (const Cell& cell : cells_) {
+    cells.push_back({cell.known, cell.known_light, cell.known_records});
   }
-  pixels_.save(out);
-  save_number(out, batches_);
-  save_number(out, paths_);
-  save_number(out, static_cast<std::uint64_t>(records_.size()));
-  for (const Record& record : records_) save_record(record, out);
+  return std::make_shared<PracticalPathGuidingModel>(tree_, cells,
+                                                     settings_.target == GuidingTarget::radiance);
 }
 
-void PracticalPathGuidingLearningState::load(std::istream& in) {
-  PracticalPathGuidingLearningState loaded(*this);
-  loaded.read(in);
-  *this = std::move(loaded);
-}
-
-void PracticalPathGuidingLearningState::read(std::istream& in) {
-  const auto expect = [](bool holds) {
-    if (!holds) throw InputError("the learning of the SD-tree is damaged");
-  };
-  expect_heading(in, kHeading, kVersion);
-  tree_ = KdTree::load(in);
+void PracticalPathGuidingLearningState::archive(Archive& archive) {
+  archive.heading("practical_path_guiding_learning", 2);
+  archive(tree_, origins_, pixels_, batches_, paths_, records_);
+  archive.list(cells_, [&] { return Cell{.box = {}, .learning = QuadTree(refinement())}; });
+  if (!archive.loads()) return;
+  const auto expect = [&](bool holds) { archive.expect(holds, "the learning of the SD-tree"); };
+  expect(cells_.size() == tree_.cell_count() && origins_.size() == cells_.size());
   const std::vector<std::uint32_t> leaves = tree_.leaves();
   const std::vector<int> levels = tree_.levels();
-  cells_.clear();
-  origins_.clear();
-  while (cells_.size() < tree_.cell_count()) {
-    origins_.push_back(load_number<std::uint32_t>(in));
-    expect(origins_.back() <= cells_.size());
-    Cell& cell = cells_.emplace_back(Cell{.box = {}, .learning = QuadTree(refinement())});
-    for (Point3* corner : {&cell.box.low, &cell.box.high}) {
-      for (int axis = 0; axis < 3; ++axis) (*corner)[axis] = load_finite<float>(in);
-    }
-    cell.level = levels[leaves[cells_.size() - 1]];
-    cell.records = load_finite<double>(in);
-    cell.light = load_finite<double>(in);
-    cell.known_light = load_finite<float>(in);
-    expect(cell.records >= 0 && cell.light >= 0 && cell.known_light >= 0);
-    cell.learning = QuadTree::load(in);
-    cell.known = load_nodes(in);
-  }
-  pixels_.load(in);
-  batches_ = load_number<std::uint64_t>(in);
-  paths_ = load_finite<double>(in);
-  records_.clear();
-  for (auto count = load_number<std::uint64_t>(in); count > 0; --count) {
-    records_.push_back(load_record(in));
-  }
-}
-
-void PracticalPathGuidingLearningState::merge(const LearningState& other) {
-  const auto& theirs = dynamic_cast<const PracticalPathGuidingLearningState&>(other);
-  bool is_alike = theirs.tree_ == tree_;
-  for (std::size_t i = 0; is_alike && i < cells_.size(); ++i) {
-    is_alike = cells_[i].learning.has_leaves_of(theirs.cells_[i].learning);
-  }
-  if (!is_alike) throw InputError("SD-trees of different iterations or scenes cannot be merged");
-  pixels_.merge(theirs.pixels_);
   for (std::size_t i = 0; i < cells_.size(); ++i) {
-    cells_[i].records += theirs.cells_[i].records;
-    cells_[i].light += theirs.cells_[i].light;
-    cells_[i].learning.add(theirs.cells_[i].learning);
+    const Cell& cell = cells_[i];
+    expect(origins_[i] <= i && cell.level == levels[leaves[i]] && !cell.box.empty() &&
+           is_density(cell.known) && cell.records >= 0 && cell.light >= 0 &&
+           cell.known_light >= 0 && cell.known_records >= 0);
   }
-  paths_ += theirs.paths_;
-  records_.insert(records_.end(), theirs.records_.begin(), theirs.records_.end());
 }
 
 }  // namespace pharos::practical_path_guiding

@@ -22,10 +22,8 @@ class PracticalPathGuidingLearningState final : public LearningState {
                                     const LearningContext& context);
 
   void absorb(const PathLog& log) override;
-  std::shared_ptr<const GuidingModel> update(std::uint32_t iteration, bool last) override;
-  void save(std::ostream& out) const override;
-  void load(std::istream& in) override;
-  void merge(const LearningState& other) override;
+  Learned update(std::uint32_t iteration, bool last) override;
+  void archive(Archive& archive) override;
 
  private:
   struct Cell {
@@ -36,6 +34,11 @@ class PracticalPathGuidingLearningState final : public LearningState {
     QuadTree learning;            ///< of this iteration
     std::vector<QuadNode> known;  ///< as of the iteration before; none: nothing
     float known_light = 0;        ///< mean value of a record
+    float known_records = 0;      ///< behind what is known
+
+    void archive(Archive& archive) {
+      archive(box, level, records, light, learning, known, known_light, known_records);
+    }
   };
 
   LeafMass leaf_mass() const {
@@ -53,7 +56,6 @@ class PracticalPathGuidingLearningState final : public LearningState {
   /// Halves a cell again and again, as long as its share of records is above `threshold`.
   void halve(std::uint32_t leaf, std::uint32_t cell, double threshold);
   std::shared_ptr<const GuidingModel> model() const;
-  void read(std::istream& in);
 
   PracticalPathGuidingSettings settings_;
   std::uint64_t seed_;

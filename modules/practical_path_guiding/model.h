@@ -1,10 +1,10 @@
 #pragma once
 
-#include <iosfwd>
 #include <span>
 #include <vector>
 
 #include <pharos/guiding/contract/model.h>
+#include <pharos/guiding/contract/radiance_estimate.h>
 #include <pharos/guiding/toolkit/kd_tree.h>
 
 #include "quad_density.h"
@@ -12,51 +12,52 @@
 namespace pharos::practical_path_guiding {
 
 /// Densities over directions by place: a directional quadtree in each cell of a binary tree (the
-/// SD-tree of Mueller et al. 2017). Cells that know nothing have no nodes.
-class PracticalPathGuidingModel final : public GuidingModel {
+/// SD-tree of Mueller et al. 2017). Regions are the cells. Cells that know nothing have no nodes.
+class PracticalPathGuidingModel final : public GuidingModel, public RadianceEstimate {
  public:
-  /// The kind of model. A learner and a guider that both name it go together.
-  static constexpr const char* kName = "practical_path_guiding";
-  static constexpr std::uint32_t kVersion = 1;
+  static constexpr std::string_view kName = "practical_path_guiding";
 
   /// What a cell knows.
   struct Cell {
     std::vector<QuadNode> nodes;  ///< of its density over directions; none: nothing
-    float light = 0;              ///< mean of what its samples found; for pictures
+    float light = 0;              ///< mean of what its records found
+    float records = 0;            ///< number of records behind the density
+    void archive(Archive& archive) { archive(nodes, light, records); }
   };
 
-  /// `cells` by their numbers in the tree; `origins` as for region_origins().
-  PracticalPathGuidingModel(KdTree tree, const std::vector<Cell>& cells,
-                            std::vector<std::uint32_t> origins);
-  /// What save() wrote. Throws InputError when it is something else or damaged.
-  explicit PracticalPathGuidingModel(std::istream& in);
+  PracticalPathGuidingModel() = default;
+  /// `cells` are in the order of their numbers in the tree. `of_radiance`: the densities are
+  /// proportional to incident radiance.
+  PracticalPathGuidingModel(KdTree tree, const std::vector<Cell>& cells, bool of_radiance);
 
-  std::string name() const override { return kName; }
-  std::uint32_t version() const override { return kVersion; }
-  std::size_t size_bytes() const override;
-  void save(std::ostream& out) const override;
-  std::uint32_t region_count() const override { return tree_.cell_count(); }
-  std::vector<std::uint32_t> region_origins() const override { return origins_; }
-  std::vector<ModelFact> facts() const override;
-  double density(Point3 point) const override;
-  double density(Point3 point, Vec3 direction) const override;
+  ModelInfo info() const override;
+  void archive(Archive& archive) override;
+  Place place(const GuidingVertex& vertex) const override {
+    const std::uint32_t cell = tree_.cell_at(vertex.position);
+    return {cell, nodes(cell).empty() ? 0.0f : std::max(facts_[cell].records, 1.0f)};
+  }
+  double density(Point3 point, const Vec3* direction) const override;
 
-  /// The cell around a point, and its density's nodes.
-  struct View {
-    std::span<const QuadNode> nodes;  ///< empty: nothing known here
-    std::uint32_t cell = 0;
-  };
-  View at(Point3 point) const {
-    const std::uint32_t cell = tree_.cell_at(point);
-    return {{nodes_.data() + first_[cell], nodes_.data() + first_[cell + 1]}, cell};
+  /// Incident radiance is known if the densities are proportional to it.
+  RadianceTraits radiance_traits() const override { return {.incident = of_radiance_}; }
+  float incident_radiance(Point3 point, Vec3 direction) const override;
+
+  /// The density of a cell; empty: nothing known.
+  std::span<const QuadNode> nodes(std::uint32_t cell) const {
+    return {nodes_.data() + first_[cell], nodes_.data() + first_[cell + 1]};
   }
 
  private:
+  struct CellFacts {
+    float light, records;
+  };
+  void add(const Cell& cell);
+
   KdTree tree_;
-  std::vector<QuadNode> nodes_;       ///< of all cells, one after another
-  std::vector<std::uint32_t> first_;  ///< of each cell, and the end
-  std::vector<float> light_;
-  std::vector<std::uint32_t> origins_;
+  std::vector<QuadNode> nodes_;             ///< of all cells, one after another
+  std::vector<std::uint32_t> first_{0, 0};  ///< of each cell, and the end
+  std::vector<CellFacts> facts_{{}};
+  bool of_radiance_ = true;
 };
 
 }  // namespace pharos::practical_path_guiding

@@ -5,8 +5,9 @@
 
 PHAROS_MODULE(registry) {
   using namespace pharos::practical_path_guiding;
-  registry.add<PracticalPathGuidingLearner>("practical_path_guiding",
-                                            "Directional quadtrees of radiance in a binary tree");
+  registry.add<PracticalPathGuidingLearner>(
+      "practical_path_guiding",
+      "SD-tree: a binary tree over the scene with directional quadtrees of incident radiance");
   registry.add<PracticalPathGuidingGuider>("practical_path_guiding",
-                                           "Directions in proportion to an SD-tree");
+                                           "Directions sampled from the quadtrees of an SD-tree");
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include <pharos/core/binary_stream.h>
 #include <pharos/core/parallel.h>
 
 namespace pharos::practical_path_guiding {
@@ -62,41 +61,15 @@ double PixelEstimates::at(Vec2 film) const {
   return estimates_[index(film)];
 }
 
-void PixelEstimates::merge(const PixelEstimates& other) {
-  if (other.window_ != window_) {
-    throw InputError("learning on films of different sizes cannot be merged");
-  }
-  for (std::size_t i = 0; i < new_.size(); ++i) {
-    new_[i].sum += other.new_[i].sum;
-    new_[i].paths += other.new_[i].paths;
-  }
-}
-
-void PixelEstimates::save(std::ostream& out) const {
-  for (const int edge : {window_.x0, window_.y0, window_.x1, window_.y1}) save_number(out, edge);
-  for (std::size_t i = 0; i < pixels_.size(); ++i) {
-    for (const Pixel& pixel : {pixels_[i], new_[i]}) {
-      save_number(out, pixel.sum);
-      save_number(out, pixel.paths);
-    }
-    save_number(out, estimates_[i]);
-  }
-}
-
-void PixelEstimates::load(std::istream& in) {
-  for (const int edge : {window_.x0, window_.y0, window_.x1, window_.y1}) {
-    if (load_number<int>(in) != edge) {
-      throw InputError("what was learned belongs to a film of another size");
-    }
-  }
-  for (std::size_t i = 0; i < pixels_.size(); ++i) {
-    for (Pixel* pixel : {&pixels_[i], &new_[i]}) {
-      pixel->sum = load_finite<double>(in);
-      pixel->paths = load_finite<double>(in);
-    }
-    estimates_[i] = load_finite<double>(in);
-    if (!(estimates_[i] > 0)) throw InputError("the estimates of the pixels are damaged");
-  }
+void PixelEstimates::archive(Archive& archive) {
+  PixelRect window = window_;
+  archive(window.x0, window.y0, window.x1, window.y1);
+  if (window != window_) throw InputError("what was learned belongs to a film of another size");
+  const std::size_t count = pixels_.size();
+  archive(pixels_, new_, estimates_);
+  bool is_sound = pixels_.size() == count && new_.size() == count && estimates_.size() == count;
+  for (const double estimate : estimates_) is_sound &= estimate > 0;
+  archive.expect(is_sound, "the estimates of the pixels");
 }
 
 }  // namespace pharos::practical_path_guiding

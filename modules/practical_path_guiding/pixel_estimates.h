@@ -1,45 +1,45 @@
 #pragma once
 
-#include <iosfwd>
 #include <vector>
 
+#include <pharos/core/archive.h>
 #include <pharos/core/pixel_rect.h>
 #include <pharos/core/vec.h>
 
 namespace pharos::practical_path_guiding {
 
-/// What pixels look like so far: means over all paths, blurred, for a target that is relative to
-/// the image.
+/// Estimates of the pixels' values: blurred means over all paths so far, for a target that is
+/// relative to the image.
 class PixelEstimates {
  public:
-  /// The pixels of a part of the film; what ends beyond counts for the nearest one.
+  /// Keeps estimates for the pixels of a window of the film. Paths that end outside of the window
+  /// count for its nearest pixel.
   explicit PixelEstimates(const PixelRect& window);
 
-  /// A path that ends at a place of the film [pixels] with this value (mean of the channels).
+  /// Adds a path that ends at a position of the film [pixels] with this value (mean of the
+  /// channels).
   void add(Vec2 film, double value);
-  /// Makes at() say what was added up to now: means over (2 `radius` + 1)^2 pixels, not below
-  /// `least` times the whole image's.
+  /// Updates the estimates with all paths up to now: means over (2 `radius` + 1)^2 pixels, at least
+  /// `least` times the mean of the whole image.
   void update(int radius, double least);
-  /// As of the last update(); one everywhere before there is any light.
+  /// Returns the estimate of the last update(); one everywhere until a path has brought light.
   double at(Vec2 film) const;
 
-  /// Adds the paths that another one of the same size has, but for those that both began with.
-  void merge(const PixelEstimates& other);
-  void save(std::ostream& out) const;
-  /// Reads what one of the same size saved. Throws InputError when it is something else.
-  void load(std::istream& in);
+  /// Loads what one of the same size saved. Throws InputError for anything else.
+  void archive(Archive& archive);
 
  private:
   struct Pixel {
     double sum = 0, paths = 0;
+    void archive(Archive& archive) { archive(sum, paths); }
   };
   std::size_t index(Vec2 film) const;
-  /// Of the pixels up to `radius` away.
+  /// Returns the sum over the pixels up to `radius` away along both axes.
   Pixel sum_around(int x, int y, int radius) const;
 
   PixelRect window_;
   std::vector<Pixel> pixels_;  ///< up to the last update()
-  std::vector<Pixel> new_;     ///< since then
+  std::vector<Pixel> new_;     ///< since the last update()
   std::vector<double> estimates_;
 };
 

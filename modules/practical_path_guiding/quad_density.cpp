@@ -3,16 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include <pharos/core/binary_stream.h>
-
 #include "quad_links.h"
 
 namespace pharos::practical_path_guiding {
 namespace {
-
-void expect(bool holds) {
-  if (!holds) throw InputError("the directional tree is damaged");
-}
 
 /// Whether u in [0, 1) falls to the upper part, `low` and `high` being what the parts weigh; u
 /// becomes its place within the part.
@@ -25,28 +19,10 @@ bool descend(double& u, double low, double high) {
   return is_high;
 }
 
-/// A node's densities are what those below it make.
-void expect_means(const std::vector<QuadNode>& nodes) {
-  constexpr double kRounding = 1e-3;
-  const auto mean_of = [&](std::uint32_t i) {
-    double sum = 0;
-    for (const float d : nodes[i].density) sum += d;
-    return sum / 4;
-  };
-  expect(std::abs(mean_of(0) - 1) < kRounding);
-  for (const QuadNode& node : nodes) {
-    for (int q = 0; q < 4; ++q) {
-      if (node.child[q] == 0) continue;
-      const double own = node.density[q];
-      expect(std::abs(mean_of(node.child[q]) - own) <= kRounding * own);
-    }
-  }
-}
-
 }  // namespace
 
 float QuadDensity::at(Vec2 p) const {
-  // In fixed point each level's quarter is a bit of either coordinate.
+  // In fixed point, one bit of each coordinate selects the quarter at each level.
   constexpr int kBits = 24;
   auto x = static_cast<std::uint32_t>(p.x * (1 << kBits));
   auto y = static_cast<std::uint32_t>(p.y * (1 << kBits));
@@ -81,30 +57,26 @@ Vec2 QuadDensity::sample(Vec2 u) const {
   return {within(x_low + x * size, x_low + size), within(y_low + y * size, y_low + size)};
 }
 
-void save_nodes(std::span<const QuadNode> nodes, std::ostream& out) {
-  save_number(out, static_cast<std::uint32_t>(nodes.size()));
+bool is_density(const std::vector<QuadNode>& nodes) {
+  if (nodes.empty()) return true;
+  if (nodes.size() > kMostNodes || !is_quadtree(nodes, QuadDensity::kMostLevels)) return false;
+  constexpr double kRounding = 1e-3;
+  const auto mean_of = [&](std::uint32_t i) {
+    double sum = 0;
+    for (const float d : nodes[i].density) sum += d;
+    return sum / 4;
+  };
+  if (!(std::abs(mean_of(0) - 1) < kRounding)) return false;
+  // The density of a quarter is the mean of the densities below it.
   for (const QuadNode& node : nodes) {
-    for (const float d : node.density) save_number(out, d);
-    for (const std::uint32_t c : node.child) save_number(out, c);
-  }
-}
-
-std::vector<QuadNode> load_nodes(std::istream& in) {
-  const auto count = load_number<std::uint32_t>(in);
-  expect(count <= kMostNodes);
-  std::vector<QuadNode> nodes;
-  // Nodes come one by one, so that a wrong count costs no memory.
-  while (nodes.size() < count) {
-    QuadNode& node = nodes.emplace_back();
-    for (float& d : node.density) {
-      d = load_finite<float>(in);
-      expect(d >= 0);
+    for (int q = 0; q < 4; ++q) {
+      const double own = node.density[q];
+      if (own < 0) return false;
+      const bool is_divided = node.child[q] != 0;
+      if (is_divided && !(std::abs(mean_of(node.child[q]) - own) <= kRounding * own)) return false;
     }
-    for (std::uint32_t& c : node.child) c = load_number<std::uint32_t>(in);
   }
-  expect(is_quadtree(nodes, QuadDensity::kMostLevels));
-  if (count > 0) expect_means(nodes);
-  return nodes;
+  return true;
 }
 
 }  // namespace pharos::practical_path_guiding

@@ -6,11 +6,11 @@
 
 namespace pharos::practical_path_guiding {
 
-/// More nodes than that no tree has: a larger count is damage.
+/// Maximum number of nodes. A file with a larger count is damaged.
 inline constexpr std::uint32_t kMostNodes = 1u << 24;
 
-/// Whether the nodes' `child[4]` make a tree of at most `levels` levels: every node but the first
-/// is the child of one that stands before it. (There may be none at all.)
+/// Returns whether the nodes' `child[4]` form a tree of at most `levels` levels: every node except
+/// the first is the child of exactly one earlier node. An empty vector is allowed.
 template <class Node>
 bool is_quadtree(const std::vector<Node>& nodes, int levels) {
   std::vector<int> level(nodes.size(), 0);

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <pharos/core/binary_stream.h>
-
 #include "quad_links.h"
 
 namespace pharos::practical_path_guiding {
@@ -16,15 +14,15 @@ double sum_of(const double (&masses)[4]) {
 
 }  // namespace
 
-/// Divides quarters from the root down, with more than their share of `total`.
+/// Divides quarters with more than the threshold's share of `total`, from the root down.
 struct QuadTree::Growth {
   const QuadRefinement& rule;
   const std::vector<Node>& old;
   double total;
   std::vector<Node> nodes;
 
-  /// Adds a node at a depth (the root's is 1) for the old node of this number, or, below an old
-  /// leaf, for a mass that is spread evenly.
+  /// Adds a node at a depth (1 for the root) and its descendants; returns its index. The masses are
+  /// those of the old node `was`. Below an old leaf, `was` is null and `mass` is spread evenly.
   std::uint32_t grow(int depth, const Node* was, double mass) {
     const auto index = static_cast<std::uint32_t>(nodes.size());
     nodes.emplace_back();
@@ -71,7 +69,7 @@ void QuadTree::spread(Vec2 p, double value) {
   const double size = std::ldexp(1.0, -leaf_at(p).depth);
   const double density = value / (size * size);
   const auto add_turned = [&](double x0, double x1, double y0) {
-    // What is left of the seam, and what goes on at the other edge.
+    // Splits the box at the seam; the second part continues at the other edge.
     y0 -= std::floor(y0);
     const double y1 = y0 + size;
     add_to(0, {0, 1, 0, 1}, {x0, x1, y0, std::min(y1, 1.0)}, density);
@@ -79,7 +77,7 @@ void QuadTree::spread(Vec2 p, double value) {
   };
   const double x0 = p.x - size / 2, x1 = p.x + size / 2, y0 = p.y - size / 2;
   add_turned(std::max(x0, 0.0), std::min(x1, 1.0), y0);
-  // Over a pole to its other side.
+  // Parts beyond a pole continue on its other side.
   if (x0 < 0) add_turned(0, -x0, y0 + 0.5);
   if (x1 > 1) add_turned(2 - x1, 1, y0 + 0.5);
 }
@@ -102,20 +100,6 @@ void QuadTree::add_to(std::uint32_t node, Rectangle square, const Rectangle& par
   }
 }
 
-bool QuadTree::has_leaves_of(const QuadTree& other) const {
-  return std::equal(nodes_.begin(), nodes_.end(), other.nodes_.begin(), other.nodes_.end(),
-                    [](const Node& a, const Node& b) {
-                      return std::equal(std::begin(a.child), std::end(a.child),
-                                        std::begin(b.child));
-                    });
-}
-
-void QuadTree::add(const QuadTree& other) {
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    for (int q = 0; q < 4; ++q) nodes_[i].mass[q] += other.nodes_[i].mass[q];
-  }
-}
-
 double QuadTree::total() const {
   double total = 0;
   for (const Node& node : nodes_) total += sum_of(node.mass);
@@ -124,7 +108,7 @@ double QuadTree::total() const {
 
 std::vector<QuadTree::Node> QuadTree::with_masses(LeafMass kind) const {
   std::vector<Node> nodes = nodes_;
-  std::vector<double> areas(nodes.size(), 1);  // of the nodes' squares
+  std::vector<double> areas(nodes.size(), 1);  // of the nodes' squares [1]
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     for (int q = 0; q < 4; ++q) {
       const double area = areas[i] / 4;
@@ -171,31 +155,15 @@ QuadTree QuadTree::refined(LeafMass kind, const QuadRefinement& rule) const {
   return tree;
 }
 
-void QuadTree::save(std::ostream& out) const {
-  save_number(out, static_cast<std::uint32_t>(nodes_.size()));
+void QuadTree::archive(Archive& archive) {
+  archive(nodes_);
+  if (!archive.loads()) return;
+  bool is_sound = !nodes_.empty() && nodes_.size() <= kMostNodes &&
+                  is_quadtree(nodes_, QuadDensity::kMostLevels);
   for (const Node& node : nodes_) {
-    for (const double m : node.mass) save_number(out, m);
-    for (const std::uint32_t c : node.child) save_number(out, c);
+    for (const double mass : node.mass) is_sound &= mass >= 0;
   }
-}
-
-QuadTree QuadTree::load(std::istream& in) {
-  const auto expect = [](bool holds) {
-    if (!holds) throw InputError("the learning of the directional trees is damaged");
-  };
-  const auto count = load_number<std::uint32_t>(in);
-  expect(count > 0 && count <= kMostNodes);
-  QuadTree tree;
-  while (tree.nodes_.size() < count) {
-    Node& node = tree.nodes_.emplace_back();
-    for (double& m : node.mass) {
-      m = load_finite<double>(in);
-      expect(m >= 0);
-    }
-    for (std::uint32_t& c : node.child) c = load_number<std::uint32_t>(in);
-  }
-  expect(is_quadtree(tree.nodes_, QuadDensity::kMostLevels));
-  return tree;
+  archive.expect(is_sound, "the learning of the directional trees");
 }
 
 }  // namespace pharos::practical_path_guiding

@@ -1,63 +1,58 @@
 #pragma once
 
 #include <cstdint>
-#include <iosfwd>
 #include <vector>
 
 #include "quad_density.h"
 
 namespace pharos::practical_path_guiding {
 
-/// What the leaves of a quadtree are given weight by.
+/// How the mass of a leaf follows from the values that were added to it.
 enum class LeafMass {
-  sum,  ///< what was added to them
-  /// sqrt(area times what was added): where second moments are added, the piecewise constant
+  sum,  ///< the sum of the values
+  /// sqrt(area times the sum). If the values are second moments, this gives the piecewise constant
   /// density of least variance (Rath et al. 2020).
   root
 };
 
-/// When a quarter of a square is divided (Mueller et al. 2017, section 3.2).
+/// The rule for dividing a quarter of a square (Mueller et al. 2017, section 3.2).
 struct QuadRefinement {
-  double threshold = 0.01;  ///< rho: share of all mass that a leaf may have
+  double threshold = 0.01;  ///< rho: largest share of all mass in a leaf
   int max_depth = 20;       ///< levels of quarters
 };
 
-/// A density over the unit square in the making: sums in the leaves of a quadtree.
+/// Accumulates a density over the unit square: sums in the leaves of a quadtree.
 ///
-/// The square is the cylindrical map of the sphere, x = (1 - cos theta) / 2 and y = phi / 2 pi:
-/// beyond its y edges it goes on at the opposite one, beyond its x edges, the poles, on the same
-/// side half a turn further.
+/// The square is the cylindrical map of the sphere, x = (1 - cos theta) / 2 and y = phi / 2 pi. A
+/// box beyond a y edge continues at the opposite edge. A box beyond an x edge, a pole, continues at
+/// the same edge, half a turn further in y.
 class QuadTree {
  public:
-  /// Refined as if all mass were spread evenly.
+  /// Makes an empty tree, refined for mass that is spread evenly.
   explicit QuadTree(const QuadRefinement& rule);
 
-  /// Adds to the leaf at a point of [0,1)^2.
+  /// Adds a value to the leaf at a point of [0,1)^2.
   void add(Vec2 p, double value);
-  /// Spreads evenly over a box of that leaf's size around the point.
+  /// Spreads a value evenly over a box around the point that has the size of the leaf there.
   void spread(Vec2 p, double value);
-  bool has_leaves_of(const QuadTree& other) const;
-  /// Adds what another tree with the same leaves holds.
-  void add(const QuadTree& other);
   /// Of all that was added.
   double total() const;
 
-  /// The density by the leaves' masses, which must not all be zero.
+  /// Returns the density for the masses of the leaves, which must not all be zero.
   std::vector<QuadNode> density(LeafMass kind) const;
-  /// An empty tree whose leaves follow those masses: quarters with more than their share are
-  /// divided, others are joined.
+  /// Returns an empty tree refined for these masses: quarters with more than the threshold's share
+  /// are divided, others are collapsed.
   QuadTree refined(LeafMass kind, const QuadRefinement& rule) const;
 
   std::size_t node_count() const { return nodes_.size(); }
 
-  void save(std::ostream& out) const;
-  /// Throws InputError when it is something else or damaged.
-  static QuadTree load(std::istream& in);
+  void archive(Archive& archive);
 
  private:
   struct Node {
     double mass[4] = {};
     std::uint32_t child[4] = {};  ///< as in QuadNode
+    void archive(Archive& archive) { archive(mass, child); }
   };
   struct Rectangle {
     double x0, x1, y0, y1;
@@ -71,7 +66,7 @@ class QuadTree {
   QuadTree() = default;
   Leaf leaf_at(Vec2 p) const;
   void add_to(std::uint32_t node, Rectangle square, const Rectangle& part, double density);
-  /// The nodes with the masses of all quarters, divided ones included.
+  /// Returns the nodes with the masses of all quarters, including divided ones.
   std::vector<Node> with_masses(LeafMass kind) const;
 
   std::vector<Node> nodes_;

@@ -2,7 +2,6 @@
 
 #include <limits>
 
-#include <pharos/core/binary_stream.h>
 #include <pharos/core/warp.h>
 #include <pharos/guiding/toolkit/guidable_steps.h>
 
@@ -33,22 +32,11 @@ void extract_records(const PathView& path, GuidingTarget target, const PixelEsti
   });
 }
 
-void save_record(const Record& record, std::ostream& out) {
-  for (int axis = 0; axis < 3; ++axis) save_number(out, record.position[axis]);
-  for (const float v : {record.direction.x, record.direction.y, record.value}) save_number(out, v);
-}
-
-Record load_record(std::istream& in) {
-  Record record;
-  for (int axis = 0; axis < 3; ++axis) record.position[axis] = load_finite<float>(in);
-  for (float* v : {&record.direction.x, &record.direction.y, &record.value}) {
-    *v = load_finite<float>(in);
-  }
+void Record::archive(Archive& archive) {
+  archive(position, direction, value);
   const auto is_unit = [](float v) { return v >= 0 && v < 1; };
-  if (!is_unit(record.direction.x) || !is_unit(record.direction.y) || record.value < 0) {
-    throw InputError("a record of the directional trees is damaged");
-  }
-  return record;
+  archive.expect(is_unit(direction.x) && is_unit(direction.y) && value >= 0,
+                 "a record of the directional trees");
 }
 
 }  // namespace pharos::practical_path_guiding

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <iosfwd>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -30,15 +29,12 @@ struct Record {
   Vec2 direction;   ///< on the square, as warp::square_from_sphere()
   float value = 0;  ///< x / p for `radiance`, x^2 / p for the others, p [1/sr] being the density of
                     ///< the direction; 0 where nothing came
+  void archive(Archive& archive);
 };
 
 /// Appends the guidable steps of a path. `pixels` is what `relative` needs.
 void extract_records(const PathView& path, GuidingTarget target, const PixelEstimates& pixels,
                      std::vector<Rgb>& incident, std::vector<Record>& records);
-
-void save_record(const Record& record, std::ostream& out);
-/// Throws InputError for what save_record() does not write.
-Record load_record(std::istream& in);
 
 }  // namespace practical_path_guiding
 

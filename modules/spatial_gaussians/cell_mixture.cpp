@@ -6,7 +6,6 @@
 #include <numeric>
 #include <utility>
 
-#include <pharos/core/binary_stream.h>
 #include <pharos/core/random.h>
 #include <pharos/core/warp.h>
 
@@ -18,13 +17,6 @@ using statistics::Vector;
 using statistics::WeightedPoints;
 
 namespace {
-
-constexpr const char* kHeading = "cell_mixture";
-constexpr std::uint32_t kVersion = 1;
-
-void expect(bool holds) {
-  if (!holds) throw InputError("the learning of the Gaussians is damaged");
-}
 
 Vector<3> to_vector(Point3 p) {
   return {p.x, p.y, p.z};
@@ -82,23 +74,6 @@ std::vector<Moments3> moments_about(const std::vector<Vector<3>>& centers,
     moments[nearest] += Moments3::of(points.weight(i), x, Matrix<3>::Zero());
   }
   return moments;
-}
-
-void save_vector(const Vector<3>& v, std::ostream& out) {
-  for (const double x : v) save_number(out, x);
-}
-void save_matrix(const Matrix<3>& m, std::ostream& out) {
-  for (const double x : m.reshaped()) save_number(out, x);
-}
-Vector<3> load_vector(std::istream& in) {
-  Vector<3> v;
-  for (double& x : v) x = load_finite<double>(in);
-  return v;
-}
-Matrix<3> load_matrix(std::istream& in) {
-  Matrix<3> m;
-  for (double& x : m.reshaped()) x = load_finite<double>(in);
-  return m;
 }
 
 }  // namespace
@@ -188,23 +163,15 @@ class CellUpdate {
     statistics::maximize<3>(moments, rules(changing), cell_.mixture_);
   }
 
-  /// Merges the cheapest pair as long as one is cheap enough.
   void merge() {
     cell_.since_merge_ = 0;
     const Mixture& m = cell_.mixture_;
-    while (m.size() > 1) {
-      std::size_t best_i = 0, best_j = 0;
-      double least = settings_.merge_threshold;
-      for (std::size_t i = 0; i < m.size(); ++i) {
-        for (std::size_t j = i + 1; j < m.size(); ++j) {
-          const double cost =
-              merge_cost(m.weights[i], m.components[i], m.weights[j], m.components[j]);
-          if (cost < least) std::tie(least, best_i, best_j) = std::tuple(cost, i, j);
-        }
-      }
-      if (best_j == 0) return;
-      join(best_i, best_j);
-    }
+    merge_cheapest_pairs(
+        settings_.merge_threshold, [&] { return m.size(); },
+        [&](std::size_t i, std::size_t j, double) {
+          return merge_cost(m.weights[i], m.components[i], m.weights[j], m.components[j]);
+        },
+        [&](std::size_t i, std::size_t j) { join(i, j); });
   }
 
   void join(std::size_t i, std::size_t j) {
@@ -227,18 +194,11 @@ class CellUpdate {
     maximize(changed);
   }
 
-  /// Splits components that the samples' directions contradict, and fits their halves, until none
-  /// is left or there is no room or no data for more.
   void split_where_needed() {
     add_tests(test());
-    std::vector<std::size_t> changed = split();
-    while (!changed.empty()) {
-      fit(changed);
-      // What the halves are like these samples tell anew.
-      const std::vector<DirectionTest> again = test();
-      for (const std::size_t k : changed) cell_.tests_[k] = again[k];
-      changed = split();
-    }
+    split_until_settled([&] { return test(); }, [&] { return split(); },
+                        [&](std::span<const std::size_t> changed) { fit(changed); },
+                        [&](std::size_t k, const DirectionTest& t) { cell_.tests_[k] = t; });
   }
 
   std::vector<DirectionTest> test() const {
@@ -252,27 +212,18 @@ class CellUpdate {
     }
   }
 
-  /// Halves what needs it, the worst first; returns the numbers of all halves.
   std::vector<std::size_t> split() {
     const auto divergence = [&](std::size_t k) {
       const DirectionTest& t = cell_.tests_[k];
       return t.samples < settings_.split_samples ? 0 : t.divergence();
     };
-    std::vector<std::size_t> worst;
-    for (std::size_t k = 0; k < cell_.tests_.size(); ++k) {
-      if (divergence(k) > settings_.split_threshold) worst.push_back(k);
-    }
-    std::stable_sort(worst.begin(), worst.end(),
-                     [&](std::size_t a, std::size_t b) { return divergence(a) > divergence(b); });
-    std::vector<std::size_t> changed;
-    for (const std::size_t k : worst) {
-      if (cell_.mixture_.size() >= settings_.most_components) break;
-      changed.push_back(k);
-      changed.push_back(cell_.mixture_.size());
-      halve(k);
-    }
-    std::sort(changed.begin(), changed.end());
-    return changed;
+    return halve_worst(
+        settings_.split_threshold, settings_.most_components, [&] { return cell_.mixture_.size(); },
+        divergence,
+        [&](std::size_t k) {
+          halve(k);
+          return true;
+        });
   }
 
   void halve(std::size_t k) {
@@ -312,18 +263,10 @@ class CellUpdate {
 
 void CellMixture::update(std::span<const Sample> samples, const SpatialGaussiansSettings& settings,
                          double scene_size, RandomStream random) {
-  const auto finds = [](const Sample& s) { return s.weight > 0; };
-  const auto found = static_cast<std::size_t>(std::count_if(samples.begin(), samples.end(), finds));
-  if (found == 0) return;
-  if (knows_something()) {
-    CellUpdate(*this, samples, settings, scene_size).run(random);
-  } else if (first_.size() + found < settings.first_samples) {
-    std::copy_if(samples.begin(), samples.end(), std::back_inserter(first_), finds);
-  } else {
-    std::vector<Sample> all = std::exchange(first_, {});
-    all.insert(all.end(), samples.begin(), samples.end());
-    CellUpdate(*this, all, settings, scene_size).run(random);
-  }
+  learn_when_enough(samples, knows_something(), settings.first_samples, first_,
+                    [&](std::span<const Sample> enough) {
+                      CellUpdate(*this, enough, settings, scene_size).run(random);
+                    });
 }
 
 void CellMixture::forget(double factor) {
@@ -349,52 +292,20 @@ std::vector<SpatialGaussian> CellMixture::components() const {
   return all;
 }
 
-void CellMixture::save(std::ostream& out) const {
-  save_heading(out, kHeading, kVersion);
-  save_vector(pivot_, out);
-  for (const double v : {prior_variance_, samples_, since_merge_}) save_number(out, v);
-  save_number(out, static_cast<std::uint32_t>(mixture_.size()));
-  for (std::size_t k = 0; k < mixture_.size(); ++k) {
-    save_number(out, mixture_.weights[k]);
-    save_vector(mixture_.components[k].mean, out);
-    save_matrix(mixture_.components[k].covariance, out);
-    save_number(out, moments_[k].weight);
-    save_vector(moments_[k].first, out);
-    save_matrix(moments_[k].second, out);
-    save_number(out, tests_[k].sum);
-    save_number(out, tests_[k].samples);
+void CellMixture::archive(Archive& archive) {
+  archive(pivot_, prior_variance_, samples_, since_merge_, mixture_.weights, mixture_.components,
+          moments_, tests_, first_);
+  if (!archive.loads()) return;
+  const std::size_t count = mixture_.weights.size();
+  bool is_sound = prior_variance_ >= 0 && samples_ >= 0 && since_merge_ >= 0 &&
+                  mixture_.components.size() == count && moments_.size() == count &&
+                  tests_.size() == count;
+  for (std::size_t k = 0; is_sound && k < count; ++k) {
+    const Eigen::LLT<Matrix<3>> factor(mixture_.components[k].covariance);
+    is_sound =
+        mixture_.weights[k] > 0 && moments_[k].weight >= 0 && factor.info() == Eigen::Success;
   }
-  save_number(out, static_cast<std::uint32_t>(first_.size()));
-  for (const Sample& sample : first_) sample.save(out);
-}
-
-CellMixture CellMixture::load(std::istream& in) {
-  expect_heading(in, kHeading, kVersion);
-  CellMixture cell;
-  cell.pivot_ = load_vector(in);
-  for (double* v : {&cell.prior_variance_, &cell.samples_, &cell.since_merge_}) {
-    *v = load_finite<double>(in);
-    expect(*v >= 0);
-  }
-  for (auto count = load_number<std::uint32_t>(in); count > 0; --count) {
-    cell.mixture_.weights.push_back(load_finite<double>(in));
-    const Vector<3> mean = load_vector(in);
-    cell.mixture_.components.push_back({mean, load_matrix(in)});
-    const Eigen::LLT<Matrix<3>> factor(cell.mixture_.components.back().covariance);
-    expect(cell.mixture_.weights.back() > 0 && factor.info() == Eigen::Success);
-    Moments3 moments;
-    moments.weight = load_finite<double>(in);
-    moments.first = load_vector(in);
-    moments.second = load_matrix(in);
-    cell.moments_.push_back(moments);
-    const auto sum = load_finite<double>(in);
-    cell.tests_.push_back({sum, load_finite<double>(in)});
-    expect(moments.weight >= 0);
-  }
-  for (auto count = load_number<std::uint32_t>(in); count > 0; --count) {
-    cell.first_.push_back(Sample::load(in));
-  }
-  return cell;
+  archive.expect(is_sound, "the learning of the Gaussians");
 }
 
 }  // namespace pharos::spatial_gaussians

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <iosfwd>
 #include <span>
 #include <vector>
 
@@ -30,9 +29,7 @@ class CellMixture {
   /// Samples that found something, faded ones in part.
   double samples() const { return samples_; }
 
-  void save(std::ostream& out) const;
-  /// Throws InputError when it is something else or damaged.
-  static CellMixture load(std::istream& in);
+  void archive(Archive& archive);
 
  private:
   friend class CellUpdate;

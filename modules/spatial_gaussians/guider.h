@@ -4,12 +4,13 @@
 
 #include <pharos/config/schema.h>
 #include <pharos/guiding/contract/guider.h>
+#include <pharos/guiding/contract/spatial_mixture.h>
 
 #include "seen_mixture.h"
 
 namespace pharos::spatial_gaussians {
 
-/// What all three guiders are told.
+/// Settings of all three guiders.
 struct SeenSettings {
   bool reweight = true;
   float least_cosine = 0.01f;
@@ -17,11 +18,12 @@ struct SeenSettings {
 };
 
 /// Samples directions to the points of any mixture of spatial Gaussians.
-class MixtureGuider : public Guider {
+class MixtureGuider : public GuiderOf<SpatialMixture> {
  public:
   using Settings = SeenSettings;
-  GuiderTraits traits() const override;
-  std::unique_ptr<const BoundGuider> bind(std::shared_ptr<const GuidingModel> model) const override;
+  GuiderTraits traits() const override { return {}; }
+  const GuidingDistribution* query(const SpatialMixture& model, const GuidingQuery& query,
+                                   Arena& arena) const override;
 
  protected:
   MixtureGuider(const Settings& settings, Technique technique)
@@ -32,15 +34,15 @@ class MixtureGuider : public Guider {
   Technique technique_;
 };
 
-/// Exactly the points' directions.
+/// Directions to the points, exactly.
 struct P0Guider final : MixtureGuider {
   explicit P0Guider(const Settings& s) : MixtureGuider(s, Technique::exact) {}
 };
-/// Those that look away from the mean turned around.
+/// The same directions, but those that look away from the mean are turned around.
 struct P1Guider final : MixtureGuider {
   explicit P1Guider(const Settings& s) : MixtureGuider(s, Technique::flipped) {}
 };
-/// Directions to the points' feet in the planes through the means.
+/// Directions to the projections of the points onto planes through the means.
 struct ProjectedGuider final : MixtureGuider {
   explicit ProjectedGuider(const Settings& s) : MixtureGuider(s, Technique::plane) {}
 };

@@ -26,7 +26,7 @@ std::shared_ptr<const GuidingModel> SpatialGaussiansLearning::model(
   for (std::size_t i = 0; i < cells.size(); ++i) {
     contents.push_back({cells[i].components(), static_cast<float>(cells[i].samples())});
   }
-  return std::make_shared<SpatialGaussiansModel>(cells.tree(), contents, cells.origins());
+  return std::make_shared<SpatialGaussiansModel>(cells.tree(), contents);
 }
 
 }  // namespace pharos::spatial_gaussians

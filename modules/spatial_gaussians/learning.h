@@ -16,8 +16,8 @@ class SpatialGaussiansLearning {
  public:
   using Sample = spatial_gaussians::Sample;
   using Cell = CellMixture;
-  static constexpr const char* kHeading = "gaussian_learning";
-  static constexpr std::uint32_t kVersion = 2;
+  static constexpr const char* kHeading = "spatial_gaussians_learning";
+  static constexpr std::uint32_t kVersion = 1;
 
   SpatialGaussiansLearning(const SpatialGaussiansSettings& settings,
                            const LearningContext& context);

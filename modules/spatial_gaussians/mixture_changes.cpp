@@ -13,14 +13,14 @@ namespace {
 using statistics::Matrix;
 using statistics::Vector;
 
-/// The integral of N_i N_j / N for three Gaussians.
+/// Returns the integral of N_i N_j / N, where N is `whole`; infinite if it does not exist.
 double overlap(const Gaussian3& i, const Gaussian3& j, const Gaussian3& whole) {
   const Matrix<3> pi = i.covariance.inverse(), pj = j.covariance.inverse(),
                   p = whole.covariance.inverse();
   const Matrix<3> a = pi + pj - p;
   const Eigen::LLT<Matrix<3>> factor(a);
   if (factor.info() != Eigen::Success) return std::numeric_limits<double>::infinity();
-  // About the whole's mean, whose own terms vanish.
+  // Positions are relative to the mean of `whole`, so its own terms vanish.
   const Vector<3> mi = i.mean - whole.mean, mj = j.mean - whole.mean;
   const Vector<3> h = pi * mi + pj * mj;
   const double s = mi.dot(pi * mi) + mj.dot(pj * mj) - h.dot(factor.solve(h));
@@ -30,7 +30,7 @@ double overlap(const Gaussian3& i, const Gaussian3& j, const Gaussian3& whole) {
   return std::sqrt(determinants) * std::exp(-0.5 * s);
 }
 
-/// Eight samples, number by number. Where there are no more, copies of the last one.
+/// Eight samples as a structure of arrays. Missing samples are copies of the last one and count 0.
 struct Samples8 {
   Samples8(std::span<const Sample> samples, std::size_t first, const Vector<3>& pivot) {
     for (std::size_t i = 0; i < 8; ++i) {
@@ -48,7 +48,7 @@ struct Samples8 {
   Float8 origin[3], omega[3], pdf, weight, counts;
 };
 
-/// A component in single precision, from the pivot.
+/// A component in single precision, relative to the pivot.
 struct Component {
   Component(double share, const Gaussian3& g) {
     const Matrix<3> l = Eigen::LLT<Matrix<3>>(g.covariance).matrixL();
@@ -57,7 +57,7 @@ struct Component {
     for (int row = 0; row < 3; ++row) {
       mean[row] = static_cast<float>(g.mean[row]);
       for (int column = 0; column < 3; ++column) {
-        // Relative to l00, so that determinants of small ones are floats.
+        // Scaled by l00, so that the determinants of small components are in the range of floats.
         whitening[row][column] = static_cast<float>(l(0, 0) * inverse(row, column));
       }
     }
@@ -66,9 +66,9 @@ struct Component {
   }
   float mean[3], whitening[3][3];
   float over_unit;  ///< 1 / l00
-  float scale;      ///< share over 2 pi |L / l00|
+  float scale;      ///< share / (2 pi |L / l00|)
 
-  /// Its share times its exact directional density at the samples' origins.
+  /// Returns the component's share times its exact directional density at the samples' origins.
   Float8 density(const Samples8& s) const {
     Float8 mu[3], v[3], m[3];
     for (int axis = 0; axis < 3; ++axis) mu[axis] = mean[axis] - s.origin[axis];
@@ -89,13 +89,13 @@ struct Component {
   }
 };
 
-/// What all samples of a test have in common.
+/// Constants of a test that are the same for all samples.
 struct TestScale {
   float over_light;     ///< 1 / Phi
   float least_density;  ///< [1/sr]
 };
 
-/// The sums of p_k N_k (f / q - 1)^2 / p over some samples.
+/// Returns for each component k the sum of p_k N_k (f / q - 1)^2 / p over the samples.
 std::vector<double> sums_of_part(const std::vector<Component>& components, const Vector<3>& pivot,
                                  std::span<const Sample> samples, const TestScale& scale) {
   std::vector<double> sums(components.size());
@@ -111,7 +111,7 @@ std::vector<double> sums_of_part(const std::vector<Component>& components, const
     const Float8 factor = eight.counts * difference * difference / eight.pdf;
     for (std::size_t k = 0; k < components.size(); ++k) {
       const float sum_of_eight = sum(densities[k] * factor);
-      if (std::isfinite(sum_of_eight)) sums[k] += sum_of_eight;  // else too bright for floats
+      if (std::isfinite(sum_of_eight)) sums[k] += sum_of_eight;  // else float overflow
     }
   }
   return sums;
@@ -142,7 +142,8 @@ std::vector<DirectionTest> test_directions(const Mixture& mixture, const Vector<
   for (std::size_t k = 0; k < mixture.size(); ++k) {
     components.emplace_back(mixture.weights[k], mixture.components[k]);
   }
-  // Parts run concurrently and are added in order: the same for any number of threads.
+  // Parts run concurrently and are added in order, so the result is the same for any number of
+  // threads.
   constexpr std::size_t kPart = 4096;
   std::vector<std::vector<double>> sums((samples.size() + kPart - 1) / kPart);
   parallel_for(sums.size(), [&](std::size_t i) {

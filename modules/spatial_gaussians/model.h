@@ -1,6 +1,6 @@
 #pragma once
 
-#include <iosfwd>
+#include <algorithm>
 #include <vector>
 
 #include <pharos/guiding/contract/model.h>
@@ -10,43 +10,49 @@
 namespace pharos::spatial_gaussians {
 
 /// A mixture of spatial Gaussians for each cell of a kd-tree: where the light that reaches the cell
-/// comes from. Cells that know nothing have no components.
+/// comes from. Regions are the cells. Cells that know nothing have no components.
 class SpatialGaussiansModel final : public GuidingModel, public SpatialMixture {
  public:
+  static constexpr std::string_view kName = "spatial_gaussians";
+
   /// What a cell knows.
   struct Cell {
     std::vector<SpatialGaussian> components;
-    float samples = 0;  ///< that it has seen: how much it counts in density(point)
+    float samples = 0;  ///< that found light: the cell's weight in density(point)
+    void archive(Archive& archive) { archive(components, samples); }
   };
 
-  /// `cells` by their numbers in the tree; `origins` as for region_origins().
-  SpatialGaussiansModel(KdTree tree, const std::vector<Cell>& cells,
-                        std::vector<std::uint32_t> origins);
-  /// What save() wrote. Throws InputError when it is something else or damaged.
-  explicit SpatialGaussiansModel(std::istream& in);
+  SpatialGaussiansModel() = default;
+  /// `cells` are in the order of their numbers in the tree.
+  SpatialGaussiansModel(KdTree tree, const std::vector<Cell>& cells);
 
-  std::string name() const override { return "spatial_gaussians"; }
-  std::uint32_t version() const override { return kVersion; }
-  std::size_t size_bytes() const override;
-  void save(std::ostream& out) const override;
-  std::uint32_t region_count() const override { return tree_.cell_count(); }
-  std::vector<std::uint32_t> region_origins() const override { return origins_; }
-  std::vector<ModelFact> facts() const override;
-  double density(Point3 point) const override;
-  double density(Point3 point, Vec3 direction) const override;
+  ModelInfo info() const override;
+  void archive(Archive& archive) override;
+  Place place(const GuidingVertex& vertex) const override {
+    const std::uint32_t cell = tree_.cell_at(vertex.position);
+    return {cell, mixture(cell).empty() ? 0.0f : std::max(samples_[cell], 1.0f)};
+  }
+  double density(Point3 point, const Vec3* direction) const override;
+  std::span<const SpatialGaussian> mixture_at(const GuidingQuery& query, Arena&) const override {
+    return mixture(query.region);
+  }
 
-  View mixture_at(const GuidingQuery& query, Arena& arena) const override;
+  /// The mixture of a cell.
+  std::span<const SpatialGaussian> mixture(std::uint32_t cell) const {
+    return {components_.data() + first_[cell], components_.data() + first_[cell + 1]};
+  }
   /// The mixture of the cell around a point.
-  View mixture_at(Point3 point) const;
+  std::span<const SpatialGaussian> mixture_at(Point3 point) const {
+    return mixture(tree_.cell_at(point));
+  }
 
  private:
-  static constexpr std::uint32_t kVersion = 1;
+  void add(const Cell& cell);
 
   KdTree tree_;
   std::vector<SpatialGaussian> components_;  ///< of all cells, one after another
-  std::vector<std::uint32_t> first_;         ///< of each cell, and the end
-  std::vector<float> samples_;
-  std::vector<std::uint32_t> origins_;
+  std::vector<std::uint32_t> first_{0, 0};   ///< of each cell, and the end
+  std::vector<float> samples_{0};
 };
 
 }  // namespace pharos::spatial_gaussians

@@ -6,10 +6,13 @@
 PHAROS_MODULE(registry) {
   using namespace pharos::spatial_gaussians;
   registry.add<SpatialGaussiansLearner>("spatial_gaussians",
-                                        "Mixtures of 3D Gaussians of where light comes from");
-  registry.add<P0Guider>("p0", "Directions to points of spatial Gaussians");
+                                        "Mixtures of 3D Gaussians of the next path vertex");
+  registry.add<P0Guider>(
+      "p0", "Directions to points sampled from spatial Gaussians, with the exact density");
   registry.add<P1Guider>(
-      "p1", "Directions to points of spatial Gaussians, turned to the side of each mean");
+      "p1",
+      "Directions to points sampled from spatial Gaussians, flipped to the side of each mean");
   registry.add<ProjectedGuider>(
-      "projected", "Directions to spatial Gaussians projected on planes through their means");
+      "projected",
+      "Directions to points of spatial Gaussians, projected on planes through their means");
 }

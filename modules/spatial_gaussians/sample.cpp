@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <pharos/core/binary_stream.h>
 #include <pharos/guiding/toolkit/guidable_steps.h>
 
 namespace pharos::spatial_gaussians {
@@ -24,25 +23,10 @@ void extract_samples(const PathView& path, const SampleRule& rule, std::vector<R
   });
 }
 
-void Sample::save(std::ostream& out) const {
-  for (const Point3 p : {origin, target}) {
-    for (int axis = 0; axis < 3; ++axis) save_number(out, p[axis]);
-  }
-  save_number(out, weight);
-  save_number(out, pdf);
-}
-
-Sample Sample::load(std::istream& in) {
-  Sample sample;
-  for (Point3* p : {&sample.origin, &sample.target}) {
-    for (int axis = 0; axis < 3; ++axis) (*p)[axis] = load_finite<float>(in);
-  }
-  sample.weight = load_finite<float>(in);
-  sample.pdf = load_finite<float>(in);
-  const bool is_sound =
-      sample.weight >= 0 && sample.pdf > 0 && length_squared(sample.target - sample.origin) > 0;
-  if (!is_sound) throw InputError("a sample of the Gaussians is damaged");
-  return sample;
+void Sample::archive(Archive& archive) {
+  archive(origin, target, weight, pdf);
+  archive.expect(weight >= 0 && pdf > 0 && length_squared(target - origin) > 0,
+                 "a sample of the Gaussians");
 }
 
 }  // namespace pharos::spatial_gaussians

@@ -23,7 +23,7 @@ Double8 scaled(double factor, const Double8& x) {
   return all_doubles8(factor) * x;
 }
 
-/// Four components, number by number.
+/// Four components as a structure of arrays.
 struct Components4 {
   Transposed4 first, second, last;  ///< numbers 0 to 3, 4 to 7 and 6 to 9
 
@@ -42,7 +42,8 @@ struct Components4 {
   }
 };
 
-/// Eight components, number by number. Where there are no more, harmless ones without weight.
+/// Eight components as a structure of arrays. Missing ones are unit balls of weight zero beside the
+/// origin.
 struct Components8 {
   Components8(std::span<const SpatialGaussian> components, Point3 origin) {
     if (components.size() >= kGroup) {
@@ -55,7 +56,7 @@ struct Components8 {
     read(eight, origin);
   }
   Double8 weight;
-  Lanes3<Double8> mu;  ///< mean, from the origin
+  Lanes3<Double8> mu;  ///< mean, relative to the origin
   Double8 l00, l10, l11, l20, l21, l22;
 
  private:
@@ -77,20 +78,20 @@ struct Components8 {
   }
 };
 
-/// l00 L^-1, the lower triangle.
+/// The lower triangle of l00 L^-1.
 template <typename Number>
 struct Whitening8 {
   Lanes3<Number> operator()(const Lanes3<Number>& v) const {
     return {v.x, r10 * v.x + r11 * v.y, r20 * v.x + r21 * v.y + r22 * v.z};
   }
-  /// The row vector v^T l00 L^-1.
+  /// Returns the row vector v^T l00 L^-1.
   Lanes3<Number> row(const Lanes3<Number>& v) const {
     return {v.x + v.y * r10 + v.z * r20, v.y * r11 + v.z * r21, v.z * r22};
   }
   Number r10, r11, r20, r21, r22;
 };
 
-/// In double precision, as off-diagonal numbers may nearly cancel.
+/// Returns l00 L^-1 in double precision, because terms of off-diagonal entries may nearly cancel.
 Whitening8<Double8> whitening_of(const Components8& c, const Double8& over_determinant) {
   const Double8 over_l11 = over_determinant * c.l22;
   return {.r10 = -c.l10 * over_l11,
@@ -104,7 +105,7 @@ Whitening8<Float8> rounded_whitening(const Whitening8<Double8>& w) {
   return {rounded(w.r10), rounded(w.r11), rounded(w.r20), rounded(w.r21), rounded(w.r22)};
 }
 
-/// Two unit vectors that are perpendicular to a third and to each other (Duff et al. 2017).
+/// Returns two unit vectors perpendicular to `n` and to each other (Duff et al. 2017).
 std::array<Lanes3<Float8>, 2> perpendicular(const Lanes3<Float8>& n) {
   const Float8 one = all8(1), sign = n.z < 0 ? -one : one;
   const Float8 a = -one / (sign + n.z), b = n.x * n.y * a;
@@ -124,8 +125,9 @@ Float8 cosine_factor(const CosineRule& rule, const SeenGroup& group) {
   return larger(rule.both_sides ? absolute(cosine) : cosine, all8(rule.least));
 }
 
-/// One over the distances of the means, 0 for none, and the directions: their length may be off by
-/// a rounding, but they are parallel to the means in twice the precision.
+/// Sets the aims, the directions to the means, and returns the reciprocal distances of the means, 0
+/// for distance 0. The length of an aim may be off by a rounding error, but its direction is exact
+/// to twice the precision.
 Float8 aim_at(const Lanes3<Double8>& mu, Technique technique, SeenGroup& group) {
   const Float8 x = rounded(mu.x), y = rounded(mu.y), z = rounded(mu.z);
   const Float8 squared = x * x + y * y + z * z;
@@ -141,7 +143,8 @@ Float8 aim_at(const Lanes3<Double8>& mu, Technique technique, SeenGroup& group) 
   return over;
 }
 
-/// The means in whitened space: their lengths times l00 and directions, the x axis for none.
+/// The means in whitened space: their lengths times l00, and their directions. The direction of a
+/// zero mean is the x axis.
 struct WhitenedMeans8 {
   explicit WhitenedMeans8(const Lanes3<Double8>& m)
       : length(sqrt(rounded(m.x * m.x + m.y * m.y + m.z * m.z))) {
@@ -153,7 +156,7 @@ struct WhitenedMeans8 {
   Lanes3<Float8> direction;
 };
 
-/// What becomes of up to eight components.
+/// Prepares up to eight components for the origin.
 void see_group(std::span<const SpatialGaussian> components, Point3 origin, const CosineRule& rule,
                Technique technique, SeenGroup& group) {
   const Components8 c(components, origin);
@@ -171,7 +174,8 @@ void see_group(std::span<const SpatialGaussian> components, Point3 origin, const
   group.share = rounded(c.weight);
   if (rule.normal != Vec3{}) group.share *= cosine_factor(rule, group);
   if (technique == Technique::plane) {
-    // d^2 / (2 pi sqrt|S|), sqrt|S| = |L| |L^-1 mu| / d. There is no plane in the mean itself.
+    // d^2 / (2 pi sqrt|S|) with sqrt|S| = |L| |L^-1 mu| / d. If the origin is the mean itself,
+    // there is no plane.
     const Float8 d = is_outside ? 1 / over_distance : Float8{};
     const Float8 cubed = d * d * d * rounded(scaled(kOverTwoPi, over_determinant));
     group.weight = is_outside ? cubed / m.length : Float8{};
@@ -181,7 +185,7 @@ void see_group(std::span<const SpatialGaussian> components, Point3 origin, const
     group.weight = rounded(scaled(kOverTwoPi, c.l00 * c.l00 * over_determinant));
     group.reach = m.length / rounded(c.l00);
   }
-  // Nothing is turned around in the mean itself: half of each line.
+  // If the origin is the mean itself, nothing is flipped: each direction gets half of its line.
   if (technique == Technique::flipped) {
     group.weight = is_outside ? group.weight : 0.5f * group.weight;
   }
@@ -192,33 +196,33 @@ Float8 dot8(const Float8 (&a)[3], const Float8 (&b)[3]) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// The cosines between the means and a direction, whose digits near the horizon count when they are
-/// cubed.
+/// Returns the cosines between the means and a direction, in double precision: they are cubed, so
+/// their relative errors near the horizon matter.
 Float8 exact_cosine(const SeenGroup& group, Vec3 direction) {
   const Double8* aim = group.wide_aim;
   return rounded(aim[0] * all_doubles8(direction.x) + aim[1] * all_doubles8(direction.y) +
                  aim[2] * all_doubles8(direction.z));
 }
 
-/// The densities of eight components, times their shares.
+/// Returns the densities of eight components, times their shares.
 template <Technique technique>
 Float8 densities(const SeenGroup& group, Vec3 direction) {
-  // Differences from the aims, exact wherever they are small.
+  // Differences from the aims; exact if they are small.
   const Float8 off[3] = {(direction.x - group.aim[0]) - group.aim_rest[0],
                          (direction.y - group.aim[1]) - group.aim_rest[1],
                          (direction.z - group.aim[2]) - group.aim_rest[2]};
   const Float8 y = dot8(group.rows[1], off), z = dot8(group.rows[2], off);
   const Float8 across = y * y + z * z;
-  // -log2(e) / 2 times the squared distance: what the exponent has.
+  // The exponent to base 2: -log2(e) / 2 times the squared distance.
   const Float8 miss = group.reach * group.reach * (-0.5f * kLog2E) * across;
   const auto cosine_to_mean = [&] {
     return group.aim[0] * direction.x + group.aim[1] * direction.y + group.aim[2] * direction.z;
   };
   if constexpr (technique == Technique::plane) {
     const Float8 x = exact_cosine(group, direction);
-    constexpr float kLeast = 1e-10f;  // so that its cube is a float
+    constexpr float kLeast = 1e-10f;  // its cube is still in the range of floats
     const Float8 over = 1 / larger(x, all8(kLeast));
-    // (In this order, as the factors alone may be too large for floats.)
+    // The order of factors matters: their product without the exponential may overflow floats.
     const Float8 value = group.weight * exp2(miss * (over * over));
     return x > kLeast ? value * over * over * over : Float8{};
   } else {
@@ -229,7 +233,7 @@ Float8 densities(const SeenGroup& group, Vec3 direction) {
     if constexpr (technique == Technique::flipped) {
       return cosine_to_mean() < 0 ? Float8{} : scale * rays.line_integral();
     } else {
-      // So far away that no ray that looks away meets anything.
+      // The components are so far away that rays that point away from them have density 0.
       if (!any(group.far > 0)) return x < 0 ? Float8{} : scale * rays.line_integral();
       return scale * rays.ray_integral(group.far);
     }
@@ -243,10 +247,11 @@ float density_of(std::span<const SeenGroup> groups, Vec3 direction) {
   return sum(total);
 }
 
-/// Three independent normal numbers from three uniform ones: Box and Muller's two, and a quantile.
+/// Returns three independent normal numbers for three uniform ones: two by Box and Muller's method,
+/// one by the quantile function.
 Vec3 normal_numbers(Vec2 u, float v) {
   const warp::ConcentricPoint p = warp::concentric_from_square(u);
-  // The disk's r^2 is uniform; 1 - r^2 by its factors keeps the digits of large numbers.
+  // r^2 is uniform. Computing 1 - r^2 as a product keeps the digits of large normal numbers.
   const float left = std::max((1 - p.radius) * (1 + p.radius), 0x1p-25f);
   const float radius = std::copysign(std::sqrt(-2 * std::log(left)), p.radius);
   return {radius * p.direction.x, radius * p.direction.y, warp::fast_normal_from_unit(v)};
@@ -289,7 +294,7 @@ std::optional<Vec3> SeenMixture::sample(float choice, Vec2 u, float v) const {
   for (std::size_t k = 0; k < components_.size(); ++k) {
     const float share = groups_[k / kGroup].share[k % kGroup];
     if (!(share > 0)) continue;
-    chosen = k;  // the last one with a share, should rounding leave something of `choice`
+    chosen = k;  // the last one with a share, if rounding leaves a rest of `choice`
     if (choice < share) break;
     choice -= share;
   }

@@ -11,45 +11,46 @@
 
 namespace pharos::spatial_gaussians {
 
-/// How a direction is made from a point of a Gaussian, seen_gaussian.h has the densities.
+/// How a sampled point of a Gaussian becomes a direction. The densities are in seen_gaussian.h.
 enum class Technique {
   exact,    ///< the direction to the point (p0)
-  flipped,  ///< the same, turned around where it looks away from the mean (p1)
-  plane     ///< the direction to the point's foot in the plane through the mean, facing the origin
+  flipped,  ///< the same, flipped if it points away from the mean (p1)
+  plane     ///< the direction to the point's projection on the plane through the mean that is
+            ///< orthogonal to the line from the origin to the mean
 };
 
-/// How components are weighted at a surface.
+/// How components are reweighted at a surface.
 struct CosineRule {
-  Vec3 normal;              ///< unit, on the side of the path; zero: weights stay as they are
-  bool both_sides = false;  ///< surfaces that transmit
-  float least = 0.01f;      ///< in place of smaller cosines, those below the horizon included
+  Vec3 normal;              ///< unit, on the side of the path; zero: weights stay unchanged
+  bool both_sides = false;  ///< true for surfaces that transmit: the absolute cosine counts
+  float least = 0.01f;      ///< lower bound of the cosine, also below the horizon
 };
 
-/// Eight components as they are seen from one point: of a unit direction omega, `rows` make the
-/// whitened direction in a frame whose first axis points at the whitened mean, times l00 (a factor
-/// that keeps floats in range). They are multiplied by omega's difference from `aim`, of which the
-/// last two rows leave nothing: small angles from the mean keep their digits.
+/// Eight components as seen from one point. `rows` map a unit direction omega to the whitened
+/// direction, in a frame whose first axis points at the whitened mean. They include the factor l00,
+/// which keeps floats in range. The last two rows map `aim` to zero. They are therefore applied to
+/// omega - aim, so small angles from the mean keep their digits.
 struct SeenGroup {
-  SeenGroup() {}  // leaves everything as it is: an array of groups need not be cleared
+  SeenGroup() {}  // leaves the members uninitialized, so that arrays of groups are not cleared
 
   Float8 rows[3][3];
   Float8 ahead;         ///< the first row times `aim`
-  Float8 aim[3];        ///< unit direction to the mean; zero in the mean itself
-  Float8 aim_rest[3];   ///< what rounding has taken from it
-  Double8 wide_aim[3];  ///< the same before rounding; for `plane` only
+  Float8 aim[3];        ///< unit direction to the mean; zero if seen from the mean itself
+  Float8 aim_rest[3];   ///< rounding error of `aim`
+  Double8 wide_aim[3];  ///< `aim` before rounding; for `plane` only
   Float8 share;         ///< probability of choosing the component
-  Float8 weight;        ///< the density's factor that does not hang on the direction
+  Float8 weight;        ///< factor of the density that does not depend on the direction
   Float8 reach;         ///< |L^-1 mu|; for `plane` |mu| / l00
   Float8 far;           ///< e^(-reach^2 / 2)
 };
 
-/// A mixture of Gaussians as it is seen from one point: a distribution over directions. Weights are
-/// multiplied by the cosine between the normal and the direction to each mean (Lelyakin et al.
-/// 2025, section 2).
+/// A mixture of Gaussians as seen from one point: a distribution over directions. The weight of
+/// each component is multiplied by the cosine between the normal and the direction to its mean
+/// (Lelyakin et al. 2025, section 2).
 class SeenMixture {
  public:
-  /// Lives in `arena`, as long as it and the components do. Null where nothing can be drawn: all
-  /// components are seen from their own means, for `plane`.
+  /// Makes the mixture in `arena`. It is valid as long as the arena and the components are. Returns
+  /// null if nothing can be sampled: for `plane`, if all components are seen from their own means.
   static const SeenMixture* make(std::span<const SpatialGaussian> components, Point3 origin,
                                  const CosineRule& rule, Technique technique, Arena& arena);
 
@@ -57,10 +58,11 @@ class SeenMixture {
                        std::span<const SeenGroup> groups, Technique technique)
       : components_(components), groups_(groups), origin_(origin), technique_(technique) {}
 
-  /// The density of sample() [1/sr]; integrates to one.
+  /// Returns the density of sample() [1/sr]; it integrates to one.
   float density(Vec3 direction) const;
 
-  /// A unit direction from numbers in [0, 1). Empty in the one point where there is none.
+  /// Samples a unit direction from numbers in [0, 1). Returns nothing if the sampled point is the
+  /// origin itself.
   std::optional<Vec3> sample(float choice, Vec2 u, float v) const;
 
  private:

@@ -4,15 +4,13 @@
 #include <array>
 #include <cmath>
 
-#include <pharos/core/binary_stream.h>
-
 #include "truncated_normal.h"
 
 namespace pharos::vertex_triplets {
 namespace {
 
-/// By the mean along an axis; by all else where means are level, so that the order before does not
-/// matter.
+/// Returns the sort key: the mean along an axis, then the other coordinates and the weight, so that
+/// the result does not depend on the previous order.
 std::array<float, 4> order_along(int axis, const SpatialGaussian& g) {
   return {g.mean[axis], g.mean[(axis + 1) % 3], g.mean[(axis + 2) % 3], g.weight};
 }
@@ -78,33 +76,17 @@ std::size_t CameraMixture::size_bytes() const {
          nodes_.size() * sizeof(Node);
 }
 
-void CameraMixture::save(std::ostream& out) const {
-  save_number(out, static_cast<std::uint32_t>(size()));
-  for (const FirstVertex& component : components_) {
-    const SpatialGaussian& g = component.gaussian;
-    save_number(out, g.weight);
-    for (int axis = 0; axis < 3; ++axis) save_number(out, g.mean[axis]);
-    for (const float l : g.cholesky) save_number(out, l);
-    save_number(out, static_cast<std::uint8_t>(component.kind));
-  }
+void FirstVertex::archive(Archive& archive) {
+  archive(gaussian, kind);
+  const float* l = gaussian.cholesky;
+  archive.expect(gaussian.weight > 0 && l[0] > 0 && l[2] > 0 && l[5] > 0 &&
+                     (kind == VertexKind::surface || kind == VertexKind::volume),
+                 "the mixture at the camera");
 }
 
-CameraMixture CameraMixture::load(std::istream& in) {
-  std::vector<FirstVertex> components;
-  for (auto count = load_number<std::uint32_t>(in); count > 0; --count) {
-    FirstVertex& component = components.emplace_back();
-    SpatialGaussian& g = component.gaussian;
-    g.weight = load_finite<float>(in);
-    for (int axis = 0; axis < 3; ++axis) g.mean[axis] = load_finite<float>(in);
-    for (float& l : g.cholesky) l = load_finite<float>(in);
-    const auto kind = load_number<std::uint8_t>(in);
-    component.kind = static_cast<VertexKind>(kind);
-    const bool fits =
-        g.weight > 0 && g.cholesky[0] > 0 && g.cholesky[2] > 0 && g.cholesky[5] > 0 &&
-        (component.kind == VertexKind::surface || component.kind == VertexKind::volume);
-    if (!fits) throw InputError("the mixture at the camera is damaged");
-  }
-  return CameraMixture(std::move(components));
+void CameraMixture::archive(Archive& archive) {
+  archive(components_);
+  if (archive.loads()) *this = CameraMixture(std::move(components_));
 }
 
 }  // namespace pharos::vertex_triplets

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <iosfwd>
 #include <span>
 #include <vector>
 
@@ -11,29 +10,31 @@
 
 namespace pharos::vertex_triplets {
 
-/// A component of where paths from the sensor have their first vertices. The weight is its share.
+/// A component of the distribution of first vertices of paths from the sensor. The weight is its
+/// share.
 struct FirstVertex {
   SpatialGaussian gaussian;
   VertexKind kind = VertexKind::surface;
+  void archive(Archive& archive);
 };
 
-/// The mixture of all first vertices (Schuessler et al. 2022, section 4.2): truncated Gaussians
-/// within boxes, found by a hierarchy of these.
+/// The mixture of all first vertices (Schuessler et al. 2022, section 4.2): truncated Gaussians,
+/// with a hierarchy of their bounding boxes.
 class CameraMixture {
  public:
   CameraMixture() : CameraMixture(std::vector<FirstVertex>{}) {}
-  /// Weights > 0, of which shares are made.
+  /// Makes the mixture of components with weights > 0, which it normalizes to shares.
   explicit CameraMixture(std::vector<FirstVertex> components);
 
   bool empty() const { return components_.empty(); }
   std::size_t size() const { return components_.size(); }
   const FirstVertex& operator[](std::size_t i) const { return components_[i]; }
-  /// The box that a component's first vertices lie in [scene units].
+  /// Returns the box that contains the first vertices of a component [scene units].
   const Bounds3& box(std::size_t i) const { return boxes_[i]; }
-  /// The component of a number in [0, 1).
+  /// Chooses a component by a number in [0, 1).
   std::size_t choose(float u) const;
 
-  /// Calls `visit(component)` for those whose boxes hold the point.
+  /// Calls `visit(component)` for all components whose boxes contain the point.
   template <class Visit>
   void for_each_around(Point3 point, Visit&& visit) const {
     if (nodes_.empty()) return;
@@ -54,28 +55,26 @@ class CameraMixture {
   }
 
   std::size_t size_bytes() const;
-  void save(std::ostream& out) const;
-  /// Throws InputError when it is damaged.
-  static CameraMixture load(std::istream& in);
+  void archive(Archive& archive);
 
  private:
-  static constexpr int kMostLevels = 64;  ///< halves of 2^32 components need 32 and one more
+  static constexpr int kMostLevels = 64;  ///< 33 suffice to bisect 2^32 components
 
-  /// Two nodes from `first` on, or components.
+  /// An inner node (count 0) with two children from `first` on, or a leaf with components.
   struct Node {
     Bounds3 box;
     std::uint32_t first, count;
   };
   void build(std::uint32_t node, std::uint32_t begin, std::uint32_t end);
 
-  std::vector<FirstVertex> components_;  ///< in the order of nodes
+  std::vector<FirstVertex> components_;  ///< in the order of the leaves
   std::vector<Bounds3> boxes_;
-  std::vector<double> shares_;  ///< up to and including each component
+  std::vector<double> shares_;  ///< sum of the shares up to and including each component
   std::vector<Node> nodes_;
 };
 
-/// The box around a truncated Gaussian: 4 times the sums of the factor's rows to both sides of the
-/// mean.
+/// Returns the box around a truncated Gaussian. It reaches 4 times the sum of the absolute values
+/// in each row of the Cholesky factor to both sides of the mean.
 Bounds3 box_around(const SpatialGaussian& gaussian);
 
 }  // namespace pharos::vertex_triplets

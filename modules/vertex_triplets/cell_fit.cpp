@@ -5,7 +5,7 @@
 namespace pharos::vertex_triplets {
 namespace {
 
-/// The coordinates that points of D dimensions have of a triplet, and their units.
+/// Converts triplets to the coordinates of points of D dimensions. `unit` has the unit of each.
 template <int D>
 struct Coordinates {
   Coordinates(const Cube& cell, float environment, const Mode& mode) : center(cell.center) {
@@ -14,7 +14,8 @@ struct Coordinates {
     for (int i = D - 3; is_far && i < D; ++i) unit[i] = environment;
   }
 
-  /// The last vertices of a triplet; of a first vertex the middle one.
+  /// Returns the coordinates of the last vertices of a triplet: three for D = 9, two for D = 6. For
+  /// D = 3 (first vertices), it is the middle one.
   std::array<double, D> of(const Triplet& triplet) const {
     constexpr int kFirst = D == 9 ? 0 : 1;
     std::array<double, D> x;
@@ -42,14 +43,15 @@ struct Group {
   }
 };
 
-/// Relative to the mean: the squares of less are no floats.
+/// Least weight of a point relative to the mean weight. Squares of smaller weights underflow
+/// floats.
 constexpr double kLeastPointWeight = 1e-12;
 
-/// The mixture of a group about the middle of its cell [scene units].
+/// Fits the mixture of a group, relative to the center of its cell [scene units].
 template <int D>
 Mixture<D> fit_group(const Group& group, const Coordinates<D>& coordinates,
                      const ClusterSettings& settings) {
-  // About the mean, where single precision has most digits.
+  // Points are relative to their mean, where single precision has the most digits.
   Vector<D> mean = Vector<D>::Zero();
   for (std::size_t i = 0; i < group.triplets.size(); ++i) {
     const std::array<double, D> x = coordinates.of(*group.triplets[i]);
@@ -74,7 +76,7 @@ Mixture<D> fit_group(const Group& group, const Coordinates<D>& coordinates,
   return mixture;
 }
 
-/// Components of less weight are no floats worth keeping.
+/// Components with smaller weights are not worth keeping in single precision.
 constexpr double kLeastWeight = 1e-9;
 
 template <int P>
@@ -121,7 +123,7 @@ CellFit fit_cell(const Reservoir& reservoir, const Cube& cell, const FitRule& ru
   double total = 0;
   reservoir.for_each([&](const Triplet& triplet, double weight) {
     Mode mode = triplet.mode;
-    // Pairs do not know what they came from.
+    // Pairs do not depend on the previous vertex.
     if (pairs) mode.before = VertexKind::surface;
     total += weight;
     const bool can_guide = mode.after != VertexKind::light || rule.kind.both_ways;

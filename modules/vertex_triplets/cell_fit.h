@@ -12,21 +12,22 @@ namespace pharos::vertex_triplets {
 
 using Reservoir = statistics::VarOptReservoir<Triplet>;
 
-/// What is fitted to the samples of one cell.
+/// The result of fitting the samples of one cell.
 struct CellFit {
-  CellKnowledge knowledge;          ///< its `share` is a weight yet
-  std::vector<FirstVertex> camera;  ///< their weights are those of the samples
+  CellKnowledge knowledge;          ///< its `share` is a sum of weights, not yet normalized
+  std::vector<FirstVertex> camera;  ///< their weights are sums of sample weights
 };
 
-/// How samples are fitted.
+/// Parameters of fit_cell().
 struct FitRule {
   ModelKind kind;
   ClusterSettings clusters;
 };
 
-/// Fits mixtures to a cell's samples, one for each mode (Schuessler et al. 2022, section 6), and
-/// one to the first vertices among them. Lengths are in edges of the cell, those to the environment
-/// in its distance: what a single sample says of a direction to there is an angle.
+/// Fits mixtures to the samples of a cell: one for each mode (Schuessler et al. 2022, section 6),
+/// and one for each kind of first vertices. Lengths are in units of the cell's edge. Vertices on
+/// the environment are in units of its distance, so the deviation of a single sample is an angle
+/// there.
 CellFit fit_cell(const Reservoir& reservoir, const Cube& cell, const FitRule& rule);
 
 }  // namespace pharos::vertex_triplets

@@ -8,12 +8,13 @@
 namespace pharos::vertex_triplets {
 namespace {
 
-/// Parameters of a mixture of two Gaussians beyond those of a single one: a mean, a covariance and
-/// a weight (55, 28, 10 for D = 9, 6, 3).
+/// Number of parameters that a mixture of two Gaussians has beyond a single Gaussian: a mean, a
+/// covariance and a weight (55, 28, 10 for D = 9, 6, 3).
 template <int D>
 constexpr int kAddedParameters = D + D*(D + 1) / 2 + 1;
 
-/// Sums over the points on one side of the plane across `axis` through `center`, about that.
+/// Returns sums about `center` over the points on the positive side of the plane through `center`
+/// across `axis`.
 template <int D>
 Sums<D> sums_beyond(const Points<D>& points, const std::array<float, D>& center,
                     const std::array<float, D>& axis) {
@@ -43,7 +44,7 @@ Vector<D> widened(const std::array<float, D>& x) {
   return result;
 }
 
-/// The mean of log N(x) over points whose covariance about the Gaussian's mean is `sample`.
+/// Returns the mean of log N(x) over points whose covariance about the Gaussian's mean is `sample`.
 template <int D>
 double mean_log_density(const Matrix<D>& sample, const Matrix<D>& covariance) {
   const Eigen::LLT<Matrix<D>> factor(covariance);
@@ -51,17 +52,17 @@ double mean_log_density(const Matrix<D>& sample, const Matrix<D>& covariance) {
   return -0.5 * (D * std::log(2 * EIGEN_PI) + log_determinant + factor.solve(sample).trace());
 }
 
-/// Points with the Gaussian that fits them.
+/// Points with the Gaussian fitted to them.
 template <int D>
 struct Cluster {
   Points<D> points;
   Sums<D> sums;  ///< about `center`
   std::array<float, D> center{};
   Gaussian<D> gaussian;
-  double log_likelihood = 0;  ///< as Expectation's
+  double log_likelihood = 0;  ///< as in Expectation
 
   Cluster(Points<D> all, const Regularization& rule) : points(std::move(all)) {
-    // About the mean in the end: first about any point.
+    // The first sums are about any point and yield the mean; the final sums are about the mean.
     for (int i = 0; i < D; ++i) center[i] = points.registers()[0].x[i][0];
     center = rounded<D>(widened<D>(center) + sums_of_all().offset());
     sums = sums_of_all();
@@ -82,8 +83,9 @@ struct Cluster {
   }
 };
 
-/// The mixture of two Gaussians for the points on both sides of the plane across an eigenvector
-/// that separates them best. Empty when none separates them.
+/// Returns the mixture of two Gaussians for the points on both sides of a plane across an
+/// eigenvector, for the plane with the highest likelihood. Returns nothing if no plane separates
+/// the points.
 template <int D>
 std::optional<Mixture<D>> best_halves(const Cluster<D>& cluster, const Regularization& rule) {
   std::optional<Mixture<D>> best;
@@ -97,7 +99,7 @@ std::optional<Mixture<D>> best_halves(const Cluster<D>& cluster, const Regulariz
     Mixture<D> halves;
     double score = 0;
     for (const Sums<D>& half : {beyond, rest}) {
-      // Differences leave rounding errors where nothing is.
+      // The difference of sums may be a rounding error instead of zero.
       constexpr double kLeastShare = 1e-6;
       const double share = half.weight / cluster.sums.weight;
       if (!(share > kLeastShare) || !(half.squared_weight > 0)) break;
@@ -114,8 +116,8 @@ std::optional<Mixture<D>> best_halves(const Cluster<D>& cluster, const Regulariz
   return best;
 }
 
-/// Both parts of a cluster; empty if two Gaussians are no better than one, by AIC (eq. 45, per
-/// point, with the effective number of points).
+/// Returns both parts of a cluster. Returns nothing if two Gaussians are no better than one by AIC
+/// (eq. 45, per point, with the effective number of points).
 template <int D>
 std::vector<Cluster<D>> split(const Cluster<D>& cluster, const FitSettings& settings) {
   if (cluster.points.size() < 2) return {};

@@ -9,15 +9,17 @@ struct ClusterSettings {
   FitSettings fit;
 };
 
-/// A mixture for points, of as many components as they bear: clusters are split in two, the worst
-/// fitted first, at planes through their means across each eigenvector of their covariances, the
-/// best of which two-component expectation-maximization refines (PCA-Part, Su and Dy 2007;
-/// Schuessler et al. 2022, section 6.3), while Akaike's information criterion gains; then
-/// expectation-maximization of all. At least one point.
+/// Fits a mixture to points and chooses the number of components. Clusters are split in two, the
+/// worst fit first (PCA-Part, Su and Dy 2007; Schuessler et al. 2022, section 6.3). A split tries
+/// the planes through the mean across each eigenvector of the covariance; two-component
+/// expectation-maximization then refines the best one. A split is kept if it improves Akaike's
+/// information criterion. Finally, expectation-maximization refines the whole mixture. Requires at
+/// least one point.
 template <int D>
 Mixture<D> fit_clusters(const Points<D>& points, const ClusterSettings& settings);
 
-/// The mixture before that last step, and the points in the order of its clusters.
+/// The mixture before the final expectation-maximization, and the points in the order of its
+/// clusters.
 template <int D>
 struct Clusters {
   Mixture<D> mixture;

@@ -5,12 +5,11 @@
 
 #include <Eigen/QR>
 
-#include <pharos/core/binary_stream.h>
-
 namespace pharos::vertex_triplets {
 namespace {
 
-/// From the factor L of a covariance; entries above its diagonal are not looked at.
+/// Returns the component for the Cholesky factor L of a covariance. Entries above the diagonal are
+/// ignored.
 template <int P>
 Component<P> from_factor(double weight, const statistics::Vector<P + 3>& mean,
                          const statistics::Matrix<P + 3>& l) {
@@ -50,23 +49,6 @@ auto Component<P>::cholesky() const -> statistics::Matrix<kSize> {
 }
 
 template <int P>
-void Component<P>::save(std::ostream& out) const {
-  save_number(out, weight);
-  for (const float x : mean) save_number(out, x);
-  for (const float x : factor) save_number(out, x);
-}
-
-template <int P>
-Component<P> Component<P>::load(std::istream& in) {
-  Component result;
-  result.weight = load_finite<float>(in);
-  for (float& x : result.mean) x = load_finite<float>(in);
-  for (float& x : result.factor) x = load_finite<float>(in);
-  if (!result.is_sound()) throw InputError("the model of vertex triplets is damaged");
-  return result;
-}
-
-template <int P>
 Component<P> make_component(double weight, const statistics::Gaussian<P + 3>& gaussian) {
   const Eigen::LLT<statistics::Matrix<P + 3>> factor(gaussian.covariance);
   if (factor.info() != Eigen::Success) return {};
@@ -74,8 +56,8 @@ Component<P> make_component(double weight, const statistics::Gaussian<P + 3>& ga
 }
 
 Component<6> reversed(const Component<6>& component) {
-  // With the rows of L in the other order as M, the factor of M M^T is R^T of M^T = Q R: exact to
-  // rounding, where a covariance has lost half of its digits.
+  // M is L with the order of its rows by vertex reversed. The factor of M M^T is R^T, where
+  // M^T = Q R. This is exact up to rounding; a covariance would lose half of the digits.
   const statistics::Matrix<9> l = component.cholesky();
   statistics::Matrix<9> m;
   statistics::Vector<9> mean;

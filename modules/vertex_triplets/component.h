@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <iosfwd>
 
 #include <pharos/statistics/gaussian.h>
 
@@ -9,38 +8,42 @@
 
 namespace pharos::vertex_triplets {
 
-/// Number of entries in the lower triangle of a matrix of so many rows.
+/// Returns the number of entries in the lower triangle of a matrix with this number of rows.
 constexpr int triangle(int rows) {
   return rows * (rows + 1) / 2;
 }
 
-/// A component over a prefix of P dimensions and the next vertex, about the middle of its cell
-/// [scene units]. The Cholesky factor L of its covariance says all that conditionals need
-/// (Schuessler et al. 2022, eq. 49): its first P rows whiten the prefix, z = L11^-1 (prefix -
-/// mean); the next vertex has then the mean mean_2 + L21 z and the covariance L22 L22^T.
+/// A component over a prefix of P dimensions and the next vertex, relative to the center of its
+/// cell [scene units]. It stores the Cholesky factor L of its covariance, which is all that
+/// conditionals need (Schuessler et al. 2022, eq. 49). The first P rows of L whiten the prefix, z =
+/// L11^-1 (prefix - mean). The next vertex then has the mean mean_2 + L21 z and the covariance L22
+/// L22^T.
 template <int P>
 struct Component {
   static constexpr int kSize = P + 3;
 
   float weight = 0;
   std::array<float, kSize> mean{};
-  /// Lower triangle of L by rows, of the first P diagonal entries the reciprocals.
+  /// Lower triangle of L by rows, with the reciprocals of the first P diagonal entries.
   std::array<float, triangle(kSize)> factor{};
 
-  /// Whether all numbers are finite, and the weight and L's diagonal positive.
+  /// Returns whether all numbers are finite, and the weight and the diagonal of L are positive.
   bool is_sound() const;
-  /// L as a matrix.
+  /// Returns L as a matrix.
   statistics::Matrix<kSize> cholesky() const;
-  void save(std::ostream& out) const;
-  /// Throws InputError when it is damaged.
-  static Component load(std::istream& in);
+  void archive(Archive& archive) {
+    archive(weight, mean, factor);
+    archive.expect(!archive.loads() || is_sound(), "the model of vertex triplets");
+  }
 };
 
-/// The component of a Gaussian; not sound if its covariance has lost its rank to rounding.
+/// Returns the component for a Gaussian. The component is not sound if rounding made the covariance
+/// singular.
 template <int P>
 Component<P> make_component(double weight, const statistics::Gaussian<P + 3>& gaussian);
 
-/// The component for the way back: its prefix is (x_3, x_2) where this one's is (x_1, x_2).
+/// Returns the component for the opposite direction of paths: its prefix is (x_3, x_2), not
+/// (x_1, x_2).
 Component<6> reversed(const Component<6>& component);
 
 }  // namespace pharos::vertex_triplets

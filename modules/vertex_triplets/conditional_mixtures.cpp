@@ -8,7 +8,7 @@ namespace pharos::vertex_triplets {
 namespace {
 
 constexpr float kNever = -std::numeric_limits<float>::infinity();
-/// Components with less than this of the largest weight are left out.
+/// Components with less than 2^-16 of the largest weight are left out.
 constexpr float kLeastLog2 = -16;
 
 template <int P>
@@ -23,10 +23,10 @@ std::array<float, P> coordinates(const PathPrefix& prefix, Point3 center) {
 
 }  // namespace
 
-/// A group with its weights and the whitened prefix.
+/// The weights of a group given the prefix, and the whitened prefix.
 template <int P>
 struct ConditionalMixtures<P>::Weighed {
-  Weighed() {}  // leaves everything as it is: arrays of it need not be cleared
+  Weighed() {}  // leaves the members uninitialized, so that arrays of it are not cleared
 
   std::array<Float8, P> white;
   Float8 log2_weight;
@@ -106,7 +106,7 @@ bool ConditionalMixtures<P>::admits(const Mode& mode, const PathPrefix& prefix) 
   const bool forward = direction_ == Direction::from_sensor;
   const VertexKind known = forward ? mode.before : mode.after;
   const VertexKind wanted = forward ? mode.after : mode.before;
-  // Pairs know nothing of the vertex before.
+  // Pairs do not depend on the previous vertex.
   if (P == 6 && known != prefix.previous_kind) return false;
   const bool can_be_met = wanted == VertexKind::surface || wanted == VertexKind::volume ||
                           wanted == VertexKind::environment;
@@ -120,7 +120,7 @@ NextVertex ConditionalMixtures<P>::next_of(const Weighed& weighed, int lane, Poi
   NextVertex result;
   result.event = run.mode.event;
   result.kind = direction_ == Direction::from_sensor ? run.mode.after : run.mode.before;
-  result.gaussian.weight = weighed.log2_weight[lane];  // a share by now
+  result.gaussian.weight = weighed.log2_weight[lane];  // given() has made it a share
   for (int row = 0; row < 3; ++row) {
     float mean = next.mean[row];
     for (int column = 0; column < P; ++column) {

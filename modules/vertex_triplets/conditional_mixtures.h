@@ -14,67 +14,73 @@
 
 namespace pharos::vertex_triplets {
 
-/// Where a path stands and what is known of it. Along paths from lights `previous` lies towards the
-/// light.
+/// The prefix of a path, for which conditionals are asked. On paths from lights, `previous` is the
+/// vertex towards the light.
 struct PathPrefix {
-  Point3 previous, current;  ///< an environment at EnvironmentShell::at()
+  Point3 previous, current;  ///< environment vertices are at EnvironmentShell::at()
   VertexKind previous_kind = VertexKind::surface;
-  EventMask events = EventMask::all;  ///< that may happen at `current`
+  EventMask events = EventMask::all;  ///< events that are possible at `current`
 };
 
-/// A component given the prefix: a truncated Gaussian of the next vertex, and what the step to it
-/// is. The weight is the component's share.
+/// A component given the prefix: a truncated Gaussian of the next vertex, the event at the current
+/// vertex, and the kind of the next one. The weight is the component's share.
 struct NextVertex {
   SpatialGaussian gaussian;
   Event event = Event::none;
   VertexKind kind = VertexKind::surface;
 };
 
-/// Mixtures over a prefix of P dimensions and the next vertex, one for each cell. Components of one
-/// mode stand together, eight side by side.
+/// Mixtures over a prefix of P dimensions and the next vertex, one for each cell. Components of the
+/// same mode are stored together, in groups of eight.
 template <int P>
 class ConditionalMixtures {
  public:
-  /// Which end paths come from. from_sensor: the prefix is (before, current), and `after` is next;
-  /// from_lights: the other way round.
+  /// The end at which paths begin. For from_sensor, the prefix is (before, current), and the next
+  /// vertex is `after`. For from_lights, `before` and `after` are exchanged.
   enum class Direction { from_sensor, from_lights };
 
-  /// Components of one mode, whose weights are shares of the whole mixture.
+  /// Components of one mode. Their weights are shares of the whole mixture of the cell.
   struct Run {
     Mode mode;
     std::vector<Component<P>> components;
+    void archive(Archive& archive) {
+      archive(mode, components);
+      archive.expect(!components.empty(), "the model of vertex triplets");
+    }
   };
 
   explicit ConditionalMixtures(Direction direction) : direction_(direction) {}
 
-  /// Adds the mixture of the next cell, whose middle is `center`.
+  /// Adds the mixture of the next cell, which has this center.
   void add_cell(Point3 center, std::span<const Run> runs);
 
   std::size_t cell_count() const { return cells_.size(); }
+  /// Whether a cell has any component.
+  bool knows_something(std::size_t cell) const { return cells_[cell].run_count > 0; }
   Point3 center(std::size_t cell) const { return cells_[cell].center; }
-  /// The mixture of a cell as it was added.
+  /// Returns the mixture of a cell as it was added.
   std::vector<Run> runs(std::size_t cell) const;
   std::size_t component_count() const { return next_.size(); }
   std::size_t size_bytes() const;
 
-  /// The mixture of the next vertex given the prefix (eq. 18, 21): components whose mode
-  /// contradicts it or whose support does not hold it are left out, the others' shares add up to
-  /// one. Empty: nothing is known. Lives in `arena`.
+  /// Returns the mixture of the next vertex given the prefix (eq. 18, 21), allocated in `arena`.
+  /// Components are left out if their mode contradicts the prefix or their support does not contain
+  /// it. The shares of the others add up to one. Returns an empty span if no component is left.
   std::span<const NextVertex> given(std::size_t cell, const PathPrefix& prefix, Arena& arena) const;
 
  private:
-  /// Eight components as a prefix sees them.
+  /// The parts of eight components that concern the prefix.
   struct Group {
     std::array<Float8, P> mean;
-    std::array<Float8, triangle(P)> factor;  ///< as Component's
-    Float8 log2_weight;  ///< with the factor of the density that the prefix does not change
+    std::array<Float8, triangle(P)> factor;  ///< as in Component
+    Float8 log2_weight;  ///< includes the factor of the density that is independent of the prefix
   };
-  /// And the rest of one of them.
+  /// The part of one component that concerns the next vertex.
   struct Next {
     float weight;
     std::array<float, 3> mean;
     std::array<float, 3 * P> gain;  ///< L21 by rows
-    std::array<float, 6> cholesky;  ///< L22, as SpatialGaussian's
+    std::array<float, 6> cholesky;  ///< L22, as in SpatialGaussian
   };
   struct ModeRun {
     Mode mode;

@@ -10,16 +10,16 @@ using statistics::Gaussian;
 using statistics::Matrix;
 using statistics::Vector;
 
-/// How covariances of few points are completed (Schuessler et al. 2022, section 6.2). Lengths are
+/// How covariances of few points are regularized (Schuessler et al. 2022, section 6.2). Lengths are
 /// in the unit of the points: edges of the cell.
 struct Regularization {
   bool is_on = true;
   double deviation = 0.1;         ///< of a single point, r in eq. 40
-  double least_deviation = 1e-4;  ///< eigenvalues are raised to its square
+  double least_deviation = 1e-4;  ///< its square is the lower bound of eigenvalues
 };
 
-/// The part of a covariance of 3D vertices that is alike along all axes: of each 3 x 3 block a
-/// third of its trace times the identity (eq. 41). Positive semidefinite if `sample` is.
+/// Returns the isotropic part of a covariance of 3D vertices: each 3 x 3 block is a third of its
+/// trace times the identity (eq. 41). It is positive semidefinite if `sample` is.
 template <int D>
 Matrix<D> isotropic_blocks(const Matrix<D>& sample) {
   Matrix<D> blocks = Matrix<D>::Zero();
@@ -32,9 +32,9 @@ Matrix<D> isotropic_blocks(const Matrix<D>& sample) {
   return blocks;
 }
 
-/// The covariance of points whose own is `sample`, of which there are effectively `count` >= 1
-/// (eq. 39 to 44). As printed both shares would be the wrong way round: here more points mean more
-/// of `sample`, and 9 is the number of dimensions.
+/// Returns the regularized covariance of effectively `count` >= 1 points with the covariance
+/// `sample` (eq. 39 to 44). The printed equations exchange both shares; here more points give
+/// `sample` a larger share. The 9 of eq. 44 is the number of dimensions D here.
 template <int D>
 Matrix<D> regularized(const Matrix<D>& sample, double count, const Regularization& rule) {
   if (!rule.is_on) return sample;

@@ -9,7 +9,7 @@ namespace {
 
 constexpr float kInfinite = std::numeric_limits<float>::infinity();
 
-/// The logarithm of a weighted Gaussian, ready for registers of points.
+/// Evaluates the logarithm of a weighted Gaussian for registers of points.
 template <int D>
 struct Term {
   Term(double weight, const Gaussian<D>& gaussian) {
@@ -54,7 +54,7 @@ std::vector<Term<D>> terms_of(const Mixture<D>& mixture) {
   return terms;
 }
 
-/// Registers that are worked on together: their terms stay in the nearest cache.
+/// Number of registers that are processed together, so that their terms stay in the L1 cache.
 constexpr std::size_t kBlock = 8;
 
 }  // namespace
@@ -78,8 +78,8 @@ Expectation<D> expectation(const Mixture<D>& mixture, const Points<D>& points) {
     }
     for (std::size_t k = 0; k < terms.size(); ++k) {
       for (std::size_t r = 0; r < count; ++r) {
-        // What is less than 2e-9 of the largest is nothing: most components have no part in most
-        // points.
+        // Responsibilities below 2e-9 of the largest are set to zero: most components contribute
+        // nothing to most points.
         constexpr float kLeast = -20;
         const Float8 below = shares[k][r] - largest[r];
         shares[k][r] = below < kLeast ? Float8{} : exp(below);
@@ -161,7 +161,7 @@ std::vector<std::size_t> assignment(const Mixture<D>& mixture, const Points<D>& 
   return result;
 }
 
-// For the mixtures of cameras, pairs and triplets.
+// Instances for mixtures at the camera, of pairs and of triplets.
 #define PHAROS_FOR_DIMENSION(D)                                                    \
   template Expectation<D> expectation<D>(const Mixture<D>&, const Points<D>&);     \
   template Mixture<D> maximization<D>(const Mixture<D>&, const Expectation<D>&,    \

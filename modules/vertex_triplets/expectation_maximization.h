@@ -10,7 +10,8 @@
 #include "points.h"
 
 /// Expectation-maximization of mixtures of Gaussians with weighted points (Schuessler et al. 2022,
-/// section 6.2), in single precision: points lie near the origin, in units of their cell.
+/// section 6.2). It uses single precision, because points are near the origin, in units of their
+/// cell.
 namespace pharos::vertex_triplets {
 
 template <int D>
@@ -19,41 +20,42 @@ using Mixture = statistics::GaussianMixture<D>;
 struct FitSettings {
   Regularization regularization;
   int most_iterations = 50;
-  /// Ends when the mean logarithm of the density changes by less, relative to itself (eq. 38).
+  /// The fit ends when the mean logarithm of the density changes by less, relative to itself (eq.
+  /// 38).
   double tolerance = 1e-3;
 };
 
-/// What an E step finds.
+/// The result of an E step.
 template <int D>
 struct Expectation {
   double log_likelihood = 0;  ///< sum of w log p(x) over the sum of w
-  std::vector<Sums<D>> sums;  ///< of each component about its mean, v = w r (eq. 36)
+  std::vector<Sums<D>> sums;  ///< for each component about its mean, with v = w r (eq. 36)
 };
 
 /// The E step (eq. 36).
 template <int D>
 Expectation<D> expectation(const Mixture<D>& mixture, const Points<D>& points);
 
-/// The M step (eq. 37, covariances about the new means; eq. 39). Components that no point belongs
-/// to are left out.
+/// The M step (eq. 37 with covariances about the new means; eq. 39). Components without points are
+/// left out.
 template <int D>
 Mixture<D> maximization(const Mixture<D>& mixture, const Expectation<D>& expectation,
                         const Regularization& rule);
 
-/// A mixture with what it makes of the points that it was fitted to.
+/// The result of fit().
 template <int D>
 struct Fit {
   Mixture<D> mixture;
-  double log_likelihood = 0;  ///< as Expectation's
+  double log_likelihood = 0;  ///< as in Expectation
   int iterations = 0;
 };
 
-/// Alternates both steps from `start` on; returns the best mixture on the way: with regularization
-/// a step may be for the worse.
+/// Alternates both steps, beginning with `start`, and returns the mixture with the highest
+/// likelihood on the way: with regularization a step may lower the likelihood.
 template <int D>
 Fit<D> fit(const Mixture<D>& start, const Points<D>& points, const FitSettings& settings);
 
-/// For each point the component that it belongs to most likely.
+/// Returns for each point the most likely component.
 template <int D>
 std::vector<std::size_t> assignment(const Mixture<D>& mixture, const Points<D>& points);
 

@@ -26,7 +26,7 @@ std::optional<Proposal> FirstDistribution::propose(const VertexStream& stream) c
                   .within = &mixture_.box(k)};
 }
 
-Density FirstDistribution::density(const ResolvedVertex& vertex) const {
+float FirstDistribution::density(const ResolvedVertex& vertex) const {
   float total = 0;
   mixture_.for_each_around(vertex.position, [&](std::size_t k) {
     const FirstVertex& component = mixture_[k];
@@ -38,7 +38,7 @@ Density FirstDistribution::density(const ResolvedVertex& vertex) const {
       total += g.weight * projection.density(vertex.direction);
     }
   });
-  return {total, measure_of(vertex.event, vertex.kind)};
+  return total;
 }
 
 }  // namespace pharos::vertex_triplets

@@ -6,16 +6,16 @@
 
 namespace pharos::vertex_triplets {
 
-/// First vertices of paths from one point of the lens (Schuessler et al. 2022, section 5.4).
-/// Vertices on surfaces are sampled as all others, in the plane through a component's mean; what is
-/// met outside the component's box is a zero sample, so that the hierarchy of boxes knows all
-/// components that could have made a vertex.
+/// The distribution of first vertices of paths from one point of the lens (Schuessler et al. 2022,
+/// section 5.4). Vertices on surfaces are sampled like all others, in the plane through a
+/// component's mean. A vertex outside of the component's box is a zero sample. The hierarchy of
+/// boxes therefore finds all components that could have sampled a vertex.
 class FirstDistribution final : public GuidingDistribution {
  public:
   FirstDistribution(const CameraMixture& mixture, Point3 lens) : mixture_(mixture), lens_(lens) {}
 
   std::optional<Proposal> propose(const VertexStream& stream) const override;
-  Density density(const ResolvedVertex& vertex) const override;
+  float density(const ResolvedVertex& vertex) const override;
 
  private:
   const CameraMixture& mixture_;

@@ -1,7 +1,6 @@
 #include "guider.h"
 
 #include "first_distribution.h"
-#include "model.h"
 
 namespace pharos::vertex_triplets {
 namespace {
@@ -15,38 +14,6 @@ EventMask possible_events(const LocalScattering& scattering) {
   }
   return events;
 }
-
-class BoundTripletGuider final : public BoundGuider, public CameraGuider {
- public:
-  BoundTripletGuider(std::shared_ptr<const VertexTripletsModel> model,
-                     const VertexTripletsGuiderSettings& settings)
-      : model_(std::move(model)),
-        rules_{settings.surfaces, settings.specular_roughness},
-        guides_camera_(settings.guide_camera) {}
-
-  const GuidingDistribution* query(const GuidingQuery& query, Arena& arena) const override {
-    const std::span<const NextVertex> next =
-        model_->next_vertices(query, possible_events(query.scattering), arena);
-    if (next.empty()) return nullptr;
-    const std::uint32_t cell = model_->region_at(query.current.position);
-    constexpr float kLeastDistance = 1e-6f;  // of the cell's edge
-    return NextDistribution::make(next, query.scattering, query.current.position, rules_,
-                                  kLeastDistance * model_->cell_size(cell), cell, arena);
-  }
-
-  const CameraGuider* camera() const override {
-    return guides_camera_ && !model_->camera().empty() ? this : nullptr;
-  }
-  const GuidingDistribution* query_camera(const PreparedSensor&, const LensPoint& lens,
-                                          Arena& arena) const override {
-    return arena.make<FirstDistribution>(model_->camera(), lens.position);
-  }
-
- private:
-  std::shared_ptr<const VertexTripletsModel> model_;
-  StepRules rules_;
-  bool guides_camera_;
-};
 
 }  // namespace
 
@@ -63,17 +30,25 @@ void VertexTripletsGuiderSettings::describe(Schema<VertexTripletsGuiderSettings>
 }
 
 GuiderTraits VertexTripletsGuider::traits() const {
-  return {.model = VertexTripletsModel::kName,
-          .steers_distance = true,
+  return {.steers_distance = true,
           .steers_events = true,
           .guides_camera = settings_.guide_camera,
           .guides_light_paths = true};
 }
 
-std::unique_ptr<const BoundGuider> VertexTripletsGuider::bind(
-    std::shared_ptr<const GuidingModel> model) const {
-  return std::make_unique<BoundTripletGuider>(bind_model<VertexTripletsModel>(model, *this),
-                                              settings_);
+const GuidingDistribution* VertexTripletsGuider::query(const VertexTripletsModel& model,
+                                                       const GuidingQuery& query,
+                                                       Arena& arena) const {
+  if (query.current.kind == VertexKind::sensor) {
+    return arena.make<FirstDistribution>(model.camera(), query.current.position);
+  }
+  const std::span<const NextVertex> next =
+      model.next_vertices(query, possible_events(*query.scattering), arena);
+  if (next.empty()) return nullptr;
+  constexpr float kLeastDistance = 1e-6f;  // of the cell's edge
+  return NextDistribution::make(next, *query.scattering, query.current.position,
+                                {settings_.surfaces, settings_.specular_roughness},
+                                kLeastDistance * model.cell_size(query.region), arena);
 }
 
 }  // namespace pharos::vertex_triplets

@@ -4,6 +4,7 @@
 
 #include <pharos/guiding/contract/guider.h>
 
+#include "model.h"
 #include "next_distribution.h"
 
 namespace pharos::vertex_triplets {
@@ -17,13 +18,14 @@ struct VertexTripletsGuiderSettings {
 
 /// Samples models of vertex triplets or pairs: next vertices on surfaces and in media, discrete
 /// events, distances, and first vertices (Schuessler et al. 2022, section 5).
-class VertexTripletsGuider final : public Guider {
+class VertexTripletsGuider final : public GuiderOf<VertexTripletsModel> {
  public:
   using Settings = VertexTripletsGuiderSettings;
   explicit VertexTripletsGuider(const Settings& settings) : settings_(settings) {}
 
   GuiderTraits traits() const override;
-  std::unique_ptr<const BoundGuider> bind(std::shared_ptr<const GuidingModel> model) const override;
+  const GuidingDistribution* query(const VertexTripletsModel& model, const GuidingQuery& query,
+                                   Arena& arena) const override;
 
  private:
   Settings settings_;

@@ -49,18 +49,15 @@ VertexTripletsLearner::VertexTripletsLearner(const Settings& settings) : setting
 }
 
 LearnerTraits VertexTripletsLearner::traits() const {
-  return {.model = VertexTripletsModel::kName,
-          .records = {.light_samples = true, .light_paths = settings_.light_paths},
-          .model_version = VertexTripletsModel::kVersion,
-          .also = std::string(kSpatialMixtureModel)};
+  return {.records = {.light_samples = true, .light_paths = settings_.light_paths}};
 }
 
 std::unique_ptr<LearningState> VertexTripletsLearner::begin(const LearningContext& context) const {
   return std::make_unique<VertexTripletsLearningState>(settings_, context);
 }
 
-std::shared_ptr<const GuidingModel> VertexTripletsLearner::load_model(std::istream& in) const {
-  return std::make_shared<VertexTripletsModel>(in);
+std::shared_ptr<GuidingModel> VertexTripletsLearner::empty_model() const {
+  return std::make_shared<VertexTripletsModel>();
 }
 
 }  // namespace pharos::vertex_triplets

@@ -3,15 +3,12 @@
 #include <algorithm>
 #include <numeric>
 
-#include <pharos/core/binary_stream.h>
 #include <pharos/core/counting_sort.h>
 #include <pharos/core/random.h>
 
 namespace pharos::vertex_triplets {
 namespace {
 
-constexpr const char* kHeading = "learning of vertex triplets";
-constexpr std::uint32_t kVersion = 1;
 /// Samples that wait at most (44 bytes each).
 constexpr std::size_t kBatch = 1u << 20;
 
@@ -50,9 +47,7 @@ VertexTripletsLearningState::VertexTripletsLearningState(const VertexTripletsSet
 void VertexTripletsLearningState::absorb(const PathLog& log) {
   const SampleRule rule{rule_.kind.environment, settings_.light_paths};
   for (std::size_t i = 0; i < log.size(); ++i) extract_samples(log[i], rule, incident_, samples_);
-  if (samples_.size() < kBatch) return;
-  insert();
-  learned_early_ = true;
+  if (samples_.size() >= kBatch) insert();
 }
 
 std::uint32_t VertexTripletsLearningState::jittered_cell(const Sample& sample,
@@ -79,18 +74,17 @@ void VertexTripletsLearningState::insert() {
   ++lessons_;
 }
 
-std::shared_ptr<const GuidingModel> VertexTripletsLearningState::update(std::uint32_t, bool) {
+Learned VertexTripletsLearningState::update(std::uint32_t, bool) {
   insert();
-  learned_early_ = false;
   const std::vector<double> counted = counts();
   const double threshold = std::accumulate(counted.begin(), counted.end(), 0.0) / settings_.cells;
   collapse(threshold);
-  std::shared_ptr<const GuidingModel> model = fit();
-  if (model == nullptr) return nullptr;
+  Learned learned = fit();
+  if (learned.model == nullptr) return learned;
   for (std::uint32_t i = 0; i < cells_.size(); ++i) cells_[i].origin = i;
   divide(threshold);
   for (Cell& cell : cells_) cell.count = 0;
-  return model;
+  return learned;
 }
 
 std::vector<double> VertexTripletsLearningState::counts() const {
@@ -154,7 +148,7 @@ std::uint64_t VertexTripletsLearningState::sample_bytes() const {
   return bytes;
 }
 
-std::shared_ptr<const GuidingModel> VertexTripletsLearningState::fit() const {
+Learned VertexTripletsLearningState::fit() const {
   std::vector<CellFit> fits(cells_.size());
   parallel_for(cells_.size(), [&](std::size_t c) {
     const Reservoir& reservoir = cells_[c].reservoir;
@@ -163,7 +157,7 @@ std::shared_ptr<const GuidingModel> VertexTripletsLearningState::fit() const {
   });
   double total = 0;
   for (const CellFit& f : fits) total += f.knowledge.share;
-  if (!(total > 0)) return nullptr;
+  if (!(total > 0)) return {};
   std::vector<CellKnowledge> knowledge;
   std::vector<FirstVertex> camera;
   std::vector<std::uint32_t> origins;
@@ -176,80 +170,18 @@ std::shared_ptr<const GuidingModel> VertexTripletsLearningState::fit() const {
     }
     origins.push_back(cells_[c].origin);
   }
-  return std::make_shared<VertexTripletsModel>(rule_.kind, tree_, knowledge,
-                                               CameraMixture(std::move(camera)), std::move(origins),
-                                               sample_bytes());
+  return {std::make_shared<VertexTripletsModel>(rule_.kind, tree_, knowledge,
+                                                CameraMixture(std::move(camera)), sample_bytes()),
+          std::move(origins)};
 }
 
-void VertexTripletsLearningState::save(std::ostream& out) const {
-  save_heading(out, kHeading, kVersion);
-  save_number(out, lessons_);
-  save_number(out, static_cast<std::uint8_t>(learned_early_));
-  tree_.save(out);
-  for (const Cell& cell : cells_) {
-    save_number(out, cell.count);
-    save_number(out, cell.origin);
-    save_number(out, cell.reservoir.threshold());
-    save_number(out, cell.reservoir.total_weight());
-    save_number(out, static_cast<std::uint32_t>(cell.reservoir.heavy().size()));
-    for (const Reservoir::Entry& entry : cell.reservoir.heavy()) {
-      save_triplet(entry.item, out);
-      save_number(out, entry.weight);
-    }
-    save_number(out, static_cast<std::uint32_t>(cell.reservoir.light().size()));
-    for (const Triplet& triplet : cell.reservoir.light()) save_triplet(triplet, out);
-  }
-  save_number(out, static_cast<std::uint64_t>(samples_.size()));
-  for (const Sample& sample : samples_) sample.save(out);
-}
-
-VertexTripletsLearningState::Cell VertexTripletsLearningState::load_cell(std::istream& in) const {
-  const auto expect = [](bool holds) {
-    if (!holds) throw InputError("what was learned of vertex triplets is damaged");
-  };
-  const auto count = load_finite<double>(in);
-  const auto origin = load_number<std::uint32_t>(in);
-  const auto threshold = load_finite<double>(in), total = load_finite<double>(in);
-  std::vector<Reservoir::Entry> heavy;
-  std::vector<Triplet> light;
-  for (auto left = load_number<std::uint32_t>(in); left > 0; --left) {
-    const Triplet triplet = load_triplet(in);
-    heavy.push_back({triplet, load_finite<double>(in)});
-    expect(heavy.back().weight > threshold);
-  }
-  for (auto left = load_number<std::uint32_t>(in); left > 0; --left) {
-    light.push_back(load_triplet(in));
-  }
-  expect(count >= 0 && threshold >= 0 && total >= 0 &&
-         heavy.size() + light.size() <= settings_.reservoir && (light.empty() || threshold > 0));
-  return {Reservoir(settings_.reservoir, threshold, total, std::move(heavy), std::move(light)),
-          count, origin};
-}
-
-void VertexTripletsLearningState::load(std::istream& in) {
-  expect_heading(in, kHeading, kVersion);
-  VertexTripletsLearningState loaded(*this);
-  loaded.lessons_ = load_number<std::uint64_t>(in);
-  loaded.learned_early_ = load_number<std::uint8_t>(in) != 0;
-  loaded.tree_ = Octree::load(in);
-  loaded.cells_.clear();
-  while (loaded.cells_.size() < loaded.tree_.cell_count()) loaded.cells_.push_back(load_cell(in));
-  loaded.samples_.clear();
-  for (auto count = load_number<std::uint64_t>(in); count > 0; --count) {
-    loaded.samples_.push_back(Sample::load(in));
-  }
-  *this = std::move(loaded);
-}
-
-void VertexTripletsLearningState::merge(const LearningState& other) {
-  const auto& theirs = dynamic_cast<const VertexTripletsLearningState&>(other);
-  const bool is_alike = theirs.tree_ == tree_ && theirs.lessons_ == lessons_;
-  if (!is_alike || learned_early_ || theirs.learned_early_) {
-    throw InputError(std::string(kHeading) +
-                     ": in another iteration or scene, or after more than a million samples, "
-                     "learning cannot be merged");
-  }
-  samples_.insert(samples_.end(), theirs.samples_.begin(), theirs.samples_.end());
+void VertexTripletsLearningState::archive(Archive& archive) {
+  archive.heading("vertex_triplets_learning", 2);
+  archive(lessons_, tree_, samples_);
+  archive.list(cells_, [&] { return Cell{Reservoir(settings_.reservoir)}; });
+  bool is_sound = cells_.size() == tree_.cell_count();
+  for (const Cell& cell : cells_) is_sound &= cell.count >= 0;
+  archive.expect(is_sound, "what was learned of vertex triplets");
 }
 
 }  // namespace pharos::vertex_triplets

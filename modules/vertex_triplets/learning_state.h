@@ -15,10 +15,8 @@ class VertexTripletsLearningState final : public LearningState {
                               const LearningContext& context);
 
   void absorb(const PathLog& log) override;
-  std::shared_ptr<const GuidingModel> update(std::uint32_t iteration, bool last) override;
-  void save(std::ostream& out) const override;
-  void load(std::istream& in) override;
-  void merge(const LearningState& other) override;
+  Learned update(std::uint32_t iteration, bool last) override;
+  void archive(Archive& archive) override;
 
  private:
   /// What is kept in a cell.
@@ -26,6 +24,8 @@ class VertexTripletsLearningState final : public LearningState {
     Reservoir reservoir;
     double count = 0;          ///< of samples since the last update
     std::uint32_t origin = 0;  ///< cell of the last model that it was, or the first of several
+
+    void archive(Archive& archive) { archive(reservoir, count, origin); }
   };
 
   /// Puts the samples that wait into their cells' reservoirs.
@@ -34,9 +34,8 @@ class VertexTripletsLearningState final : public LearningState {
   std::vector<double> counts() const;
   void collapse(double threshold);
   void divide(double threshold);
-  std::shared_ptr<const GuidingModel> fit() const;
+  Learned fit() const;
   std::uint64_t sample_bytes() const;
-  Cell load_cell(std::istream& in) const;
 
   VertexTripletsSettings settings_;
   FitRule rule_;
@@ -44,7 +43,6 @@ class VertexTripletsLearningState final : public LearningState {
   Octree tree_;
   std::vector<Cell> cells_;
   std::uint64_t lessons_ = 0;    ///< calls of insert()
-  bool learned_early_ = false;   ///< from samples of this iteration, before its end
   std::vector<Sample> samples_;  ///< that wait
   std::vector<Rgb> incident_;    ///< scratch
 };

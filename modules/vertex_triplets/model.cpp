@@ -5,41 +5,10 @@
 
 #include <fmt/format.h>
 
-#include <pharos/core/binary_stream.h>
 #include <pharos/guiding/toolkit/seen_gaussian.h>
-
-#include "sample.h"
 
 namespace pharos::vertex_triplets {
 namespace {
-
-void expect(bool holds) {
-  if (!holds) throw InputError("the model of vertex triplets is damaged");
-}
-
-template <int P>
-void save_runs(const std::vector<typename ConditionalMixtures<P>::Run>& runs, std::ostream& out) {
-  save_number(out, static_cast<std::uint32_t>(runs.size()));
-  for (const auto& run : runs) {
-    save_mode(run.mode, out);
-    save_number(out, static_cast<std::uint32_t>(run.components.size()));
-    for (const Component<P>& component : run.components) component.save(out);
-  }
-}
-
-template <int P>
-std::vector<typename ConditionalMixtures<P>::Run> load_runs(std::istream& in) {
-  std::vector<typename ConditionalMixtures<P>::Run> runs;
-  for (auto count = load_number<std::uint32_t>(in); count > 0; --count) {
-    auto& run = runs.emplace_back();
-    run.mode = load_mode(in);
-    for (auto left = load_number<std::uint32_t>(in); left > 0; --left) {
-      run.components.push_back(Component<P>::load(in));
-    }
-    expect(!run.components.empty());
-  }
-  return runs;
-}
 
 std::vector<ConditionalMixtures<6>::Run> reversed_runs(
     std::vector<ConditionalMixtures<6>::Run> runs) {
@@ -58,13 +27,8 @@ std::string mebibytes(double bytes) {
 
 VertexTripletsModel::VertexTripletsModel(const ModelKind& kind, Octree tree,
                                          const std::vector<CellKnowledge>& cells,
-                                         CameraMixture camera, std::vector<std::uint32_t> origins,
-                                         std::uint64_t sample_bytes)
-    : kind_(kind),
-      tree_(std::move(tree)),
-      camera_(std::move(camera)),
-      origins_(std::move(origins)),
-      sample_bytes_(sample_bytes) {
+                                         CameraMixture camera, std::uint64_t sample_bytes)
+    : kind_(kind), tree_(std::move(tree)), camera_(std::move(camera)), sample_bytes_(sample_bytes) {
   for (std::uint32_t i = 0; i < tree_.cell_count(); ++i) {
     const Point3 center = tree_.cube(i).center;
     shares_.push_back(cells[i].share);
@@ -74,47 +38,33 @@ VertexTripletsModel::VertexTripletsModel(const ModelKind& kind, Octree tree,
   }
 }
 
-VertexTripletsModel::VertexTripletsModel(std::istream& in) {
-  expect_heading(in, kName, kVersion);
-  const auto pairs = load_number<std::uint8_t>(in), both_ways = load_number<std::uint8_t>(in);
-  expect(pairs <= 1 && both_ways <= 1 && pairs + both_ways <= 1);
-  const ModelKind kind{.prefix = pairs != 0 ? Prefix::pair : Prefix::triplet,
-                       .both_ways = both_ways != 0,
-                       .environment = {load_finite<float>(in)}};
-  expect(kind.environment.radius > 0);
-  const auto sample_bytes = load_number<std::uint64_t>(in);
-  Octree tree = Octree::load(in);
-  std::vector<CellKnowledge> cells(tree.cell_count());
-  for (CellKnowledge& cell : cells) {
-    cell.share = load_finite<float>(in);
-    expect(cell.share >= 0);
-    if (pairs != 0) {
-      cell.pairs = load_runs<3>(in);
-    } else {
-      cell.triplets = load_runs<6>(in);
-    }
-  }
-  CameraMixture camera = CameraMixture::load(in);
-  *this = VertexTripletsModel(kind, std::move(tree), cells, std::move(camera), {}, sample_bytes);
+void ModelKind::archive(Archive& archive) {
+  archive(prefix, both_ways, environment.radius);
+  archive.expect((prefix == Prefix::triplet || (prefix == Prefix::pair && !both_ways)) &&
+                     environment.radius > 0,
+                 "the model of vertex triplets");
 }
 
-void VertexTripletsModel::save(std::ostream& out) const {
-  save_heading(out, kName, kVersion);
-  const bool pairs = kind_.prefix == Prefix::pair;
-  save_number(out, static_cast<std::uint8_t>(pairs));
-  save_number(out, static_cast<std::uint8_t>(kind_.both_ways));
-  save_number(out, kind_.environment.radius);
-  save_number(out, sample_bytes_);
-  tree_.save(out);
-  for (std::uint32_t cell = 0; cell < tree_.cell_count(); ++cell) {
-    save_number(out, shares_[cell]);
-    if (pairs) {
-      save_runs<3>(pairs_.runs(cell), out);
-    } else {
-      save_runs<6>(triplets_.runs(cell), out);
-    }
+void VertexTripletsModel::archive(Archive& archive) {
+  std::vector<CellKnowledge> cells;
+  for (std::uint32_t i = 0; !archive.loads() && i < tree_.cell_count(); ++i) {
+    cells.push_back({shares_[i], pairs_.runs(i), triplets_.runs(i)});
   }
-  camera_.save(out);
+  archive(kind_, sample_bytes_, tree_, cells, camera_);
+  if (!archive.loads()) return;
+  bool is_sound = cells.size() == tree_.cell_count();
+  for (const CellKnowledge& cell : cells) {
+    is_sound &= kind_.prefix == Prefix::pair ? cell.triplets.empty() : cell.pairs.empty();
+  }
+  archive.expect(is_sound, "the model of vertex triplets");
+  *this = VertexTripletsModel(kind_, std::move(tree_), cells, std::move(camera_), sample_bytes_);
+}
+
+Place VertexTripletsModel::place(const GuidingVertex& vertex) const {
+  if (vertex.kind == VertexKind::sensor) return {.evidence = camera_.empty() ? 0.0f : 1.0f};
+  const std::uint32_t cell = tree_.cell_at(vertex.position);
+  const bool is_known = pairs_.knows_something(cell) || triplets_.knows_something(cell);
+  return {cell, is_known ? 1.0f : 0.0f};
 }
 
 std::size_t VertexTripletsModel::size_bytes() const {
@@ -123,14 +73,24 @@ std::size_t VertexTripletsModel::size_bytes() const {
          shares_.size() * (sizeof(float) + sizeof(std::uint32_t));
 }
 
-std::vector<ModelFact> VertexTripletsModel::facts() const {
-  return {{"vertices", kind_.prefix == Prefix::pair ? "pairs"
-                       : kind_.both_ways            ? "triplets, both ways"
-                                                    : "triplets"},
-          {"cells", fmt::format("{}, {} levels", tree_.cell_count(), tree_.depth())},
-          {"components", fmt::format("{}, {} at the camera", component_count(), camera_.size())},
-          {"guiding", mebibytes(static_cast<double>(size_bytes()))},
-          {"samples", mebibytes(static_cast<double>(sample_bytes_))}};
+ModelInfo VertexTripletsModel::info() const {
+  const std::size_t bytes = size_bytes();
+  return {.name = std::string(kName),
+          .version = 2,
+          .bytes = bytes,
+          .regions = tree_.cell_count(),
+          .facts = {{"vertices", kind_.prefix == Prefix::pair ? "pairs"
+                                 : kind_.both_ways            ? "triplets, both ways"
+                                                              : "triplets"},
+                    {"cells", fmt::format("{}, {} levels", tree_.cell_count(), tree_.depth())},
+                    {"components",
+                     fmt::format("{}, {} at the camera", component_count(), camera_.size())},
+                    {"guiding", mebibytes(static_cast<double>(bytes))},
+                    {"samples", mebibytes(static_cast<double>(sample_bytes_))}}};
+}
+
+double VertexTripletsModel::density(Point3 point, const Vec3* direction) const {
+  return direction == nullptr ? density_of_points(point) : density_of_directions(point, *direction);
 }
 
 std::span<const NextVertex> VertexTripletsModel::next_vertices(const GuidingQuery& query,
@@ -146,18 +106,18 @@ std::span<const NextVertex> VertexTripletsModel::next_vertices(const GuidingQuer
                           .current = current,
                           .previous_kind = query.previous->kind,
                           .events = events};
-  const std::uint32_t cell = tree_.cell_at(current);
+  const std::uint32_t cell = query.region;
   if (kind_.prefix == Prefix::pair) return pairs_.given(cell, prefix, arena);
   return (from_lights ? reversed_ : triplets_).given(cell, prefix, arena);
 }
 
-SpatialMixture::View VertexTripletsModel::mixture_at(const GuidingQuery& query,
-                                                     Arena& arena) const {
+std::span<const SpatialGaussian> VertexTripletsModel::mixture_at(const GuidingQuery& query,
+                                                                 Arena& arena) const {
   const std::span<const NextVertex> next =
-      next_vertices(query, query.scattering.events() & EventMask::smooth, arena);
+      next_vertices(query, query.scattering->events() & EventMask::smooth, arena);
   SpatialGaussian* components = arena.make_array<SpatialGaussian>(next.size());
   for (std::size_t i = 0; i < next.size(); ++i) components[i] = next[i].gaussian;
-  return {{components, next.size()}, region_at(query.current.position)};
+  return {components, next.size()};
 }
 
 template <class Visit>
@@ -179,7 +139,7 @@ void VertexTripletsModel::for_each_pair(std::uint32_t cell, Visit&& visit) const
   show(triplets_.runs(cell));
 }
 
-double VertexTripletsModel::density(Point3 point) const {
+double VertexTripletsModel::density_of_points(Point3 point) const {
   const std::uint32_t cell = tree_.cell_at(point);
   const Vec3 offset = point - tree_.cube(cell).center;
   const statistics::Vector<3> x(offset.x, offset.y, offset.z);
@@ -193,7 +153,7 @@ double VertexTripletsModel::density(Point3 point) const {
   return shares_[cell] * total;
 }
 
-double VertexTripletsModel::density(Point3 point, Vec3 direction) const {
+double VertexTripletsModel::density_of_directions(Point3 point, Vec3 direction) const {
   const std::uint32_t cell = tree_.cell_at(point);
   const Point3 center = tree_.cube(cell).center;
   const Vec3 offset = point - center;

@@ -1,10 +1,8 @@
 #pragma once
 
-#include <iosfwd>
 #include <span>
 #include <vector>
 
-#include <pharos/guiding/contract/guider.h>
 #include <pharos/guiding/contract/model.h>
 #include <pharos/guiding/contract/spatial_mixture.h>
 
@@ -20,6 +18,11 @@ struct CellKnowledge {
   // Of one prefix; the other is empty.
   std::vector<ConditionalMixtures<3>::Run> pairs;
   std::vector<ConditionalMixtures<6>::Run> triplets;
+
+  void archive(Archive& archive) {
+    archive(share, pairs, triplets);
+    archive.expect(share >= 0, "the model of vertex triplets");
+  }
 };
 
 /// Which vertices a model is about.
@@ -27,38 +30,33 @@ struct ModelKind {
   Prefix prefix = Prefix::triplet;
   bool both_ways = false;  ///< paths from lights are guided too; triplets only
   EnvironmentShell environment;
+
+  void archive(Archive& archive);
 };
 
 /// A mixture of vertex triplets, or pairs, in each cell of an octree, and one of first vertices at
 /// the camera (Schuessler et al. 2022, sections 3 and 4).
 class VertexTripletsModel final : public GuidingModel, public SpatialMixture {
  public:
-  static constexpr const char* kName = "vertex_triplets";
-  static constexpr std::uint32_t kVersion = 1;
+  static constexpr std::string_view kName = "vertex_triplets";
 
-  /// `cells` by their numbers in the tree, `origins` as for region_origins(). `sample_bytes` is the
-  /// memory of the samples that it was learned from.
+  VertexTripletsModel() : VertexTripletsModel({}, Octree{Cube{}}, {{}}, {}, 0) {}
+  /// `cells` are in the order of their numbers in the tree. `sample_bytes` is the memory of the
+  /// samples that the model was learned from.
   VertexTripletsModel(const ModelKind& kind, Octree tree, const std::vector<CellKnowledge>& cells,
-                      CameraMixture camera, std::vector<std::uint32_t> origins,
-                      std::uint64_t sample_bytes);
-  /// What save() wrote. Throws InputError when it is something else or damaged.
-  explicit VertexTripletsModel(std::istream& in);
+                      CameraMixture camera, std::uint64_t sample_bytes);
 
-  std::string name() const override { return kName; }
-  std::uint32_t version() const override { return kVersion; }
-  std::size_t size_bytes() const override;
-  void save(std::ostream& out) const override;
-  std::uint32_t region_count() const override { return tree_.cell_count(); }
-  std::vector<std::uint32_t> region_origins() const override { return origins_; }
-  std::vector<ModelFact> facts() const override;
-  double density(Point3 point) const override;
-  double density(Point3 point, Vec3 direction) const override;
-  View mixture_at(const GuidingQuery& query, Arena& arena) const override;
+  ModelInfo info() const override;
+  void archive(Archive& archive) override;
+  /// Regions are the cells; first vertices, on the lens, belong to region 0.
+  Place place(const GuidingVertex& vertex) const override;
+  double density(Point3 point, const Vec3* direction) const override;
+  std::span<const SpatialGaussian> mixture_at(const GuidingQuery& query,
+                                              Arena& arena) const override;
 
   /// Where paths go on to from a vertex, for events among `events`. Empty: nothing is known.
   std::span<const NextVertex> next_vertices(const GuidingQuery& query, EventMask events,
                                             Arena& arena) const;
-  std::uint32_t region_at(Point3 point) const { return tree_.cell_at(point); }
   const CameraMixture& camera() const { return camera_; }
   const ModelKind& kind() const { return kind_; }
   std::size_t component_count() const {
@@ -73,14 +71,17 @@ class VertexTripletsModel final : public GuidingModel, public SpatialMixture {
   template <class Visit>
   void for_each_pair(std::uint32_t cell, Visit&& visit) const;
 
+  double density_of_points(Point3 point) const;
+  double density_of_directions(Point3 point, Vec3 direction) const;
+  std::size_t size_bytes() const;
+
   ModelKind kind_;
-  Octree tree_{Cube{}};
+  Octree tree_;
   std::vector<float> shares_;  ///< of cells
   ConditionalMixtures<3> pairs_{ConditionalMixtures<3>::Direction::from_sensor};
   ConditionalMixtures<6> triplets_{ConditionalMixtures<6>::Direction::from_sensor};
   ConditionalMixtures<6> reversed_{ConditionalMixtures<6>::Direction::from_lights};
   CameraMixture camera_;
-  std::vector<std::uint32_t> origins_;
   std::uint64_t sample_bytes_ = 0;
 };
 

@@ -5,8 +5,8 @@
 
 PHAROS_MODULE(registry) {
   using namespace pharos::vertex_triplets;
-  registry.add<VertexTripletsLearner>("vertex_triplets",
-                                      "Mixtures of 9D Gaussians over three vertices of a path");
-  registry.add<VertexTripletsGuider>("vertex_triplets",
-                                     "Next vertices by where the path comes from, and first ones");
+  registry.add<VertexTripletsLearner>(
+      "vertex_triplets", "Mixtures of 9D Gaussians over three consecutive vertices of a path");
+  registry.add<VertexTripletsGuider>(
+      "vertex_triplets", "Next vertices given the last two, and first vertices at the camera");
 }

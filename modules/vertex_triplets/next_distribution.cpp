@@ -8,8 +8,8 @@
 namespace pharos::vertex_triplets {
 namespace {
 
-/// P_BSDF (eq. 22 and 23) of smooth events. No roughness at all is that of discrete events, which
-/// tells nothing of the smooth ones beside them.
+/// Returns P_BSDF (eq. 22 and 23) for smooth events. Roughness 0 belongs to discrete events and
+/// does not concern smooth events at the same vertex.
 float scattering_share(const LocalScattering& scattering, float specular_roughness) {
   const float roughness = std::sqrt(scattering.roughness());
   return roughness > 0 ? std::max(0.0f, 1 - roughness / specular_roughness) : 0.0f;
@@ -25,8 +25,7 @@ TargetMask mask_of(VertexKind kind) {
 
 const NextDistribution* NextDistribution::make(std::span<const NextVertex> vertices,
                                                const LocalScattering& scattering, Point3 origin,
-                                               const StepRules& rules, float least,
-                                               std::uint32_t region, Arena& arena) {
+                                               const StepRules& rules, float least, Arena& arena) {
   Branch* branches = arena.make_array<Branch>(vertices.size());
   std::size_t count = 0;
   float total = 0;
@@ -45,18 +44,17 @@ const NextDistribution* NextDistribution::make(std::span<const NextVertex> verti
   if (count == 0) return nullptr;
   for (std::size_t i = 0; i < count; ++i) branches[i].vertex.gaussian.weight /= total;
   return arena.make<NextDistribution>(std::span<const Branch>(branches, count), scattering, origin,
-                                      rules, region);
+                                      rules);
 }
 
 NextDistribution::NextDistribution(std::span<const Branch> branches,
                                    const LocalScattering& scattering, Point3 origin,
-                                   const StepRules& rules, std::uint32_t region)
+                                   const StepRules& rules)
     : branches_(branches),
       scattering_(scattering),
       origin_(origin),
       technique_(rules.technique),
-      by_scattering_(scattering_share(scattering, rules.specular_roughness)),
-      region_(region) {}
+      by_scattering_(scattering_share(scattering, rules.specular_roughness)) {}
 
 Vec3 NextDistribution::direction_to(const Branch& branch, Vec2 u, float v) const {
   const SpatialGaussian& g = branch.vertex.gaussian;
@@ -147,7 +145,7 @@ float NextDistribution::density(const Branch& branch, const ResolvedVertex& vert
   return density;
 }
 
-Density NextDistribution::density(const ResolvedVertex& vertex) const {
+float NextDistribution::density(const ResolvedVertex& vertex) const {
   const bool discrete = is_discrete(vertex.event);
   const float scattering_pdf =
       discrete ? 1.0f
@@ -159,7 +157,7 @@ Density NextDistribution::density(const ResolvedVertex& vertex) const {
     if (branch.vertex.event != vertex.event || branch.vertex.kind != vertex.kind) continue;
     total += branch.vertex.gaussian.weight * density(branch, vertex, scattering_pdf);
   }
-  return {total, measure_of(vertex.event, vertex.kind)};
+  return total;
 }
 
 }  // namespace pharos::vertex_triplets

@@ -14,56 +14,59 @@
 
 namespace pharos::vertex_triplets {
 
-/// How directions to surfaces are made from Gaussians.
+/// How a Gaussian becomes a distribution of directions to surfaces.
 enum class SurfaceTechnique {
-  projected,  ///< projected on a plane (Schuessler et al. 2022, section 5.2)
-  p0,         ///< to points of the whole Gaussian (Lelyakin et al. 2025, eq. 2)
-  p1          ///< the same, turned to the side of the mean (eq. 3)
+  projected,  ///< the Gaussian is projected on a plane (Schuessler et al. 2022, section 5.2)
+  p0,         ///< directions to points of the whole Gaussian (Lelyakin et al. 2025, eq. 2)
+  p1          ///< the same, flipped to the side of the mean (eq. 3)
 };
 
 /// How the next vertex is sampled.
 struct StepRules {
   SurfaceTechnique technique = SurfaceTechnique::projected;
-  /// Below this roughness, a square root of GGX alpha or of 1 - |g|, directions are more and more
-  /// left to BSDF and phase function (eq. 22, 23); above 0.
+  /// r_max > 0: the lower the roughness r is below this value, the more often the BSDF or phase
+  /// function samples the direction (eq. 22, 23). r is the square root of the GGX alpha or of
+  /// 1 - |g|.
   float specular_roughness = 0.2f;
 };
 
-/// Where paths go on to from one vertex, by a mixture of truncated Gaussians of the next one. For
-/// each component: with a probability that depends on the roughness (eq. 23) a direction by the
-/// BSDF or phase function, given the component's event, and in media a distance by the Gaussian
-/// along it; else a point of the Gaussian, or its direction.
+/// The guiding distribution at one vertex: a mixture of truncated Gaussians of the next vertex.
+/// After the choice of a component, the BSDF or phase function samples a direction with a
+/// probability that depends on the roughness (eq. 23), given the component's event; in media, the
+/// Gaussian along this direction then samples the distance. Otherwise a point of the Gaussian, or
+/// its direction, is sampled.
 class NextDistribution final : public GuidingDistribution {
  public:
-  /// A component with what its density needs.
+  /// A component with precomputed values for its density.
   struct Branch {
     NextVertex vertex;
     Projection projection;  ///< of components on surfaces, for `projected`
   };
 
-  /// Lives in `arena`; null when no component can be sampled. Components nearer than `least`
-  /// [scene units] have no direction for `projected`.
+  /// Makes the distribution in `arena`. Returns null if no component can be sampled. For
+  /// `projected`, components whose mean is nearer than `least` [scene units] are left out.
   static const NextDistribution* make(std::span<const NextVertex> vertices,
                                       const LocalScattering& scattering, Point3 origin,
-                                      const StepRules& rules, float least, std::uint32_t region,
-                                      Arena& arena);
+                                      const StepRules& rules, float least, Arena& arena);
 
   NextDistribution(std::span<const Branch> branches, const LocalScattering& scattering,
-                   Point3 origin, const StepRules& rules, std::uint32_t region);
+                   Point3 origin, const StepRules& rules);
 
   std::optional<Proposal> propose(const VertexStream& stream) const override;
-  Density density(const ResolvedVertex& vertex) const override;
-  std::uint32_t region() const override { return region_; }
+  float density(const ResolvedVertex& vertex) const override;
 
  private:
-  /// A direction to a component's points [1/sr].
+  /// Samples a vector to a point of a component. It is not normalized; in media its length is the
+  /// distance.
   Vec3 direction_to(const Branch& branch, Vec2 u, float v) const;
+  /// Returns the density of direction_to() for a component on surfaces or the environment [1/sr].
   float direction_density(const Branch& branch, Vec3 direction) const;
-  /// A direction of BSDF or phase function by the event; zero if there is none.
+  /// Samples a direction of the BSDF or phase function for the event; returns zero if there is
+  /// none.
   Vec3 scattered_direction(Event event, const VertexStream& stream) const;
-  /// The density of a component's own share, in the measure of the vertex.
+  /// Returns the density of one component, in the measure of the vertex.
   float density(const Branch& branch, const ResolvedVertex& vertex, float scattering_pdf) const;
-  /// The probability that directions are left to BSDF or phase function (eq. 23).
+  /// Returns the probability that the BSDF or phase function samples the direction (eq. 23).
   float by_scattering(Event event) const { return is_discrete(event) ? 1.0f : by_scattering_; }
 
   std::span<const Branch> branches_;
@@ -71,7 +74,6 @@ class NextDistribution final : public GuidingDistribution {
   Point3 origin_;
   SurfaceTechnique technique_;
   float by_scattering_;  ///< for smooth events
-  std::uint32_t region_;
 };
 
 }  // namespace pharos::vertex_triplets

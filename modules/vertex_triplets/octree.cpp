@@ -4,8 +4,6 @@
 #include <cmath>
 #include <functional>
 
-#include <pharos/core/binary_stream.h>
-
 namespace pharos::vertex_triplets {
 
 Cube Cube::part(unsigned c) const {
@@ -81,7 +79,7 @@ Octree Octree::changed(ChangeOf&& change_of, Origins& origins) const {
 }
 
 Octree::Origins Octree::collapse(std::span<const double> counts, double threshold) {
-  // Parts follow their parents: one pass from the end on knows the sum of every node.
+  // Parts are stored after their parents, so one pass from the end computes the sum of every node.
   std::vector<double> sums(nodes_.size(), 0);
   for (std::size_t n = nodes_.size(); n-- > 0;) {
     if (nodes_[n].is_cell()) {
@@ -109,28 +107,21 @@ Octree::Origins Octree::divide(std::span<const double> counts, double threshold)
   return origins;
 }
 
-void Octree::save(std::ostream& out) const {
-  for (int axis = 0; axis < 3; ++axis) save_number(out, cubes_[0].center[axis]);
-  save_number(out, cubes_[0].size);
-  save_number(out, static_cast<std::uint32_t>(nodes_.size()));
-  for (const Node node : nodes_) save_number(out, static_cast<std::uint8_t>(node.is_cell()));
-}
-
-Octree Octree::load(std::istream& in) {
-  Cube cube;
-  for (int axis = 0; axis < 3; ++axis) cube.center[axis] = load_finite<float>(in);
-  cube.size = load_finite<float>(in);
-  const auto count = load_number<std::uint32_t>(in);
-  constexpr std::uint32_t kMostNodes = 1u << 26;
-  if (!(cube.size > 0) || count > kMostNodes) throw InputError("the octree is damaged");
-  // Nodes stand in the order in which copy() makes them: depth first, parts side by side.
-  std::vector<bool> is_cell;
-  for (std::uint32_t n = 0; n < count; ++n) is_cell.push_back(load_number<std::uint8_t>(in) != 0);
+void Octree::archive(Archive& archive) {
+  // Nodes stand in the order in which copy() makes them: depth first, parts side by side. So it is
+  // enough to know which of them are cells.
+  Cube cube = cubes_[0];
+  std::vector<std::uint8_t> is_cell;
+  for (const Node node : nodes_) is_cell.push_back(node.is_cell() ? 1 : 0);
+  archive(cube, is_cell);
+  if (!archive.loads()) return;
+  const auto expect = [&](bool holds) { archive.expect(holds, "the octree"); };
+  expect(cube.size > 0);
   Octree tree(cube);
   tree.cells_.clear();
   const std::function<void(std::uint32_t, int)> fill = [&](std::uint32_t node, int level) {
-    if (node >= is_cell.size() || level > kMostLevels) throw InputError("the octree is damaged");
-    if (is_cell[node]) {
+    expect(node < is_cell.size() && level <= kMostLevels);
+    if (is_cell[node] != 0) {
       tree.make_cell(node);
       return;
     }
@@ -138,8 +129,8 @@ Octree Octree::load(std::istream& in) {
     for (unsigned c = 0; c < 8; ++c) fill(first + c, level + 1);
   };
   fill(0, 0);
-  if (tree.nodes_.size() != count) throw InputError("the octree is damaged");
-  return tree;
+  expect(tree.nodes_.size() == is_cell.size());
+  *this = std::move(tree);
 }
 
 }  // namespace pharos::vertex_triplets

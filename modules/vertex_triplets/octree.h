@@ -2,10 +2,10 @@
 
 #include <array>
 #include <cstdint>
-#include <iosfwd>
 #include <span>
 #include <vector>
 
+#include <pharos/core/archive.h>
 #include <pharos/core/vec.h>
 
 namespace pharos::vertex_triplets {
@@ -13,23 +13,25 @@ namespace pharos::vertex_triplets {
 /// A cube [scene units].
 struct Cube {
   Point3 center;
-  float size = 1;  ///< of an edge
+  float size = 1;  ///< length of an edge
+
+  void archive(Archive& archive) { archive(center, size); }
 
   /// The part `c` of its eight: bit d of `c` is set in the upper half along axis d.
   Cube part(unsigned c) const;
   friend bool operator==(const Cube&, const Cube&) = default;
 };
 
-/// A cube divided into cubic cells, each into eight or none. What is outside belongs to the cell
-/// that is nearest along the axes.
+/// A cube divided into cubic cells; each node has eight parts or none. Points outside of the cube
+/// belong to the cell that is nearest along the axes.
 class Octree {
  public:
   static constexpr int kMostLevels = 20;
 
-  /// One cell.
+  /// Makes a tree of one cell.
   explicit Octree(const Cube& cube) : cubes_{cube} {}
 
-  /// The number of the cell around a point: below cell_count().
+  /// Returns the number of the cell around a point, below cell_count().
   std::uint32_t cell_at(Point3 p) const {
     const Node* node = &nodes_[0];
     Point3 center = cubes_[0].center;
@@ -47,30 +49,28 @@ class Octree {
     return node->index();
   }
   std::uint32_t cell_count() const { return static_cast<std::uint32_t>(cells_.size()); }
-  /// The cube of a cell.
+  /// Returns the cube of a cell.
   const Cube& cube(std::uint32_t cell) const { return cubes_[cells_[cell]]; }
-  /// Divisions above the deepest cell.
+  /// Returns the number of divisions above the deepest cell.
   int depth() const;
   std::size_t size_bytes() const;
 
-  /// Of each cell the cells that it was before a change: several that became one, or one whose part
-  /// it is.
+  /// For each cell after a change, the cells before the change that it comes from: several if they
+  /// were joined, otherwise the one that it is, or is a part of.
   using Origins = std::vector<std::vector<std::uint32_t>>;
 
   /// Makes one cell of each cube whose cells' counts add up to less than `threshold`, the largest
-  /// such cubes first. `counts` by cell.
+  /// such cubes first. `counts` has one value for each cell.
   Origins collapse(std::span<const double> counts, double threshold);
   /// Divides each cell whose count is above `threshold`, once.
   Origins divide(std::span<const double> counts, double threshold);
 
-  void save(std::ostream& out) const;
-  /// Throws InputError when it is no such tree or damaged.
-  static Octree load(std::istream& in);
+  void archive(Archive& archive);
 
   friend bool operator==(const Octree&, const Octree&) = default;
 
  private:
-  /// Eight parts, by the index of the first, or a cell by its number.
+  /// An inner node with the index of the first of its eight parts, or a cell with its number.
   struct Node {
     bool is_cell() const { return (word & 1) != 0; }
     std::uint32_t index() const { return word >> 1; }
@@ -79,24 +79,25 @@ class Octree {
     std::uint32_t word;
     friend bool operator==(const Node&, const Node&) = default;
   };
-  /// What a copy of the tree makes of a node of this one.
+  /// The change of a node when the tree is copied.
   enum class Change { keep, join, divide };
 
-  /// This tree after changes; `change_of(node, level)` says which. Fills `origins`.
+  /// Returns the tree after the changes that `change_of(node, level)` returns. Fills `origins`.
   template <class ChangeOf>
   Octree changed(ChangeOf&& change_of, Origins& origins) const;
   template <class ChangeOf>
   void copy(std::uint32_t from, std::uint32_t to, int level, ChangeOf& change_of, Octree& result,
             Origins& origins) const;
-  /// The cells below a node.
+  /// Appends the numbers of the cells below a node.
   void collect(std::uint32_t node, std::vector<std::uint32_t>& cells) const;
-  /// Makes inner nodes and cells of a node of this tree.
+  /// Makes a node an inner node with eight new parts; returns the index of the first one.
   std::uint32_t add_parts(std::uint32_t node);
+  /// Makes a node the next cell.
   void make_cell(std::uint32_t node);
 
   std::vector<Node> nodes_{Node::cell(0)};  ///< parts follow their parents
   std::vector<Cube> cubes_;                 ///< of nodes
-  std::vector<std::uint32_t> cells_{0};     ///< their nodes
+  std::vector<std::uint32_t> cells_{0};     ///< the node of each cell
 };
 
 }  // namespace pharos::vertex_triplets

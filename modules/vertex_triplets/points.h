@@ -12,8 +12,8 @@ namespace pharos::vertex_triplets {
 using statistics::Matrix;
 using statistics::Vector;
 
-/// Points with weights > 0, coordinate by coordinate in registers of eight; what fills the last one
-/// has weight 0.
+/// Points with weights > 0, stored by coordinate in registers of eight. Unused lanes of the last
+/// register have weight 0.
 template <int D>
 class Points {
  public:
@@ -21,7 +21,7 @@ class Points {
     const std::size_t lane = size_ % 8;
     if (lane == 0) {
       registers_.emplace_back();
-      // Not zero but a point: its density is as harmless as the others'.
+      // Fills unused lanes with a point, not with zero, so that their densities are harmless.
       for (int axis = 0; axis < D; ++axis) registers_.back().x[axis] = all8(x[axis]);
     }
     for (int axis = 0; axis < D; ++axis) registers_.back().x[axis][lane] = x[axis];
@@ -68,22 +68,23 @@ struct Sums {
     second -= other.second;
     return *this;
   }
-  /// The effective number of points (Kish 1965; Schuessler et al. 2022, eq. 43); weight > 0.
+  /// Returns the effective number of points (Kish 1965; Schuessler et al. 2022, eq. 43). Requires
+  /// weight > 0.
   double count() const { return weight * weight / squared_weight; }
-  /// From the origin to the mean; weight > 0.
+  /// Returns the vector from the origin to the mean. Requires weight > 0.
   Vector<D> offset() const { return first / weight; }
-  /// About the mean; weight > 0.
+  /// Returns the covariance about the mean. Requires weight > 0.
   Matrix<D> covariance() const { return second / weight - offset() * offset().transpose(); }
 };
 
-/// The same in eight streams of points side by side.
+/// The same sums for eight streams of points side by side.
 template <int D>
 struct Sums8 {
   Float8 weight{}, squared_weight{};
   std::array<Float8, D> first{};
   std::array<Float8, Sums<D>::kPairs> second{};
 
-  /// A point in each lane at `d` from the origin.
+  /// Adds a point in each lane, at `d` from the origin.
   void add(const Float8& v, const std::array<Float8, D>& d) {
     weight += v;
     squared_weight += v * v;

@@ -4,8 +4,6 @@
 #include <bit>
 #include <cmath>
 
-#include <pharos/core/binary_stream.h>
-
 namespace pharos::vertex_triplets {
 namespace {
 
@@ -26,17 +24,16 @@ class Extraction {
     const RecordedVertex& here = path_.vertices[i];
     const Rgb value = here.throughput * here.local_weight * incident;
     if (here.parent == kNoVertex || is_black(value)) return;
-    const auto next = std::find_if(path_.vertices.begin() + i + 1, path_.vertices.end(),
-                                   [&](const RecordedVertex& v) { return v.parent == i; });
-    if (next == path_.vertices.end()) return;
-    add(here, here.event, outer(here.position, here.direction, *next), value);
+    if (here.next == kNoVertex) return;
+    const RecordedVertex& next = path_.vertices[here.next];
+    add(here, here.event, outer(here.position, here.direction, next.position, next.kind), value);
   }
 
   /// Light, or the lens, as it was found from a vertex.
   void add_connection(const RecordedLightSample& found) {
     const RecordedVertex& here = path_.vertices[found.vertex];
     if (here.parent == kNoVertex) return;
-    Outer end = outer(here.position, found.direction, found.light);
+    Outer end = outer(here.position, found.direction, found.position, found.kind);
     // Which no step can meet: of use to first vertices, and to paths from there.
     if (found.discrete) end.kind = VertexKind::light;
     add(here, found.event, end, here.throughput * contribution(found));
@@ -47,14 +44,14 @@ class Extraction {
   }
 
  private:
-  Outer outer(Point3 from, Vec3 direction, const RecordedVertex& vertex) const {
-    const bool is_environment = vertex.kind == VertexKind::environment;
-    return {is_environment ? rule_.environment.at(from, direction) : vertex.position, vertex.kind};
+  Outer outer(Point3 from, Vec3 direction, Point3 position, VertexKind kind) const {
+    const bool is_environment = kind == VertexKind::environment;
+    return {is_environment ? rule_.environment.at(from, direction) : position, kind};
   }
 
   void add(const RecordedVertex& here, Event event, const Outer& next, Rgb value) {
     const RecordedVertex& parent = path_.vertices[here.parent];
-    const Outer previous = outer(here.position, -parent.direction, parent);
+    const Outer previous = outer(here.position, -parent.direction, parent.position, parent.kind);
     const bool from_sensor = path_.transport == Transport::radiance;
     const Outer& before = from_sensor ? previous : next;
     const Outer& after = from_sensor ? next : previous;
@@ -82,50 +79,17 @@ void extract_samples(const PathView& path, const SampleRule& rule, std::vector<R
   for (const RecordedLightSample& found : path.light_samples) extraction.add_connection(found);
 }
 
-void save_mode(const Mode& mode, std::ostream& out) {
-  save_number(out, static_cast<std::uint8_t>(mode.before));
-  save_number(out, static_cast<std::uint8_t>(mode.event));
-  save_number(out, static_cast<std::uint8_t>(mode.after));
+void Mode::archive(Archive& archive) {
+  archive(before, event, after);
+  const bool is_event =
+      std::has_single_bit(static_cast<std::uint8_t>(event)) && contains(EventMask::all, event);
+  archive.expect(before <= VertexKind::light && after <= VertexKind::light && is_event,
+                 "a mode of vertex triplets");
 }
 
-Mode load_mode(std::istream& in) {
-  const auto before = load_number<std::uint8_t>(in), event = load_number<std::uint8_t>(in),
-             after = load_number<std::uint8_t>(in);
-  constexpr auto kLast = static_cast<std::uint8_t>(VertexKind::light);
-  const bool is_event = std::has_single_bit(event) && contains(EventMask::all, Event{event});
-  if (before > kLast || after > kLast || !is_event) {
-    throw InputError("a mode of vertex triplets is damaged");
-  }
-  return {VertexKind{before}, Event{event}, VertexKind{after}};
-}
-
-void save_triplet(const Triplet& triplet, std::ostream& out) {
-  for (const Point3 p : triplet.vertices) {
-    for (int axis = 0; axis < 3; ++axis) save_number(out, p[axis]);
-  }
-  save_mode(triplet.mode, out);
-}
-
-Triplet load_triplet(std::istream& in) {
-  Triplet triplet;
-  for (Point3& p : triplet.vertices) {
-    for (int axis = 0; axis < 3; ++axis) p[axis] = load_finite<float>(in);
-  }
-  triplet.mode = load_mode(in);
-  return triplet;
-}
-
-void Sample::save(std::ostream& out) const {
-  save_triplet(triplet, out);
-  save_number(out, weight);
-}
-
-Sample Sample::load(std::istream& in) {
-  Sample sample;
-  sample.triplet = load_triplet(in);
-  sample.weight = load_finite<float>(in);
-  if (!(sample.weight > 0)) throw InputError("a sample of vertex triplets is damaged");
-  return sample;
+void Sample::archive(Archive& archive) {
+  archive(triplet, weight);
+  archive.expect(weight > 0, "a sample of vertex triplets");
 }
 
 }  // namespace pharos::vertex_triplets

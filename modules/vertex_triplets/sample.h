@@ -1,6 +1,5 @@
 #pragma once
 
-#include <iosfwd>
 #include <vector>
 
 #include <pharos/guiding/record/path_record.h>
@@ -16,9 +15,7 @@ struct Sample {
   Triplet triplet;
   float weight = 0;  ///< > 0
 
-  void save(std::ostream& out) const;
-  /// Throws InputError when it is damaged.
-  static Sample load(std::istream& in);
+  void archive(Archive& archive);
 };
 
 /// Which samples are taken.
@@ -30,12 +27,5 @@ struct SampleRule {
 /// Appends the samples of a path. `incident` is scratch memory, kept from call to call.
 void extract_samples(const PathView& path, const SampleRule& rule, std::vector<Rgb>& incident,
                      std::vector<Sample>& samples);
-
-void save_mode(const Mode& mode, std::ostream& out);
-/// Throws InputError when it is damaged.
-Mode load_mode(std::istream& in);
-void save_triplet(const Triplet& triplet, std::ostream& out);
-/// Throws InputError when it is damaged.
-Triplet load_triplet(std::istream& in);
 
 }  // namespace pharos::vertex_triplets

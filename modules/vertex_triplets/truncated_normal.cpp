@@ -12,7 +12,8 @@ Projection::Projection(const SpatialGaussian& g, Point3 origin) {
   const Frame frame = Frame::from_normal(towards_);
   across_[0] = frame.s;
   across_[1] = frame.t;
-  // S = (L^T Q^T)^T (L^T Q^T) for the rows Q across the line of sight.
+  // The projected covariance is S = (L^T Q^T)^T (L^T Q^T). The rows of Q are across the line of
+  // sight.
   const auto through = [&](Vec3 q) {
     const float* l = g.cholesky;
     return Vec3{l[0] * q.x + l[1] * q.y + l[3] * q.z, l[2] * q.y + l[4] * q.z, l[5] * q.z};
@@ -20,7 +21,7 @@ Projection::Projection(const SpatialGaussian& g, Point3 origin) {
   const Vec3 a = through(frame.s), b = through(frame.t);
   cholesky_[0] = length(a);
   cholesky_[1] = dot(a, b) / cholesky_[0];
-  // What of b is perpendicular to a, without the difference of squares.
+  // The length of the part of b that is perpendicular to a, without a difference of squares.
   cholesky_[2] = length(cross(a, b)) / cholesky_[0];
 }
 
@@ -31,7 +32,7 @@ Vec3 Projection::sample(Vec2 u) const {
 }
 
 float Projection::density(Vec3 direction) const {
-  // Narrow Gaussians far away: of small angles single precision would leave few digits.
+  // For narrow Gaussians far away, single precision would leave few digits of small angles.
   const auto along = [&](Vec3 axis) {
     return double{axis.x} * direction.x + double{axis.y} * direction.y +
            double{axis.z} * direction.z;

@@ -7,34 +7,35 @@
 #include <pharos/core/warp.h>
 #include <pharos/guiding/contract/spatial_mixture.h>
 
-/// Gaussians that end (Schuessler et al. 2022, section 4.3): along each axis of the Cholesky factor
-/// a unit normal number within [-4, 4], zero beyond. They integrate to one by construction.
+/// Truncated Gaussians (Schuessler et al. 2022, section 4.3): along each axis of the Cholesky
+/// factor, the whitened coordinate is a unit normal number within [-4, 4]. The density is zero
+/// beyond and integrates to one by construction.
 namespace pharos::vertex_triplets {
 
 inline constexpr float kTruncation = 4;
-/// Probability that a unit normal number lies within.
+/// Probability that a unit normal number is within [-4, 4].
 inline constexpr double kTruncatedMass = 0.99993665751633376;
 
-/// The number that belongs to u in [0, 1).
+/// Maps u in [0, 1) to a truncated unit normal number.
 inline float truncated_normal(float u) {
   constexpr auto kTail = static_cast<float>(0.5 * (1 - kTruncatedMass));
   const float z = warp::fast_normal_from_unit(kTail + static_cast<float>(kTruncatedMass) * u);
   return std::clamp(z, -kTruncation, kTruncation);
 }
 
-/// Its density [1].
+/// The density of truncated_normal() [1].
 inline float truncated_normal_density(float z) {
   constexpr double kRootTwoPi = 2.5066282746310005;
   constexpr auto kScale = static_cast<float>(1 / (kRootTwoPi * kTruncatedMass));
   return std::abs(z) <= kTruncation ? kScale * std::exp(-0.5f * z * z) : 0.0f;
 }
 
-/// A point of a truncated Gaussian from numbers in [0, 1).
+/// Samples a point of a truncated Gaussian from numbers in [0, 1).
 inline Point3 truncated_point(const SpatialGaussian& g, Vec2 u, float v) {
   return g.mean + spread(g, {truncated_normal(u.x), truncated_normal(u.y), truncated_normal(v)});
 }
 
-/// Its density at a point [1/scene unit^3].
+/// The density of truncated_point() [1/scene unit^3].
 inline float truncated_density(const SpatialGaussian& g, Point3 point) {
   const Vec3 d = point - g.mean;
   const std::array<double, 3> z = whitened(g, {d.x, d.y, d.z});
@@ -43,15 +44,16 @@ inline float truncated_density(const SpatialGaussian& g, Point3 point) {
   return static_cast<float>(density);
 }
 
-/// A unit normal number within [low, high], any finite limits of a positive probability.
+/// The distribution of a unit normal number within [low, high], for finite limits. It exists if the
+/// interval has a positive probability.
 class NormalWithin {
  public:
   NormalWithin(double low, double high) : low_(below(low)), mass_(below(high) - low_) {}
 
   bool is_possible() const { return mass_ > 0; }
-  /// The number that belongs to u in [0, 1).
+  /// Maps u in [0, 1) to a number within the limits.
   double at(double u) const { return warp::normal_from_unit(low_ + mass_ * u); }
-  /// The density at a number within the limits [1].
+  /// Returns the density at a number within the limits [1].
   double density(double z) const {
     constexpr double kRootTwoPi = 2.5066282746310005;
     return std::exp(-0.5 * z * z) / (kRootTwoPi * mass_);
@@ -63,9 +65,10 @@ class NormalWithin {
   double low_, mass_;
 };
 
-/// The distances at which a ray may meet a Gaussian's points: those of the untruncated Gaussian
-/// along it, cut at zero and at four standard deviations of themselves (section 5.3). With
-/// a = w^T S^-1 w and b = w^T S^-1 (mean - origin) they are normal about b / a with variance 1 / a.
+/// The distribution of distances along a ray, given a Gaussian (section 5.3): the conditional of
+/// the untruncated Gaussian along the ray, cut at zero and at four of its own standard deviations.
+/// With a = w^T S^-1 w and b = w^T S^-1 (mean - origin), the conditional has mean b / a and
+/// variance 1 / a.
 class DistancesAlong {
  public:
   DistancesAlong(const SpatialGaussian& g, Point3 origin, Vec3 direction)
@@ -73,9 +76,9 @@ class DistancesAlong {
                        whitened_offset(g, origin)) {}
 
   bool is_possible() const { return within_.is_possible(); }
-  /// A distance from u in [0, 1) [scene units].
+  /// Samples a distance from u in [0, 1) [scene units].
   float sample(float u) const { return static_cast<float>(mean_ + deviation_ * within_.at(u)); }
-  /// Its density [1/scene unit].
+  /// The density of sample() [1/scene unit].
   float density(float distance) const {
     const double z = (distance - mean_) / deviation_;
     const bool is_within = distance > 0 && std::abs(z) <= kTruncation;
@@ -102,17 +105,17 @@ class DistancesAlong {
   NormalWithin within_;
 };
 
-/// Directions to the points of a Gaussian's projection on the plane through its mean, across the
-/// line of sight (section 5.2).
+/// The distribution of directions to the points of a truncated Gaussian, projected on the plane
+/// through its mean that is orthogonal to the line of sight (section 5.2).
 class Projection {
  public:
   Projection() = default;
   Projection(const SpatialGaussian& g, Point3 origin);
 
-  /// False where the mean is nearer than `least`: there is no line of sight.
+  /// Returns false if the mean is not farther than `least`, because there is no line of sight then.
   bool is_possible(float least) const { return distance_ > least; }
   Vec3 sample(Vec2 u) const;
-  /// Its density [1/sr]: q(y) d^2 / cos^3.
+  /// The density of sample() [1/sr]: q(y) d^2 / cos^3.
   float density(Vec3 direction) const;
 
  private:

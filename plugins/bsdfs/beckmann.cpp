@@ -7,27 +7,29 @@
 namespace pharos {
 namespace {
 
-/// The slope that a share `above` of the slopes with density exp(-x^2) / sqrt(pi) exceeds.
+/// Returns the slope that is exceeded by a share `above` of slopes. Slopes have the density
+/// exp(-x^2) / sqrt(pi).
 float gaussian_slope(float above) {
   return -std::sqrt(0.5f) * static_cast<float>(warp::normal_from_unit(double{above}));
 }
 
 }  // namespace
 
-// Seen along (sine, 0, cosine), facets with normals along (x, y, 1) have density
+// Seen along (sine, 0, cosine), facets with normals along (x, y, 1) have the unnormalized density
 //
-//     (cosine + x sine) exp(-x^2 - y^2) / pi,    x > -cosine / sine,
+//     (cosine + x sine) exp(-x^2 - y^2) / pi,    x > -cosine / sine.
 //
-// which is not normalized yet: y is Gaussian, and x is independent of it (Heitz and d'Eon 2014,
-// "Importance Sampling Microfacet-Based BSDFs using the Distribution of Visible Normals"; Jakob
-// 2014, "An Improved Visible Normal Sampling Routine for the Beckmann Distribution").
+// The slope y is Gaussian, and x is independent of y (Heitz and d'Eon 2014, "Importance Sampling
+// Microfacet-Based BSDFs using the Distribution of Visible Normals"; Jakob 2014, "An Improved
+// Visible Normal Sampling Routine for the Beckmann Distribution").
 
-/// It lies between that seen from straight above, which is Gaussian, and that at grazing view,
-/// where area_above() is proportional to exp(-x^2). From a mean of these, exact at both ends,
-/// Halley's method finds it to within rounding, mostly in two steps.
+/// The slope lies between two limits: the Gaussian slope seen from straight above, and the slope at
+/// grazing view, where area_above() is proportional to exp(-x^2). The search starts from a mean of
+/// both, which is exact at both ends. Halley's method then finds the slope to within rounding,
+/// mostly in two steps.
 float BeckmannDistribution::visible_slope(float above, float sine, float cosine) {
   constexpr int kMostSteps = 10;
-  constexpr float kLastStep = 1e-3f;  // its third power is left
+  constexpr float kLastStep = 1e-3f;  // leaves an error of its third power
   constexpr float kInverseRootPi = 0.564189584f;
   const float cotangent = cosine / sine;
   const float target = above * area_above(-cotangent, sine, cosine);
@@ -36,11 +38,11 @@ float BeckmannDistribution::visible_slope(float above, float sine, float cosine)
   float x = lerp(lowest, highest, sine / (sine + cosine));
   for (int i = 0; i < kMostSteps; ++i) {
     const float density = kInverseRootPi * std::exp(-x * x) * (cosine + x * sine);
-    if (!(density > 0)) break;  // the end of what is seen
+    if (!(density > 0)) break;  // end of the visible slopes
     const float newton = (area_above(x, sine, cosine) - target) / density;
     const float room = cotangent + x;
     const float curved = 1 + 0.5f * newton * (1 / room - 2 * x);
-    constexpr float kLeastCurved = 0.5f;  // far from the solution, where it means nothing
+    constexpr float kLeastCurved = 0.5f;  // guards against meaningless values far from the solution
     const float next = std::clamp(x + newton / std::max(kLeastCurved, curved), lowest, highest);
     const float step = std::abs(next - x);
     x = next;
@@ -50,7 +52,7 @@ float BeckmannDistribution::visible_slope(float above, float sine, float cosine)
 }
 
 Vec3 BeckmannDistribution::sample_visible_normal(Vec3 wo, Vec2 u) const {
-  constexpr float kLeast = 0x1p-25f;  // random numbers are multiples of twice as much
+  constexpr float kLeast = 0x1p-25f;  // half of the spacing of the random numbers
   const Vec3 o = stretch_(wo);
   const float level = std::sqrt(stretch_.level_squared(wo));
   const float x = visible_slope(std::max(kLeast, u.y), level, wo.z);

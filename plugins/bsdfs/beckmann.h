@@ -6,15 +6,16 @@
 
 namespace pharos {
 
-/// Beckmann's distribution of microfacet normals, whose slopes are Gaussian (Walter et al. 2007,
-/// "Microfacet Models for Refraction through Rough Surfaces", eq. 25), for Microfacets.
+/// Beckmann's distribution of microfacet normals, for use in Microfacets. Its slopes are Gaussian
+/// (Walter et al. 2007, "Microfacet Models for Refraction through Rough Surfaces", eq. 25).
 class BeckmannDistribution {
  public:
-  /// Roughness along x and along y, in (0, 1]: the root mean square slope times the root of two.
+  /// Takes the roughness along x and along y, in (0, 1]. The roughness is the root mean square
+  /// slope times the root of two.
   BeckmannDistribution(float alpha_x, float alpha_y) : stretch_(alpha_x, alpha_y) {}
 
   float density(Vec3 m) const {
-    // Steeper facets than any that is drawn, and near what exp() cannot tell from zero.
+    // Facets this steep are never drawn, and exp() hardly differs from zero here.
     constexpr float kVanishing = 80;
     const float product = stretch_.product(), squared = m.z * m.z;
     const float slope_squared = stretch_.scaled_tilt_squared(m) / (product * squared);
@@ -22,27 +23,28 @@ class BeckmannDistribution {
     return std::exp(-slope_squared) / (kPi * product * squared * squared);
   }
 
-  /// cos (1 + erf(a)) / 2 + alpha sin exp(-a^2) / (2 sqrt(pi)), where a = cot / alpha and alpha is
-  /// that of the azimuth of `w` (Walter et al. 2007, eq. 26; Heitz 2014, eq. 80).
+  /// Returns cos (1 + erf(a)) / 2 + alpha sin exp(-a^2) / (2 sqrt(pi)), where a = cot / alpha and
+  /// alpha is the roughness at the azimuth of `w` (Walter et al. 2007, eq. 26; Heitz 2014, eq. 80).
   float facing_area(Vec3 w) const {
     const float level = std::sqrt(stretch_.level_squared(w));
     return area_above(-w.z / level, level, w.z);
   }
 
-  /// By inversion of the distribution function of visible slopes.
+  /// Draws a normal by inverting the distribution function of visible slopes.
   Vec3 sample_visible_normal(Vec3 wo, Vec2 u) const;
 
  private:
-  /// On a surface of roughness one, seen along (sine, 0, cosine) or any multiple of it: the area of
-  /// facets with normals along (s, t, 1), s > `x`, as it appears from there. `x` is no less than
-  /// -cosine / sine, where facets turn away. No term is negative: no digits are lost where the area
-  /// is small.
+  /// The apparent area of the facets with normals along (s, t, 1), s > `x`, on a surface of
+  /// roughness one that is seen along (sine, 0, cosine) or any multiple of this vector. `x` is at
+  /// least -cosine / sine, where facets turn away. Neither term is negative, so a small area keeps
+  /// its digits.
   static float area_above(float x, float sine, float cosine) {
     constexpr float kInverseRootPi = 0.564189584f;
     return 0.5f * (cosine * std::erfc(x) + kInverseRootPi * sine * std::exp(-x * x));
   }
 
-  /// The slope x in that view that a share `above` in (0, 1] of the area facing it exceeds.
+  /// Returns the slope x, in the same view, that is exceeded by a share `above` in (0, 1] of the
+  /// visible area.
   static float visible_slope(float above, float sine, float cosine);
 
   FacetStretch stretch_;

@@ -1,13 +1,14 @@
-// blend: two materials mixed, (1 - weight) first + weight second, as for dust on a floor or rust on
-// metal. Blends may be blended. A surface bounds two media of one ratio of refractive indices, and
-// a path knows a refraction by its event alone; so where both let light through by refraction,
-// their indices must be the same.
+// blend: a mix of two materials, (1 - weight) first + weight second, for example dust on a floor or
+// rust on metal. Blends may be nested. A surface separates two media with a single ratio of
+// refractive indices, and a path records a refraction only by its event. If both materials refract,
+// their indices must therefore be equal.
 //
-// Beware of blends of `dielectric` or `rough_dielectric` with `diffuse_transmitter`: refraction
-// scales radiance by the square of the index, so that where all is in equilibrium there is ior^2
-// times as much inside as outside; diffuse transmission does not, and asks for as much on either
-// side. Such a blend conserves the light of each event, yet what goes in by one and out by the
-// other is gained or lost; a furnace sees it. Give the paper its own surface instead.
+// Avoid blends of `dielectric` or `rough_dielectric` with `diffuse_transmitter`. Refraction scales
+// radiance by the square of the index, so in equilibrium radiance inside is ior^2 times the
+// radiance outside. Diffuse transmission has no such factor and requires equal radiance on both
+// sides. Such a blend conserves energy in each event, but light that enters by one event and leaves
+// by the other gains or loses energy, as a furnace test shows. Give the paper a surface of its own
+// instead.
 //
 //     type: blend
 //     first: { type: plastic, reflectance: 0.2 }
@@ -24,9 +25,10 @@
 namespace pharos {
 namespace {
 
-/// Whether both let light through by refraction, and do so differently.
+/// Returns whether both materials refract and do so differently.
 bool refract_differently(const Bsdf& a, const Bsdf& b) {
-  // An interface of index one refracts too, straight on, but only a smooth one may have it.
+  // An interface of index one also refracts, straight on, but only a smooth interface may have this
+  // index.
   const auto refracts = [](const Bsdf& bsdf) {
     return bsdf.relative_ior() != 1 || contains(bsdf.events(), Event::discrete_transmit);
   };

@@ -14,7 +14,7 @@ class Blend final : public MixedBsdf {
     Ref<Texture> weight;
     static void describe(Schema<Settings>& s);
   };
-  /// Throws InputError when `first` and `second` refract differently.
+  /// Throws InputError if `first` and `second` refract differently.
   explicit Blend(const Settings& settings);
 };
 

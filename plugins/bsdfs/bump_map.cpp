@@ -1,15 +1,17 @@
 // bump_map: a material that is shaded as if its surface were displaced along the shading normal by
 // `height` times the mean color of `texture` (Blinn 1978, "Simulation of Wrinkled Surfaces"). The
-// surface itself stays where it is: outlines and shadows do not change. With h the displacement,
-// the normal n is tilted to n - grad h, the gradient taken along the surface from the derivatives
-// of h and of the position by the texture coordinates; the curvature of the surface is left out, as
-// h is small. Derivatives of h are central differences over +-`step`, which blur what is finer. A
-// `height` below zero makes dents of bumps. It is in units of the world: groups that are scaled get
-// flatter or steeper bumps. Where texture coordinates have no derivative nothing is tilted.
+// surface itself stays in place, so outlines and shadows do not change.
 //
-// Light that the tilted surface would send through the surface itself is lost. So where it is steep
-// and seen at a slant the material looks darker. Directions of light are corrected as those of
-// shading normals are.
+// With the displacement h, the normal n is tilted to n - grad h. The gradient runs along the
+// surface and follows from the derivatives of h and of the position with respect to the texture
+// coordinates. The curvature of the surface is ignored, because h is small. Derivatives of h are
+// central differences over +-`step`, which blur finer details. A negative `height` turns bumps into
+// dents. `height` is in units of the world: bumps on a scaled group become flatter or steeper. If
+// texture coordinates have no derivative, nothing is tilted.
+//
+// Light that the tilted surface would send through the surface itself is lost. A steep bump map
+// therefore looks darker at a slanted view. Light directions get the same correction as for shading
+// normals.
 //
 //     type: bump_map
 //     texture: { type: bitmap, file: leather.png, color_space: linear }
@@ -22,10 +24,17 @@
 namespace pharos {
 
 void BumpMap::Settings::describe(Schema<Settings>& s) {
-  s.field("bsdf", &Settings::bsdf, "Material that is tilted").otherwise("{ type: diffuse }");
-  s.field("texture", &Settings::texture, "Its mean color is the displacement").required();
-  s.field("height", &Settings::height, "Factor on the texture").unit("scene units");
-  s.field("step", &Settings::step, "To both sides in uv, to find slopes").above(0).at_most(0.25);
+  s.field("bsdf", &Settings::bsdf, "Nested material, whose shading frame is tilted")
+      .otherwise("{ type: diffuse }");
+  s.field("texture", &Settings::texture, "Height map: the mean of its channels is the height")
+      .required();
+  s.field("height", &Settings::height,
+          "Factor on the texture; a negative one turns bumps into dents")
+      .unit("scene units");
+  s.field("step", &Settings::step,
+          "Half width in texture coordinates of the differences that give slopes")
+      .above(0)
+      .at_most(0.25);
   s.example("{ texture: { type: bitmap, file: example.png }, height: 0.1, step: 0.01 }");
   s.example(
       "{ texture: { type: bitmap, file: example.png }, height: -0.3, step: 0.02, "

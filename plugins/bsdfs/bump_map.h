@@ -23,7 +23,7 @@ class BumpMap final : public TiltedBsdf {
   Vec3 normal(const SurfacePoint& point) const override;
 
  private:
-  /// The displacement at texture coordinates moved by `offset` [scene units].
+  /// Returns the displacement at texture coordinates moved by `offset` [scene units].
   float height_beside(const SurfacePoint& point, Vec2 offset) const;
 
   Settings settings_;

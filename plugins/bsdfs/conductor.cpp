@@ -1,8 +1,8 @@
-// conductor: a polished metal, a mirror of the share F of Fresnel's equations for a complex index
-// eta - i k in each color channel (in vacuum). `material` names a measured metal (metals.cpp says
-// where its numbers come from) or `ideal`, which reflects everything; any other metal is given by
-// `eta` and `k` instead. Light is mirrored on the side of the shading normal only; the other side
-// is black.
+// conductor: a polished metal. It is a mirror whose reflectance F follows Fresnel's equations for a
+// complex index eta - i k in each color channel (relative to vacuum). `material` names a measured
+// metal (metals.cpp gives the sources) or `ideal`, which reflects everything. Any other metal is
+// given by `eta` and `k` instead. Only the side of the shading normal reflects light; the other
+// side is black.
 //
 //     { type: conductor, material: Ag }
 //     { type: conductor, eta: [1.66, 0.88, 0.52], k: [9.2, 6.27, 4.84] }

@@ -33,7 +33,7 @@ class Conductor final : public Bsdf {
  private:
   ComplexIor ior_;
   Ref<Texture> specular_reflectance_;
-  Rgb average_fresnel_;  ///< over the hemisphere, approximately [1]
+  Rgb average_fresnel_;  ///< mean over the hemisphere, approximate [1]
 };
 
 }  // namespace pharos

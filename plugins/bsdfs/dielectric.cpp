@@ -1,8 +1,9 @@
-// dielectric: the smooth interface of a clear medium. Light is mirrored with the share F of
-// Fresnel's equations and refracted by Snell's law with 1 - F. Along paths from the sensor
-// refracted values carry (n_o / n_i)^2, the invariance of radiance over n^2 (Veach 1997, eq. 5.13),
-// so that going in and out again changes nothing. The normal points outside. The two factors tint
-// what goes either way; which way is chosen by F alone.
+// dielectric: the smooth interface of a clear medium. The share F of light given by Fresnel's
+// equations is mirrored, and 1 - F is refracted by Snell's law. Along paths from the sensor
+// refracted values include the factor (n_o / n_i)^2, because radiance over n^2 is invariant (Veach
+// 1997, eq. 5.13). Light that enters and leaves again is therefore unchanged. The normal points
+// outside. The two factors tint the reflected and the refracted light; F alone determines the
+// choice between them.
 //
 //     { type: dielectric, ior: 1.5, specular_transmittance: [0.9, 1, 0.95] }
 #include "dielectric.h"

@@ -1,7 +1,7 @@
-// diffuse: an ideally matt surface, f = reflectance / pi (Lambert 1760). Light is scattered on the
-// side of the shading normal only; the other side is black. Samples are drawn in proportion to the
-// cosine, so that all weigh the same; `warp: octahedral` draws them by a map that keeps straight
-// edges straight (Engelhardt and Dachsbacher 2008), which samplers align with.
+// diffuse: an ideally matt surface, f = reflectance / pi (Lambert 1760). Only the side of the
+// shading normal scatters light; the other side is black. Samples are drawn in proportion to the
+// cosine, so that all have equal weight. `warp: octahedral` draws them by a map that keeps straight
+// edges straight (Engelhardt and Dachsbacher 2008), for samplers that align with such edges.
 //
 //     { type: diffuse, reflectance: [0.7, 0.3, 0.2] }
 #include "diffuse.h"

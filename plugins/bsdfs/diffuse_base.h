@@ -4,38 +4,39 @@
 
 namespace pharos {
 
-/// A matt base under a clear coat. Light that enters through the coat is scattered by the base; a
-/// share of it leaves, the rest is reflected back onto the base by the coat's inner side, again and
-/// again. With the coat's transmittance T(c) from outside, its mean T' over the hemisphere, the
-/// mean reflectance F' of the inner side and the base's reflectance a,
+/// A matt base under a clear coat. The base scatters the light that enters through the coat. One
+/// share of this light leaves; the coat's inner side reflects the rest back onto the base, again
+/// and again. Let T(c) be the coat's transmittance from outside, T' its mean over the hemisphere,
+/// F' the mean reflectance of the inner side and a the base's reflectance. Then
 ///
 ///     f = T(o) T(i) / (pi eta^2) a / (1 - a F'),   1 - F' = T' / eta^2,
 ///
-/// where the second is reciprocity. Hence f cos(i) integrates to T(o) s(a), and the share
-/// s(a) = (1 - F') a / (1 - a F') of what has entered is one for a white base.
+/// where the second equation follows from reciprocity. Hence f cos(i) integrates to T(o) s(a). The
+/// share s(a) = (1 - F') a / (1 - a F') of the light that has entered is one for a white base.
 class DiffuseBase {
  public:
-  /// `transmittance`: the mean T' [1]; `ior` of the coat over outside, at least 1. Without
-  /// `nonlinear` the base's color does not deepen with every reflection: s(a) = a.
+  /// Takes the mean transmittance T' [1] and the index `ior` of the coat relative to the outside,
+  /// at least 1. If `nonlinear` is false, repeated reflection does not deepen the base's color:
+  /// s(a) = a.
   DiffuseBase(float transmittance, float ior, bool nonlinear)
       : transmittance_(transmittance),
         escaping_(transmittance / (ior * ior)),
         nonlinear_(nonlinear) {}
 
-  /// The share s(a) [1] of light in the coat that leaves it in the end.
+  /// The share s(a) [1] of the light inside the coat that finally leaves it.
   Rgb emerging(Rgb reflectance) const {
     if (!nonlinear_) return reflectance;
-    // 1 - a F' in a form that keeps the digits of small 1 - F'.
+    // This form of 1 - a F' keeps the digits of a small 1 - F'.
     return escaping_ * reflectance / (Rgb(1) - reflectance + escaping_ * reflectance);
   }
 
-  /// Value f |cos| over the density cos / pi [1], for a share `emerging` and the coat's
-  /// transmittances towards both directions.
+  /// The value f |cos| divided by the density cos / pi [1], for a share `emerging` and the coat's
+  /// transmittances `entering` and `leaving` in both directions.
   Rgb weight(Rgb emerging, float entering, float leaving) const {
     return (entering * leaving / transmittance_) * emerging;
   }
 
-  /// Share [1] of light from everywhere above that base and coat reflect together.
+  /// The share [1] of uniform light from above that base and coat reflect together.
   Rgb albedo(Rgb reflectance, Rgb specular_reflectance) const {
     return (1 - transmittance_) * specular_reflectance + transmittance_ * emerging(reflectance);
   }

@@ -1,10 +1,10 @@
 // diffuse_transmitter: thin paper, cloth or a leaf, lit from either side. Light is scattered by
-// Lambert's cosine law, transmittance / pi on the side it did not come from and reflectance / pi on
-// the side it came from. Both sides are alike. sample() chooses between them by the mean of the
-// channels; `warp` is that of `diffuse`.
+// Lambert's cosine law: transmittance / pi to the far side, and reflectance / pi back to the side
+// of the incident light. Both sides are alike. sample() chooses between them in proportion to the
+// mean of the channels. `warp` has the same meaning as for `diffuse`.
 //
-// The two must not add up to more than 1. Of textures that vary only the largest value of each
-// channel is known, which stands for all places.
+// Transmittance and reflectance must not add up to more than 1. For a texture that varies, only the
+// largest value of each channel is known, and the check uses this value for the whole surface.
 //
 //     { type: diffuse_transmitter, transmittance: [0.2, 0.4, 0.05], reflectance: 0.3 }
 #include "diffuse_transmitter.h"

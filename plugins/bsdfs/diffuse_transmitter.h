@@ -18,7 +18,7 @@ class DiffuseTransmitter final : public Bsdf {
     HemisphereWarp warp = HemisphereWarp::concentric;
     static void describe(Schema<Settings>& s);
   };
-  /// Throws InputError when more light might leave than arrives; see the .cpp for what is tested.
+  /// Throws InputError if more light might leave than arrives; the .cpp describes the check.
   explicit DiffuseTransmitter(const Settings& settings);
 
   EventMask events() const override;
@@ -30,7 +30,7 @@ class DiffuseTransmitter final : public Bsdf {
   Rgb albedo(const SurfacePoint& point) const override;
 
  private:
-  /// Both lobes at a point, with the choice between them: reflection first.
+  /// Both lobes at a point and the choice between them; reflection comes first.
   struct Lobes {
     Rgb reflectance, transmittance;
     LobeChoice choice;

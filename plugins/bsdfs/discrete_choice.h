@@ -6,8 +6,9 @@
 
 namespace pharos {
 
-/// Those of both outcomes that have a probability and are allowed. One that is left alone is
-/// certain, otherwise the probabilities, which must add up to one, stay.
+/// Returns the outcomes among `a` and `b` that are allowed and have a nonzero probability. A single
+/// remaining outcome gets probability one. Two outcomes keep their probabilities, which must add up
+/// to one.
 inline DiscreteOutcomes allowed_outcomes(const DiscreteOutcome& a, const DiscreteOutcome& b,
                                          EventMask allowed) {
   DiscreteOutcomes result;
@@ -18,7 +19,8 @@ inline DiscreteOutcomes allowed_outcomes(const DiscreteOutcome& a, const Discret
   return result;
 }
 
-/// Draws one of at most two outcomes of total probability one; empty when there is none.
+/// Draws one of at most two outcomes whose probabilities add up to one. Empty if there is no
+/// outcome.
 inline std::optional<ScatterSample> draw_outcome(const DiscreteOutcomes& all, float u_choice) {
   if (all.count == 0) return std::nullopt;
   const bool first = all.count == 1 || u_choice < all.outcomes[0].probability;

@@ -10,10 +10,10 @@
 
 namespace pharos {
 
-/// How the facets of a rough surface are tilted.
+/// The distribution of the facet normals of a rough surface.
 enum class FacetDistribution {
-  ggx,       ///< with long tails: a bright highlight in a wide haze
-  beckmann,  ///< with Gaussian slopes: a highlight that ends
+  ggx,       ///< long tails: a bright highlight in a wide haze
+  beckmann,  ///< Gaussian slopes: a highlight without haze
 };
 template <>
 struct EnumNames<FacetDistribution> {
@@ -21,33 +21,34 @@ struct EnumNames<FacetDistribution> {
       {{"ggx", FacetDistribution::ggx}, {"beckmann", FacetDistribution::beckmann}}};
 };
 
-/// Microfacets of a distribution that a user chooses; all directions are as in Microfacets.
+/// Microfacets whose distribution the user chooses. Directions have the same conventions as in
+/// Microfacets.
 class Facets {
  public:
-  /// Roughness along x and along y, in (0, 1].
+  /// Takes the roughness along x and along y, in (0, 1].
   Facets(FacetDistribution distribution, float alpha_x, float alpha_y)
       : either_(distribution == FacetDistribution::ggx
                     ? Either(Microfacets(GgxDistribution(alpha_x, alpha_y)))
                     : Either(Microfacets(BeckmannDistribution(alpha_x, alpha_y)))) {}
 
-  /// A normal visible from `wo`.
+  /// Draws a normal that is visible from `wo`.
   Vec3 sample_visible_normal(Vec3 wo, Vec2 u) const {
     return std::visit([&](const auto& f) { return f.sample_visible_normal(wo, u); }, either_);
   }
 
-  /// What becomes of light by way of a visible normal.
+  /// Shadowing and sampling density of light that is scattered at a visible normal.
   struct Passage {
     float shadowing;  ///< G2(o, i) / G1(o) [1]
     float pdf;        ///< [1/sr]
   };
-  /// From `wo` to its mirror direction `wi` about `m`; the density is that of `wi`.
+  /// From `wo` to its mirror direction `wi` about `m`. The density is the density of `wi`.
   Passage mirrored(Vec3 wo, Vec3 wi, Vec3 m, Masking masking) const {
     const auto way = [&](const auto& f) {
       return Passage{f.shadowing(wo, wi, masking), f.visible_reflection_pdf(wo, m)};
     };
     return std::visit(way, either_);
   }
-  /// From `wo` to `wi` by any event at `m`, o.m > 0; the density is that of `m`.
+  /// From `wo` to `wi` by any event at `m`, o.m > 0. The density is the density of `m`.
   Passage by_normal(Vec3 wo, Vec3 wi, Vec3 m, Masking masking) const {
     const auto way = [&](const auto& f) {
       return Passage{f.shadowing(wo, wi, masking), f.visible_normal_pdf(wo, m)};

@@ -2,9 +2,9 @@
 
 namespace pharos {
 
-/// Mean of f(cosine) over the cosine-weighted hemisphere, the integral of 2 c f(c) dc over [0, 1]
-/// [unit of f]. The midpoint rule is good to about 1e-6 for Fresnel's equations, and to about 1e-4
-/// where there is total reflection.
+/// The mean of f(cosine) over the cosine-weighted hemisphere: the integral of 2 c f(c) dc over [0,
+/// 1] [unit of f]. The error of the midpoint rule is about 1e-6 for Fresnel's equations, and about
+/// 1e-4 if there is total reflection.
 template <class F>
 float hemisphere_mean(const F& f) {
   constexpr int kPoints = 1024;

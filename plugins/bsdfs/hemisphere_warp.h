@@ -9,10 +9,11 @@
 
 namespace pharos {
 
-/// How matt BSDFs make a direction of two numbers.
+/// The map by which matt BSDFs turn two random numbers into a direction.
 enum class HemisphereWarp {
-  concentric,  ///< in proportion to the cosine: samples of ideally matt surfaces weigh the same
-  octahedral   ///< straight edges stay straight in the numbers, for samplers that align with them
+  concentric,  ///< density proportional to the cosine: all samples of ideally matt surfaces have
+               ///< equal weight
+  octahedral   ///< keeps straight edges straight, for samplers that align with them
 };
 
 template <>
@@ -21,21 +22,21 @@ struct EnumNames<HemisphereWarp> {
       {{"concentric", HemisphereWarp::concentric}, {"octahedral", HemisphereWarp::octahedral}}};
 };
 
-/// Declares `warp`, for settings with a member of this name.
+/// Declares the parameter `warp` for settings with a member of this name.
 template <class Settings>
 void describe_warp(Schema<Settings>& s) {
   s.field("warp", &Settings::warp,
-          "Map from the square to directions: in proportion to the cosine, or one that keeps edges "
-          "straight");
+          "Map from random numbers to directions: concentric follows the cosine, octahedral keeps "
+          "edges straight");
 }
 
-/// A direction of the hemisphere about +z for numbers in [0, 1)^2.
+/// Maps a point of [0, 1)^2 to a direction of the hemisphere about +z.
 inline Vec3 hemisphere_from_square(HemisphereWarp kind, Vec2 u) {
   return kind == HemisphereWarp::octahedral ? warp::octahedral_hemisphere_from_square(u)
                                             : warp::cosine_hemisphere_from_square(u);
 }
 
-/// Its density [1/sr]; 0 below the horizon.
+/// The density of hemisphere_from_square() [1/sr]; 0 below the horizon.
 inline float hemisphere_pdf(HemisphereWarp kind, Vec3 direction) {
   return kind == HemisphereWarp::octahedral ? warp::octahedral_hemisphere_pdf(direction)
                                             : warp::cosine_hemisphere_pdf(direction.z);

@@ -1,8 +1,9 @@
-// mask: a material with holes, such as leaves cut out of a rectangle, or lace. The share 1 -
-// opacity of light passes straight through, as if nothing were there (the event `pass_through`);
-// the rest meets the nested material. In color it filters what passes. Paths see light through the
-// holes; light samples do not, as to them every surface is closed. Holes in glass upset the balance
-// of energy: light that comes in through one is inside without having been refracted.
+// mask: a material with holes, such as lace, or leaves cut out of a rectangle. The share
+// (1 - opacity) of light passes straight through, as if nothing were there (the event
+// `pass_through`). The rest meets the nested material. A colored opacity filters the light that
+// passes. Paths that go through a hole find the light behind it; light samples do not, because for
+// them the surface is closed everywhere. Holes in glass upset the balance of energy: light that
+// enters through a hole is inside without having been refracted.
 //
 //     type: mask
 //     opacity: { type: bitmap, file: leaf_alpha.png, color_space: linear }
@@ -17,7 +18,7 @@
 namespace pharos {
 
 void Mask::Settings::describe(Schema<Settings>& s) {
-  s.field("bsdf", &Settings::bsdf, "Material of what is not hole").otherwise("{ type: diffuse }");
+  s.field("bsdf", &Settings::bsdf, "Material of the opaque parts").otherwise("{ type: diffuse }");
   describe_share(s, "opacity", &Settings::opacity, "Share of light that meets the material", "0.5");
   s.example("{ opacity: [0.3, 0.6, 0.9], bsdf: { type: rough_conductor, alpha: 0.3 } }");
   s.example("{ opacity: 0.8, bsdf: { type: dielectric, ior: 1.3 } }");

@@ -1,16 +1,18 @@
 // material: the complex refractive index of a measured metal, for conductor and rough_conductor.
 //
-// Ag, Au and Cu are Johnson and Christy 1972 ("Optical Constants of the Noble Metals", Phys. Rev. B
-// 6, 4370), Cr, Fe, Ni and Ti Johnson and Christy 1974 ("Optical Constants of Transition Metals",
-// Phys. Rev. B 9, 5056), Al is Rakic 1995 ("Algorithm for the Determination of Intrinsic Optical
-// Constants of Metal Films", Appl. Opt. 34, 4755), all as tabulated by refractiveindex.info.
+// The measurements of Ag, Au and Cu are from Johnson and Christy 1972 ("Optical Constants of the
+// Noble Metals", Phys. Rev. B 6, 4370), of Cr, Fe, Ni and Ti from Johnson and Christy 1974
+// ("Optical Constants of Transition Metals", Phys. Rev. B 9, 5056), and of Al from Rakic 1995
+// ("Algorithm for the Determination of Intrinsic Optical Constants of Metal Films", Appl. Opt. 34,
+// 4755), all as tabulated by refractiveindex.info.
+//
 // Each channel's eta and k are means over wavelength, weighted by the channel's response to
-// daylight: from 380 to 720 nm in steps of 10 nm, with linear interpolation of the measurements,
-// the CIE 1931 color matching functions (fit of Wyman, Sloan and Shirley 2013, "Simple Analytic
-// Approximations to the CIE XYZ Color Matching Functions") times illuminant D65, taken to linear
-// Rec.709 and scaled to total weight one. The reflectance at normal incidence that follows is that
-// of the whole spectrum in daylight to 0.013, but for gold, whose red is out of Rec.709's gamut
-// (0.98 instead of 1.03).
+// daylight. The sum runs from 380 to 720 nm in steps of 10 nm, with linear interpolation of the
+// measurements. The weights are the CIE 1931 color matching functions (fit of Wyman, Sloan and
+// Shirley 2013, "Simple Analytic Approximations to the CIE XYZ Color Matching Functions") times
+// illuminant D65, converted to linear Rec.709 and scaled to total weight one. The resulting
+// reflectance at normal incidence matches a full spectral computation in daylight to within 0.013.
+// The exception is gold, whose red lies outside the gamut of Rec.709 (0.98 instead of 1.03).
 #include "metals.h"
 
 #include <fmt/core.h>
@@ -42,7 +44,7 @@ ComplexIor metal_ior(Metal metal) {
     case Metal::ideal:
       break;
   }
-  return {Rgb(0), Rgb(1)};  // no real part: nothing is carried in
+  return {Rgb(0), Rgb(1)};  // without a real part the metal absorbs nothing
 }
 
 ComplexIor stated_ior(std::optional<Metal> material, std::optional<Rgb> eta, std::optional<Rgb> k) {
@@ -56,7 +58,7 @@ ComplexIor stated_ior(std::optional<Metal> material, std::optional<Rgb> eta, std
 }
 
 Rgb average_conductor_fresnel(const ComplexIor& ior) {
-  // Schlick's approximation, whose mean is in closed form.
+  // The mean of Schlick's approximation, in closed form.
   const Rgb normal_incidence = conductor_fresnel(1, ior.eta, ior.k);
   return normal_incidence + (Rgb(1) - normal_incidence) / 21;
 }

@@ -10,7 +10,7 @@
 
 namespace pharos {
 
-/// What a metal's surface may be made of. See metals.cpp for where the numbers come from.
+/// Metals of known refractive index. See metals.cpp for the sources of the numbers.
 enum class Metal { Ag, Al, Au, Cr, Cu, Fe, Ni, Ti, ideal };
 template <>
 struct EnumNames<Metal> {
@@ -31,25 +31,28 @@ struct ComplexIor {
   Rgb eta, k;
 };
 
-/// The index of `metal`; the ideal one reflects everything at every angle.
+/// The index of `metal`. The ideal metal reflects everything at every angle.
 ComplexIor metal_ior(Metal metal);
 
-/// The index that the parameters of describe_metal() state: that of a named metal, or `eta` and `k`
-/// together, or copper when nothing is given. Throws InputError for any other combination.
+/// Returns the index stated by the parameters of describe_metal(): the index of a named metal, or
+/// `eta` and `k` together, or copper if nothing is given. Throws InputError for any other
+/// combination.
 ComplexIor stated_ior(std::optional<Metal> material, std::optional<Rgb> eta, std::optional<Rgb> k);
 
-/// Mean reflectance over the cosine-weighted hemisphere of incident directions [1], approximately.
+/// The approximate mean reflectance over the cosine-weighted hemisphere of incident directions [1].
 Rgb average_conductor_fresnel(const ComplexIor& ior);
 
-/// Declares the parameters `material`, `eta` and `k` of a BSDF of metal. Within their ranges, far
-/// beyond those of metals, conductor_fresnel() neither overflows nor vanishes to 0 / 0.
+/// Declares the parameters `material`, `eta` and `k` of a metallic BSDF. Their ranges extend far
+/// beyond real metals; within them conductor_fresnel() neither overflows nor becomes 0 / 0.
 template <class Settings>
 void describe_metal(Schema<Settings>& s) {
-  s.field("material", &Settings::material, "Measured metal; Cu where neither it nor eta, k stand");
-  s.field("eta", &Settings::eta, "Real part of the refractive index, with k instead of material")
+  s.field("material", &Settings::material,
+          "Measured metal; Cu if neither it nor eta and k are given");
+  s.field("eta", &Settings::eta, "Real part of the refractive index; needs k and excludes material")
       .at_least(1e-4)
       .at_most(1e4);
-  s.field("k", &Settings::k, "Imaginary part of the refractive index, with eta")
+  s.field("k", &Settings::k,
+          "Imaginary part of the refractive index; needs eta and excludes material")
       .at_least(0)
       .at_most(1e4);
 }

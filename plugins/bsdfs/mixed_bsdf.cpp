@@ -6,7 +6,7 @@
 namespace pharos {
 namespace {
 
-/// Adds an outcome to the one of its kind, if there is one.
+/// Adds an outcome to the existing outcome of the same event, or appends it.
 void merge(DiscreteOutcomes& all, const DiscreteOutcome& outcome) {
   for (int i = 0; i < all.count; ++i) {
     DiscreteOutcome& known = all.outcomes[static_cast<std::size_t>(i)];

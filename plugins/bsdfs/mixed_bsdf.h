@@ -11,11 +11,12 @@ namespace pharos {
 
 /// The linear mix (1 - w) first + w second of two BSDFs, for each channel of a texture w in [0, 1].
 ///
-/// sample() chooses by the mean of w's channels among those of the two that have events of the
-/// kinds that are allowed, so densities are mixtures of their conditional densities. A direction
-/// that both scatter into gets value and density of the whole. Discrete events of one kind add up
-/// to one outcome; so both must send them the same way (reflections always go to the mirror
-/// direction, and what passes through goes straight on; for refraction see `blend`).
+/// sample() considers only the BSDFs that have an allowed event, and chooses between them by the
+/// mean of w's channels. The densities are therefore mixtures of conditional densities. A direction
+/// into which both BSDFs scatter gets the value and density of the mix. Discrete events of one kind
+/// are merged into one outcome, so both BSDFs must send them in the same direction. Reflections
+/// always follow the mirror direction, and light that passes through goes straight on; for
+/// refraction see `blend`.
 class MixedBsdf : public Bsdf {
  public:
   MixedBsdf(Ref<Bsdf> first, Ref<Bsdf> second, Ref<Texture> weight);
@@ -27,7 +28,7 @@ class MixedBsdf : public Bsdf {
                                       ScatterOptions options) const override;
   DiscreteOutcomes discrete(const SurfacePoint& point, Vec3 wo,
                             ScatterOptions options) const override;
-  /// The smaller roughness of those that take part at the point.
+  /// The smaller roughness of the BSDFs that take part at the point.
   float roughness(const SurfacePoint& point) const override;
   float relative_ior() const override;
   Rgb albedo(const SurfacePoint& point) const override;
@@ -37,11 +38,11 @@ class MixedBsdf : public Bsdf {
   bool tilts_normal() const override { return first_->tilts_normal() || second_->tilts_normal(); }
 
  private:
-  /// One of the two, as it takes part at a point.
+  /// One of the two BSDFs with its share at a point.
   struct Part {
     const Bsdf& bsdf;
     Rgb weight;
-    float probability;  ///< of being chosen [1]; 0 where it takes no part
+    float probability;  ///< of being chosen [1]; 0 if it takes no part
   };
   struct Parts {
     std::array<Part, 2> both;

@@ -1,13 +1,13 @@
 // normal_map: a material whose shading normal is read from a picture. Red, green and blue in [0, 1]
-// stand for the components in [-1, 1] along dp/du, along dp/dv (as far as it is orthogonal to
-// dp/du) and along the shading normal; (0.5, 0.5, 1) tilts nothing, though 8 bits cannot say
-// exactly 0.5. Length does not matter. Green runs with v, from the bottom of the picture to its
-// top; maps made for the other direction have to be inverted. Where texture coordinates run the
-// other way round, as on mirrored halves of a model, green follows v. Such pictures are linear:
+// encode components in [-1, 1]: along dp/du, along dp/dv (its part orthogonal to dp/du), and along
+// the shading normal. The color (0.5, 0.5, 1) tilts nothing, although 8 bits cannot represent 0.5
+// exactly. The length of the vector does not matter. Green increases with v, from the bottom of the
+// picture to its top; maps made for the other direction have to be inverted. If texture coordinates
+// are mirrored, as on mirrored halves of a model, green still follows v. Such pictures are linear:
 // 8-bit files need `color_space: linear`.
 //
-// What is lost where the map is steep is as with bump_map; where texture coordinates have no
-// derivative nothing is tilted.
+// A steep map loses light as bump_map does. If texture coordinates have no derivative, nothing is
+// tilted.
 //
 //     type: normal_map
 //     texture: { type: bitmap, file: bricks_normal.png, color_space: linear }
@@ -19,8 +19,9 @@
 namespace pharos {
 
 void NormalMap::Settings::describe(Schema<Settings>& s) {
-  s.field("bsdf", &Settings::bsdf, "Material that is tilted").otherwise("{ type: diffuse }");
-  s.field("texture", &Settings::texture, "Normals, linear")
+  s.field("bsdf", &Settings::bsdf, "Nested material, whose shading frame is tilted")
+      .otherwise("{ type: diffuse }");
+  s.field("texture", &Settings::texture, "Picture of normals, in linear color")
       .required()
       .check("at most 1 everywhere",
              [](const Ref<Texture>& t) { return max_component(t->maximum()) <= 1; });

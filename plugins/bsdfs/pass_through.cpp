@@ -1,7 +1,7 @@
-// pass_through: a surface that is not there, light goes straight through it and keeps its strength
-// (the event `pass_through`). For shapes that only bound a medium of the same refractive index as
-// what surrounds it: a cloud, smoke, a box of fog. Paths have no vertex there, and light samples go
-// through.
+// pass_through: an invisible surface. Light goes straight through and keeps its strength (the event
+// `pass_through`). It serves shapes that only bound a medium with the refractive index of its
+// surroundings: a cloud, smoke, a box of fog. Paths have no vertex on it, and light samples go
+// through it.
 //
 //     { type: pass_through }
 #include "pass_through.h"

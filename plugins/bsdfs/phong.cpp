@@ -1,19 +1,22 @@
 // phong: a matt surface with a glossy lobe about the mirror direction m of o, the reciprocal form
 // of Phong's model (Lafortune and Willems 1994, "Using the Modified Phong Reflectance Model for
-// Physically Based Rendering"),
+// Physically Based Rendering"):
 //
 //     f = diffuse / pi + specular (n + 2) / (2 pi) max(0, i.m)^n.
 //
-// The lobe reflects its share at normal incidence and less elsewhere, so that no more light leaves
-// than arrives if both shares add up to at most 1. More is refused, as by their largest values in
-// each channel, unless `rescale_to` is given: then both are multiplied by one factor, so that the
-// largest sum is that number (Mitsuba 0.6 takes 0.99). sample() chooses between cosine law and lobe
-// by the means of their channels; draws below the surface are samples of value zero. Of an exponent
-// in color the mean of the channels counts. Light is scattered on the side of the shading normal
-// only; the other side is black.
+// The lobe reflects its share at normal incidence and less elsewhere. So no more light leaves than
+// arrives if both shares add up to at most 1. The check adds the largest values of both textures in
+// each channel and rejects a larger sum. If `rescale_to` is given, both shares are instead
+// multiplied by one factor, so that the largest sum equals `rescale_to` (Mitsuba 0.6 uses 0.99).
 //
-//     { type: phong, diffuse_reflectance: [0.5, 0.1, 0.1], specular_reflectance: 0.3, exponent: 80
-//     }
+// sample() chooses between cosine law and lobe by the means of their channels. Directions drawn
+// below the surface are samples of value zero. If the exponent is a color, the mean of its channels
+// counts. Only the side of the shading normal scatters light; the other side is black.
+//
+//     type: phong
+//     diffuse_reflectance: [0.5, 0.1, 0.1]
+//     specular_reflectance: 0.3
+//     exponent: 80
 #include "phong.h"
 
 #include <cmath>
@@ -28,15 +31,15 @@ namespace {
 
 constexpr float kLargestExponent = 1e5f;
 
-/// max(0, cosine)^n / (2 pi) about `axis`. From the distance of the two, as their cosine has lost
-/// the digits that large exponents need.
+/// Returns max(0, cosine)^n / (2 pi) for the cosine between `w` and `axis`. It starts from the
+/// distance of both vectors, because their cosine has lost the digits that large exponents need.
 float lobe_density(Vec3 axis, Vec3 w, float exponent) {
   const float one_minus_cosine = 0.5f * length_squared(w - axis);
   if (one_minus_cosine >= 1) return 0;
   return std::exp(exponent * std::log1p(-one_minus_cosine)) / (2 * kPi);
 }
 
-/// A direction about `axis` of density (n + 1) lobe_density() [1/sr].
+/// Draws a direction about `axis` with the density (n + 1) lobe_density() [1/sr].
 Vec3 sample_lobe(Vec3 axis, float exponent, Vec2 u) {
   const float one_minus_cosine = -std::expm1(std::log1p(-u.x) / (exponent + 1));
   const float sine = safe_sqrt(one_minus_cosine * (2 - one_minus_cosine)), phi = 2 * kPi * u.y;
@@ -51,12 +54,13 @@ void Phong::Settings::describe(Schema<Settings>& s) {
                  "Share of light reflected by the cosine law", "0.5");
   describe_share(s, "specular_reflectance", &Settings::specular_reflectance,
                  "Share of light in the lobe at normal incidence", "0.2");
-  s.field("exponent", &Settings::exponent, "Of the lobe's cosine: 0 wide, 1000 narrow")
+  s.field("exponent", &Settings::exponent,
+          "Exponent of the lobe's cosine: 0 is wide, 1000 is narrow")
       .otherwise("30")
       .check("in [0, 1e5] everywhere",
              [](const Ref<Texture>& t) { return max_component(t->maximum()) <= kLargestExponent; });
   s.field("rescale_to", &Settings::rescale_to,
-          "Largest sum of both shares, to which larger ones are scaled")
+          "Limit for the sum of both reflectances; a larger sum is scaled down to it")
       .above(0)
       .at_most(1);
   s.example("{ diffuse_reflectance: 0, specular_reflectance: [0.9, 0.5, 0.2], exponent: 0 }");
@@ -111,7 +115,7 @@ std::optional<ScatterSample> Phong::sample(const SurfacePoint& point, Vec3 wo, f
   return ScatterSample{wi, Event::smooth_reflect, value.value / value.pdf, value.pdf};
 }
 
-/// The GGX alpha of a lobe of about the same width (Walter et al. 2007).
+/// The GGX alpha of a lobe with about the same width (Walter et al. 2007).
 float Phong::roughness(const SurfacePoint& point) const {
   const Lobes all = lobes(point);
   return is_black(all.specular) ? 1 : std::sqrt(2 / (all.exponent + 2));

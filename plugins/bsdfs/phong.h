@@ -20,7 +20,7 @@ class Phong final : public Bsdf {
     std::optional<float> rescale_to;
     static void describe(Schema<Settings>& s);
   };
-  /// Throws InputError when the reflectances may add up to more than 1 and are not rescaled.
+  /// Throws InputError if the reflectances may add up to more than 1 and are not rescaled.
   explicit Phong(const Settings& settings);
 
   EventMask events() const override { return mask_of(Event::smooth_reflect); }
@@ -32,17 +32,17 @@ class Phong final : public Bsdf {
   Rgb albedo(const SurfacePoint& point) const override;
 
  private:
-  /// What the surface is at a point.
+  /// The parameters at a point.
   struct Lobes {
     Rgb diffuse, specular;  ///< shares at normal incidence [1]
     float exponent;
-    LobeChoice choice;  ///< the specular one first
+    LobeChoice choice;  ///< the specular lobe comes first
   };
   Lobes lobes(const SurfacePoint& point) const;
   static ScatterValue scattered(const Lobes& lobes, Vec3 wo, Vec3 wi);
 
   Settings settings_;
-  float scale_ = 1;  ///< of both reflectances
+  float scale_ = 1;  ///< factor on both reflectances
 };
 
 }  // namespace pharos

@@ -1,13 +1,14 @@
-// plastic: a matt base under a smooth clear coat, as plastics, varnish and glazed china have it.
-// The coat mirrors the share F of Fresnel's equations (a discrete event); what enters is scattered
-// by the base and by reflections between base and coat (smooth),
+// plastic: a matt base under a smooth clear coat, for plastics, varnish and glazed china. The coat
+// mirrors the share F given by Fresnel's equations (a discrete event). The light that enters is
+// scattered by the base and by reflections between base and coat (a smooth event):
 //
 //     f = (1 - F(o)) (1 - F(i)) / (pi eta^2)  a / (1 - a F'),
 //
-// with F' the mean reflectance of the coat's inner side, so that a white base reflects all light
-// (see diffuse_base.h). With `nonlinear: false` the a below the line is 1: colors do not get more
-// saturated by repeated reflection. sample() chooses coat and base in proportion to the mean
-// of the channels of what they reflect. Light is scattered on the side of the normal only.
+// where F' is the mean reflectance of the coat's inner side, so that a white base reflects all
+// light (see diffuse_base.h). If `nonlinear` is false, the a in the denominator is replaced by 1:
+// repeated reflection then does not make colors more saturated. sample() chooses between coat and
+// base in proportion to the mean of the channels of the light they reflect. Only the side of the
+// normal scatters light.
 //
 //     { type: plastic, ior: 1.5, reflectance: [0.1, 0.3, 0.7], nonlinear: true }
 #include "plastic.h"
@@ -27,7 +28,8 @@ void Plastic::Settings::describe(Schema<Settings>& s) {
                  "0.5");
   describe_factor(s, "specular_reflectance", &Settings::specular_reflectance,
                   "Factor on what the coat reflects");
-  s.field("nonlinear", &Settings::nonlinear, "Whether repeated reflection deepens the color");
+  s.field("nonlinear", &Settings::nonlinear,
+          "Whether repeated reflection below the coat deepens the color");
   s.example("{ reflectance: 1, nonlinear: true }");
   s.example("{ ior: 1.9, reflectance: [0.8, 0.4, 0.05], nonlinear: true }");
   s.example("{ ior: 1.3, reflectance: [0.1, 0.2, 0.9], specular_reflectance: 0.5 }");

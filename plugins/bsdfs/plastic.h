@@ -36,15 +36,15 @@ class Plastic final : public Bsdf {
  private:
   /// The coat's reflectance [1].
   float coat(float cosine) const;
-  /// What light from one direction meets at a point, of the events that are allowed.
+  /// The layers at a point for light from one direction, restricted to the allowed events.
   struct Layers {
     Rgb mirrored;       ///< share that the coat mirrors [1]
-    Rgb emerging;       ///< share of what has entered that leaves in the end [1]
+    Rgb emerging;       ///< share of the light that has entered and finally leaves [1]
     float entering;     ///< share that enters the coat [1]
-    LobeChoice choice;  ///< the coat first, the base second
+    LobeChoice choice;  ///< the coat comes first, the base second
   };
   Layers layers(const SurfacePoint& point, float cosine, EventMask allowed) const;
-  /// What the base scatters to `wi`.
+  /// The light that the base scatters to `wi`.
   ScatterValue scattered(const Layers& layers, Vec3 wi) const;
 
   Settings settings_;

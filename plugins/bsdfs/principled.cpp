@@ -1,39 +1,54 @@
-// principled: a material whose parameters are for artists, each from 0 to 1 (Burley 2012,
-// "Physically Based Shading at Disney"; Burley 2015, "Extending the Disney BRDF to a BSDF with
-// Integrated Subsurface Scattering"), in the form that Mitsuba 3 gives it. A sum of
+// principled: a material with artistic parameters, each from 0 to 1 (Burley 2012, "Physically Based
+// Shading at Disney"; Burley 2015, "Extending the Disney BRDF to a BSDF with Integrated Subsurface
+// Scattering"), in the form of Mitsuba 3. It is the sum of four lobes.
 //
-//   an interface of GGX facets, alpha = max(0.001, roughness^2), that mirrors the share
+// The interface consists of GGX facets with alpha = max(0.001, roughness^2). It mirrors the share
+//
 //     metallic S(base_color) + (1 - metallic) (spec_tint S(R0 tint) + (1 - spec_tint) F),
-//     F by Fresnel's equations, S(c) = c + (1 - c) w(o.m), w(x) = (1 - x)^5, R0 = S's value for
-//     `ior` at normal incidence (at most 1 when tinted), tint = base_color at luminance one;
-//     with (1 - metallic) spec_trans it refracts (1 - F) sqrt(base_color) as well,
-//   a matt lobe with (1 - metallic) (1 - spec_trans): base_color / pi times
-//     (1 - w(o)/2) (1 - w(i)/2) + r (w(o) + w(i) + w(o) w(i) (r - 1)), r = 2 roughness cos^2(d),
-//     where d is the angle between i and m; `flatness` blends in
+//
+// where F follows Fresnel's equations, S(c) = c + (1 - c) w(o.m), w(x) = (1 - x)^5, R0 is the
+// reflectance for `ior` at normal incidence (R0 tint is at most 1), and tint is base_color scaled
+// to luminance one. With weight (1 - metallic) spec_trans the interface also refracts
+// (1 - F) sqrt(base_color).
+//
+// The matt lobe has weight (1 - metallic) (1 - spec_trans). It is base_color / pi times
+//
+//     (1 - w(o)/2) (1 - w(i)/2) + r (w(o) + w(i) + w(o) w(i) (r - 1)),  r = 2 roughness cos^2(d),
+//
+// where d is the angle between i and m. `flatness` blends this factor with
+//
 //     1.25 (s (1/(cos(o) + cos(i)) - 1/2) + 1/2),
-//     s = (1 + (r/2 - 1) w(o)) (1 + (r/2 - 1) w(i)),
-//   sheen: (1 - metallic) sheen w(cos(d)), colored by `sheen_tint` of the tint,
-//   a clearcoat: clearcoat / 4 F D G with Schlick's F of 0.04, Burley's GTR distribution D of
-//     exponent one, whose alpha goes from 0.1 to 0.001 by `clearcoat_gloss`, and G of GGX of alpha
-//     0.25, separable. (Burley divides by 4 cos(o) cos(i) here; Mitsuba does not, nor do we.)
+//     s = (1 + (r/2 - 1) w(o)) (1 + (r/2 - 1) w(i)).
 //
-// From inside there is only the interface, with (1 - metallic) spec_trans; where that is 0
-// everywhere the back is black. The index of the interface is `ior`, or by `specular`
-// 2 / (1 - sqrt(0.08 specular)) - 1, that is 1.5 at 0.5. Mitsuba's `anisotropic` is left out, and
-// its separable masking is `masking: separable`. Of textures for numbers the mean of the channels
-// counts.
+// Sheen is (1 - metallic) sheen w(cos(d)); `sheen_tint` blends its color from white to tint.
 //
-// The lobes do not know of each other, so light colors scatter more than arrives: a white base of
-// roughness 0.5 4% too much seen from above and 22% at grazing angles, of roughness 1 up to 61%;
-// flatness, sheen, clearcoat and tints add to that. Such furnaces have no end; a base_color of at
-// most 0.6 without these keeps the balance, and so do metals and clear materials without them.
-// Nothing is scaled down behind the user's back.
+// The clearcoat is clearcoat / 4 F D G. F is Schlick's F with 0.04 at normal incidence. D is
+// Burley's GTR distribution with exponent one; its alpha goes from 0.1 to 0.001 with
+// `clearcoat_gloss`. G is the separable masking of GGX with alpha 0.25. (Burley divides by
+// 4 cos(o) cos(i) here; Mitsuba does not, and neither does this material.)
 //
-// Where light is let through, alpha is no smaller than 3e-5 / |ior - 1|, which single precision
-// still resolves, and an index within 0.001 of one is refused.
+// Seen from inside there is only the interface, with weight (1 - metallic) spec_trans. If this
+// weight is 0 everywhere, the back is black. The index of the interface is `ior`. If `specular` is
+// given instead, the index is
 //
-// sample() chooses among interface, matt lobe with sheen, and clearcoat by about what each
-// scatters; at a facet of the interface the choice between both ways is by their shares.
+//     2 / (1 - sqrt(0.08 specular)) - 1,
+//
+// which is 1.5 for 0.5. Mitsuba's `anisotropic` is left out. `masking: separable` is Mitsuba's
+// masking. If a number is given by a texture, the mean of the channels counts.
+//
+// The lobes are not coupled, so light colors scatter more light than arrives. A white base of
+// roughness 0.5 scatters 4% too much seen from above and 22% too much at grazing angles; with
+// roughness 1 the excess is up to 61%. Flatness, sheen, clearcoat and tints add to it. A furnace
+// with such a material diverges. A base_color of at most 0.6 without flatness, sheen, clearcoat and
+// tints conserves energy, and so do metals and clear materials without them. The material never
+// scales anything down silently.
+//
+// If the material transmits light, alpha is at least 3e-5 / |ior - 1|, which single precision still
+// resolves, and an index within 0.001 of one is rejected.
+//
+// sample() chooses between the interface, the matt lobe with sheen, and the clearcoat in proportion
+// to approximate albedos. At a facet of the interface it chooses between reflection and refraction
+// in proportion to their shares.
 //
 //     { type: principled, base_color: [0.6, 0.1, 0.1], roughness: 0.4, clearcoat: 1 }
 #include "principled.h"
@@ -55,8 +70,8 @@ namespace {
 
 constexpr float kSmallestAlpha = 0.001f;
 
-/// A surface seen from one direction, and what may happen there. Directions are turned so that
-/// `wo` lies above.
+/// A surface seen from one direction, with the scattering that is possible there. Directions are
+/// flipped so that `wo` lies above.
 class View {
  public:
   View(const PrincipledSurface& surface, Vec3 wo, Masking masking, ScatterOptions options)
@@ -73,13 +88,13 @@ class View {
                       has_base() ? surface.matt_albedo() : 0),
         interface_or_base_(interface_albedo(), base_albedo()) {}
 
-  /// Value and density of all lobes; zero for events that are not allowed.
+  /// The value and density of all lobes; zero for events that are not allowed.
   ScatterValue scattered(Vec3 wi) const {
     if (wi.z > 0) return reflects_ ? reflected(wi) : ScatterValue();
     return transmits_ ? refracted(wi) : ScatterValue();
   }
 
-  /// A direction of the density that scattered() tells; none where a draw leads nowhere.
+  /// Draws a direction with the density of scattered(). Empty if the drawn facet scatters nothing.
   std::optional<Vec3> sample(float u_choice, Vec2 u) const {
     if (interface_or_base_.nothing()) return {};
     if (interface_or_base_.takes_first(u_choice)) {
@@ -98,10 +113,11 @@ class View {
   }
 
  private:
-  /// The ways of light at a facet, and the choice among those allowed, reflection first.
+  /// The shares of both events at a facet, and the choice between the allowed ones; reflection
+  /// first.
   struct Ways {
     PrincipledSurface::Shares shares;
-    float allowed;  ///< share of light that takes allowed ways [1]
+    float allowed;  ///< share of light that takes part in allowed events [1]
     LobeChoice choice;
   };
   Ways ways(float cosine, float dielectric) const {
@@ -111,18 +127,19 @@ class View {
     return {shares, reflected + transmitted, {reflected, transmitted}};
   }
 
-  /// Whether matt lobe, sheen and clearcoat take part.
+  /// Whether the matt lobe, sheen and clearcoat take part.
   bool has_base() const { return outside_ && reflects_; }
   float base_albedo() const {
     return has_base() ? surface_.coat_albedo(wo_) + surface_.matt_albedo() : 0;
   }
-  /// About the share of light that the interface scatters by allowed events: that of a level facet.
+  /// The approximate share of light that the interface scatters by allowed events: the share of a
+  /// level facet.
   float interface_albedo() const {
     const float cosine = std::min(1.0f, wo_.z);
     return ways(cosine, dielectric_fresnel(cosine, eta_).reflectance).allowed;
   }
 
-  /// By interface and base.
+  /// Reflection by interface and base.
   ScatterValue reflected(Vec3 wi) const {
     const std::optional<Vec3> m = half_vector(wo_, wi);
     if (!m) return {};
@@ -139,12 +156,12 @@ class View {
     return sum;
   }
 
-  /// Of the direction that a facet of the clearcoat of normal `m` mirrors [1/sr].
+  /// The density of the direction mirrored by a clearcoat facet of normal `m` [1/sr].
   float coat_pdf(Vec3 m, float cosine) const {
     return surface_.clearcoat > 0 ? surface_.coat_facets().density(m) * m.z / (4 * cosine) : 0;
   }
 
-  /// By the interface.
+  /// Refraction by the interface.
   ScatterValue refracted(Vec3 wi) const {
     const std::optional<RefractingFacet> facet = refracting_facet(wo_, wi, eta_);
     if (!facet) return {};
@@ -157,15 +174,15 @@ class View {
   const PrincipledSurface& surface_;
   Vec3 wo_;
   bool outside_;
-  float eta_;  ///< index below over that above
+  float eta_;  ///< index below over the index above
   bool reflects_, transmits_;
-  float scale_;  ///< of refracted radiance
+  float scale_;  ///< factor on refracted radiance
   Masking masking_;
   Microfacets<GgxDistribution> facets_;
   LobeChoice coat_or_matt_, interface_or_base_;
 };
 
-/// The index that the settings state.
+/// Returns the refractive index given by the settings.
 float stated_index(const Principled::Settings& settings) {
   if (settings.ior && settings.specular) {
     throw InputError("'ior' and 'specular' exclude each other");
@@ -180,7 +197,8 @@ void Principled::Settings::describe(Schema<Settings>& s) {
   describe_share(s, "base_color", &Settings::base_color, "Color of the material", "0.5");
   describe_share(s, "roughness", &Settings::roughness, "Square root of the GGX alpha", "0.5");
   describe_share(s, "metallic", &Settings::metallic, "How much it is a metal", "0");
-  s.field("specular", &Settings::specular, "Strength of reflection, instead of ior; 0.5 is 1.5")
+  s.field("specular", &Settings::specular,
+          "Strength of reflection, as an alternative to ior; 0.5 means an index of 1.5")
       .at_least(0)
       .at_most(1);
   describe_ior(s, "Refractive index inside over outside; 1.5 where neither it nor specular stands");
@@ -267,7 +285,7 @@ float Principled::roughness(const SurfacePoint& point) const {
 }
 
 Rgb Principled::albedo(const SurfacePoint& point) const {
-  constexpr float kAverageSchlick = 1.0f / 21;  // over the hemisphere
+  constexpr float kAverageSchlick = 1.0f / 21;  // mean over the hemisphere
   const PrincipledSurface here = surface(point);
   const auto [reflected, transmitted] = here.shares(average_fresnel_, kAverageSchlick, true);
   const Rgb sum = reflected + transmitted + here.matt_weight() * here.base_color;

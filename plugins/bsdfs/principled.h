@@ -25,8 +25,8 @@ class Principled final : public Bsdf {
     Masking masking = Masking::height_correlated;
     static void describe(Schema<Settings>& s);
   };
-  /// Throws InputError where both `specular` and `ior` are given, or where light is let through
-  /// at an index too near one.
+  /// Throws InputError if both `specular` and `ior` are given, or if the material transmits light
+  /// at an index too close to one.
   explicit Principled(const Settings& settings);
 
   EventMask events() const override;
@@ -43,9 +43,9 @@ class Principled final : public Bsdf {
 
   Settings settings_;
   float ior_;
-  bool is_clear_;          ///< whether light is let through anywhere
-  float smallest_alpha_;   ///< of the interface
-  float average_fresnel_;  ///< of the interface, over the outer hemisphere [1]
+  bool is_clear_;          ///< whether the material transmits light anywhere
+  float smallest_alpha_;   ///< smallest GGX alpha of the interface
+  float average_fresnel_;  ///< mean over the outer hemisphere, for the interface [1]
 };
 
 }  // namespace pharos

@@ -9,8 +9,8 @@
 namespace pharos {
 namespace {
 
-/// The weight (1 - cosine)^5 of grazing reflectance (Schlick 1994, "An Inexpensive BRDF Model for
-/// Physically-based Rendering").
+/// Returns Schlick's weight of grazing reflectance, (1 - cosine)^5 (Schlick 1994, "An Inexpensive
+/// BRDF Model for Physically-based Rendering").
 float schlick_weight(float cosine) {
   const float m = std::clamp(1 - cosine, 0.0f, 1.0f);
   return square(square(m)) * m;
@@ -21,7 +21,7 @@ Rgb schlick_fresnel(Rgb normal_incidence, float weight) {
 }
 
 float coat_fresnel(float cosine) {
-  constexpr float kNormalIncidence = 0.04f;  // of an index of 1.5
+  constexpr float kNormalIncidence = 0.04f;  // for an index of 1.5
   return lerp(kNormalIncidence, 1, schlick_weight(cosine));
 }
 
@@ -41,7 +41,7 @@ Vec3 CoatDistribution::sample(Vec2 u) const {
   return normalize(Vec3{sine * std::cos(phi), sine * std::sin(phi), safe_sqrt(1 - sine_squared)});
 }
 
-/// The base color at a luminance of one.
+/// The base color scaled to luminance one.
 Rgb PrincipledSurface::tint() const {
   const float brightness = luminance(base_color);
   return brightness > 0 ? base_color / brightness : Rgb(1);
@@ -64,7 +64,7 @@ PrincipledSurface::Shares PrincipledSurface::shares(float dielectric, float schl
 
 PrincipledSurface::Shares PrincipledSurface::shares_at(float cosine, float dielectric,
                                                        bool outside) const {
-  // Into a thinner medium the weight is that of the refracted angle, so that it is one at total
+  // Into a thinner medium the weight uses the refracted angle, so that it is one at total
   // reflection.
   const bool thinner = ior < 1 && outside;
   const float angle = thinner ? dielectric_fresnel(cosine, ior).cos_transmitted : cosine;
@@ -81,14 +81,14 @@ Rgb PrincipledSurface::matt(Vec3 wo, Vec3 wi, Vec3 m) const {
   const float rough = (1 - 0.5f * grazing_o) * (1 - 0.5f * grazing_i) +
                       retro * (grazing_o + grazing_i + grazing_o * grazing_i * (retro - 1));
   const float flat = lerp(1, 0.5f * retro, grazing_o) * lerp(1, 0.5f * retro, grazing_i);
-  // Multiplied by cos(i), without which it is unbounded.
+  // The factor cos(i) is included, because the term is unbounded without it.
   const float below = 1.25f * (flat * (wi.z / (wo.z + wi.z) - 0.5f * wi.z) + 0.5f * wi.z);
   const Rgb base = matt_weight() / kPi * lerp(wi.z * rough, below, flatness) * base_color;
   return sheen > 0 ? base + wi.z * schlick_weight(cos_d) * sheen_color() : base;
 }
 
 float PrincipledSurface::matt_albedo() const {
-  constexpr float kSheen = 0.05f;  // of 0.001 at normal and 0.09 at grazing incidence
+  constexpr float kSheen = 0.05f;  // between 0.001 at normal and 0.09 at grazing incidence
   return matt_weight() * mean(base_color) + kSheen * mean(sheen_color());
 }
 

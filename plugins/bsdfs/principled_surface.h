@@ -5,15 +5,15 @@
 
 namespace pharos {
 
-/// The clearcoat's distribution of microfacet normals, GTR with an exponent of one (Burley 2012,
-/// "Physically Based Shading at Disney"): a narrow peak in a wide haze.
+/// The clearcoat's distribution of microfacet normals: GTR with exponent one, a narrow peak in a
+/// wide haze (Burley 2012, "Physically Based Shading at Disney").
 class CoatDistribution {
  public:
   /// `alpha` in (0, 1).
   explicit CoatDistribution(float alpha) : alpha_(alpha) {}
-  /// Density of facets with normal `m`, z > 0, over projected solid angle [1/sr].
+  /// The density of facets with normal `m`, z > 0, over projected solid angle [1/sr].
   float density(Vec3 m) const;
-  /// A normal of density density(m) m.z [1/sr].
+  /// Draws a normal with the density density(m) m.z [1/sr].
   Vec3 sample(Vec2 u) const;
 
  private:
@@ -21,10 +21,10 @@ class CoatDistribution {
 };
 
 /// The formulas of `principled` at one point of a surface; see principled.cpp. Directions and facet
-/// normals are unit vectors in the shading frame, turned so that `wo` lies above.
+/// normals are unit vectors in the shading frame, flipped so that `wo` lies above the surface.
 struct PrincipledSurface {
   Rgb base_color;         ///< [1]
-  float roughness;        ///< [1], alpha's square root
+  float roughness;        ///< [1], square root of alpha
   float alpha;            ///< GGX roughness of the interface
   float metallic;         ///< [1]
   float spec_trans;       ///< [1]
@@ -34,32 +34,33 @@ struct PrincipledSurface {
   float flatness;         ///< [1]
   float clearcoat;        ///< [1]
   float clearcoat_gloss;  ///< [1]
-  float ior;              ///< inside over outside
+  float ior;              ///< index inside over outside
 
-  /// Weight of the matt lobe, and of transmission [1].
+  /// The weights of the matt lobe and of transmission [1].
   float matt_weight() const { return (1 - metallic) * (1 - spec_trans); }
   float clear_weight() const { return (1 - metallic) * spec_trans; }
 
-  /// What a facet of the interface does with light [1].
+  /// The shares of light that a facet of the interface reflects and transmits [1].
   struct Shares {
     Rgb reflected, transmitted;
   };
-  /// For Fresnel's `dielectric` reflectance [1] and Schlick's weight `schlick` [1] of the facet.
+  /// The shares for the facet's Fresnel reflectance `dielectric` [1] and Schlick weight `schlick`
+  /// [1].
   Shares shares(float dielectric, float schlick, bool outside) const;
-  /// At `cosine` in [0, 1] to the facet, with its `dielectric` reflectance.
+  /// The shares at `cosine` in [0, 1] to the facet, with its Fresnel reflectance `dielectric` [1].
   Shares shares_at(float cosine, float dielectric, bool outside) const;
 
-  /// f cos(i) [1/sr] of the matt lobe and of sheen, m the half vector; outside only.
+  /// f cos(i) [1/sr] of the matt lobe and of sheen for the half vector m; outside only.
   Rgb matt(Vec3 wo, Vec3 wi, Vec3 m) const;
-  /// About the share [1] of light that matt() scatters.
+  /// The approximate share [1] of light that matt() scatters.
   float matt_albedo() const;
 
-  /// The clearcoat's roughness and facets.
+  /// The clearcoat's roughness and its distribution of facets.
   float coat_alpha() const { return lerp(0.1f, 0.001f, clearcoat_gloss); }
   CoatDistribution coat_facets() const { return CoatDistribution(coat_alpha()); }
-  /// f cos(i) [1/sr] of the clearcoat, m the half vector; outside only.
+  /// f cos(i) [1/sr] of the clearcoat for the half vector m; outside only.
   float coat(Vec3 wo, Vec3 wi, Vec3 m) const;
-  /// About the share [1] of light that coat() scatters.
+  /// The approximate share [1] of light that coat() scatters.
   float coat_albedo(Vec3 wo) const;
 
  private:

@@ -31,9 +31,9 @@ Vec3 RoughCoat::sample(Vec3 wo, Vec2 u) const {
   return normalize(2 * dot(wo, m) * m - wo);
 }
 
-/// The mean of F G2 / G1 over visible normals, by the midpoint rule over their primary numbers.
-/// Half of u.x suffices, and points crowd at both ends of u.y, where facets turn away from view or
-/// are the steepest.
+/// The mean of F G2 / G1 over visible normals, by the midpoint rule over the two random numbers. By
+/// symmetry half of the range of u.x suffices. Points are denser at both ends of u.y, where facets
+/// turn away from view or are steepest.
 float RoughCoat::reflectance(float cosine) const {
   constexpr int kPoints = 40;
   const Vec3 wo{safe_sqrt((1 - cosine) * (1 + cosine)), 0, cosine};

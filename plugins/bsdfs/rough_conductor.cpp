@@ -1,22 +1,23 @@
-// rough_conductor: a metal of microfacets,
+// rough_conductor: a metal with a microfacet surface,
 //
 //     f = F(o.m) D(m) G2(o, i) / (4 cos(o) cos(i)),  m the unit half vector,
 //
-// with the exact Fresnel term of a complex index eta - i k in each color channel (in vacuum).
-// `material` names a measured metal (metals.cpp says where its numbers come from) or `ideal`, which
-// reflects everything; any other metal is given by `eta` and `k` instead.
-// Light is scattered on the side of the shading normal only, once: what bounces between facets is
-// lost, as usual.
+// with the exact Fresnel term of a complex index eta - i k in each color channel (relative to
+// vacuum). `material` names a measured metal (metals.cpp gives the sources) or `ideal`, which
+// reflects everything. Any other metal is given by `eta` and `k` instead. Only the side of the
+// shading normal scatters light, and only by single reflection: light that bounces between facets
+// is lost, as usual.
 //
 // `distribution` is `ggx` or `beckmann`, the D of Walter et al. 2007, "Microfacet Models for
-// Refraction through Rough Surfaces", eqs. 33 and 25, each with the exact masking that Smith
-// derives from it. At the same alpha Beckmann's highlight is about as wide, but ends where that of
-// GGX has a haze. `masking: separable` is the product G1(o) G1(i) of renderers before Heitz 2014,
-// Mitsuba 0.6 among them. Single precision resolves alpha down to about 0.001; below, lobes become
-// grainy, so less than 0.0001 is refused.
+// Refraction through Rough Surfaces", eqs. 33 and 25, each with the exact masking that Smith's
+// model derives from it. At equal alpha Beckmann's highlight is about as wide as the highlight of
+// GGX, but it lacks the surrounding haze. `masking: separable` is the product G1(o) G1(i) of
+// renderers before Heitz 2014, for example Mitsuba 0.6. Single precision resolves alpha down to
+// about 0.001. Lobes become grainy below this value, and alpha below 0.0001 is rejected.
 //
-// With `alpha_v` facets are tilted by different amounts along u and v of the texture coordinates.
-// Metal brushed along u is smooth along u and rough along v: `alpha` is less than `alpha_v`.
+// If `alpha_v` is given, facets are tilted by different amounts along u and v of the texture
+// coordinates. Metal brushed along u is smooth along u and rough along v, so `alpha` is less than
+// `alpha_v`.
 //
 //     { type: rough_conductor, alpha: 0.15, material: Au }
 //     { type: rough_conductor, alpha: 0.05, alpha_v: 0.3, material: Al }

@@ -36,7 +36,7 @@ class RoughConductor final : public Bsdf {
  private:
   float alpha_u() const { return settings_.alpha; }
   float alpha_v() const { return settings_.alpha_v.value_or(settings_.alpha); }
-  /// An evaluation with the quotient of value and pdf, which needs no D(m).
+  /// Value over pdf, and pdf. The quotient does not need D(m).
   struct Reflection {
     Rgb weight;
     float pdf = 0;
@@ -46,7 +46,7 @@ class RoughConductor final : public Bsdf {
   Settings settings_;
   ComplexIor ior_;
   Facets facets_;
-  Rgb average_fresnel_;  ///< over the hemisphere, approximately [1]
+  Rgb average_fresnel_;  ///< mean over the hemisphere, approximate [1]
 };
 
 }  // namespace pharos

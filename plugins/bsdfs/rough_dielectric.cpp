@@ -1,21 +1,22 @@
-// rough_dielectric: frosted glass, the interface of a clear medium made of microfacets (Walter
-// et al. 2007, eqs. 20 and 21),
+// rough_dielectric: frosted glass, the interface of a clear medium with a microfacet surface
+// (Walter et al. 2007, eqs. 20 and 21):
 //
 //     reflected   f = F(o.m) D(m) G2(o, i) / (4 cos(o) cos(i)),      m ~ o + i,
 //     refracted   f = (1 - F(o.m)) D(m) G2(o, i) |o.m| |i.m|
 //                     / (cos(o) cos(i) |o + eta i|^2),               m ~ -+(o + eta i),
 //
-// where eta is the index on the side of i over that on the side of o; this is for paths from the
-// sensor, paths from a light carry another eta^2 (conventions.md). Facets are drawn among those
-// visible from o, then F chooses the way; a set of allowed events conditions that choice alone.
-// What bounces between facets is lost, as usual. `masking: separable` is the product G1(o) G1(i) of
-// Walter et al., Mitsuba 0.6 among the renderers that have it.
+// where eta is the index on the side of i over the index on the side of o. These values are for
+// paths from the sensor; paths from a light have another factor eta^2 (conventions.md). sample()
+// first draws a facet among those visible from o; F then determines the choice between reflection
+// and refraction. A set of allowed events conditions only this choice. Light that bounces between
+// facets is lost, as usual. `masking: separable` is the product G1(o) G1(i) of Walter et al., as
+// for example in Mitsuba 0.6.
 //
-// `alpha_v` and `distribution` are as in rough_conductor.
+// `alpha_v` and `distribution` have the same meaning as in rough_conductor.
 //
-// The nearer `ior` comes to one, the narrower is the refracted lobe, and at one it is a single
-// direction: alpha |ior - 1| of less than 3e-5, where single precision no longer resolves it, is
-// refused. `dielectric` and surfaces without material take over there.
+// The refracted lobe becomes narrower as `ior` approaches one, and at one it is a single direction.
+// If alpha |ior - 1| is less than 3e-5, single precision no longer resolves the lobe, and the
+// material is rejected. Use `dielectric` or a surface without material then.
 //
 //     { type: rough_dielectric, alpha: 0.2, ior: 1.5 }
 #include "rough_dielectric.h"
@@ -30,12 +31,12 @@
 namespace pharos {
 namespace {
 
-/// Probability that a facet of reflectance `fresnel` mirrors, in a choice among `allowed` events.
+/// The probability that a facet of reflectance `fresnel` mirrors, given the `allowed` events.
 float reflect_probability(float fresnel, EventMask allowed) {
   if (!contains(allowed, Event::smooth_reflect)) return 0;
   return contains(allowed, Event::smooth_transmit) ? fresnel : 1;
 }
-/// The same for refraction.
+/// The probability that a facet of reflectance `fresnel` refracts, given the `allowed` events.
 float refract_probability(float fresnel, EventMask allowed) {
   if (!contains(allowed, Event::smooth_transmit)) return 0;
   return contains(allowed, Event::smooth_reflect) ? 1 - fresnel : 1;
@@ -87,7 +88,7 @@ std::optional<ScatterSample> RoughDielectric::sample(const SurfacePoint& point, 
   const float cosine = std::clamp(dot(above, m), 0.0f, 1.0f);
   const float fresnel = dielectric_fresnel(cosine, eta).reflectance;
   const bool reflects = u_choice < reflect_probability(fresnel, options.events);
-  if (!reflects && fresnel == 1) return {};  // total reflection, which is not allowed
+  if (!reflects && fresnel == 1) return {};  // total reflection is not allowed
   const std::optional<Vec3> wi = facet_direction(above, m, eta, reflects);
   if (!wi) return {};
   const Scattering s = scatter(point, above, *wi, eta, options);

@@ -20,7 +20,7 @@ class RoughDielectric final : public Bsdf {
     Ref<Texture> specular_reflectance, specular_transmittance;
     static void describe(Schema<Settings>& s);
   };
-  /// Throws InputError where the refracted lobe is too narrow for single precision.
+  /// Throws InputError if the refracted lobe is too narrow for single precision.
   explicit RoughDielectric(const Settings& settings);
 
   EventMask events() const override {
@@ -38,24 +38,24 @@ class RoughDielectric final : public Bsdf {
  private:
   float alpha_u() const { return settings_.alpha; }
   float alpha_v() const { return settings_.alpha_v.value_or(settings_.alpha); }
-  /// An evaluation with the quotient of value and pdf, which needs no D(m).
+  /// Value over pdf, and pdf. The quotient does not need D(m).
   struct Scattering {
     Rgb weight;
     float pdf = 0;
   };
-  /// Turned so that `wo` lies above; `eta` is the index below over that above.
+  /// Directions are flipped so that `wo` lies above; `eta` is the index below over the index above.
   Scattering reflect(const SurfacePoint& point, Vec3 wo, Vec3 wi, float eta,
                      EventMask events) const;
   Scattering refract(const SurfacePoint& point, Vec3 wo, Vec3 wi, float eta,
                      ScatterOptions options) const;
   Scattering scatter(const SurfacePoint& point, Vec3 wo, Vec3 wi, float eta,
                      ScatterOptions options) const;
-  /// The index on the far side over that on the side of `wo`.
+  /// The index on the far side over the index on the side of `wo`.
   float eta_beyond(Vec3 wo) const { return wo.z > 0 ? settings_.ior : 1 / settings_.ior; }
 
   Settings settings_;
   Facets facets_;
-  float average_fresnel_;  ///< over the outer hemisphere [1]
+  float average_fresnel_;  ///< mean over the outer hemisphere [1]
 };
 
 }  // namespace pharos

@@ -1,21 +1,21 @@
-// rough_diffuse: plaster, sand, clay: a surface of V-shaped grooves whose facets are matt (Oren and
-// Nayar 1994, "Generalization of Lambert's Reflectance Model"). With a and b the
-// larger and the smaller of the angles of o and i to the normal, p the azimuth between them, s the
-// standard deviation of the facets' slope angles and r the facets' reflectance,
+// rough_diffuse: plaster, sand or clay, as a surface of V-shaped grooves with matt facets (Oren and
+// Nayar 1994, "Generalization of Lambert's Reflectance Model"). Let a and b be the larger and the
+// smaller angle of o and i to the normal, p the azimuth between them, s the standard deviation of
+// the facets' slope angles and r the facets' reflectance. Then
 //
 //     f = r / pi (C1 + cos(p) C2 tan(b) + (1 - |cos(p)|) C3 tan((a + b) / 2))
 //         + 0.17 r^2 / pi s^2 / (s^2 + 0.13) (1 - cos(p) (2 b / pi)^2).
 //
-// The second line is light that two facets have reflected. `use_fast_approx` takes the same paper's
-// qualitative model instead, f = r / pi (A + B max(0, cos(p)) sin(a) tan(b)), which does without it
-// and is darker. `alpha` is the roughness of microfacets, their root mean square slope, from which
-// s = alpha / sqrt(2) as in Mitsuba; at 0 the surface is `diffuse`. Of textures in color the mean
-// of the channels counts. sample() follows the cosine law,
-// or `warp` as in `diffuse`.
+// The second line is light that two facets have reflected. `use_fast_approx` selects the
+// qualitative model of the same paper, f = r / pi (A + B max(0, cos(p)) sin(a) tan(b)), which omits
+// this light and is darker. `alpha` is the roughness of microfacets, their root mean square slope.
+// It gives s = alpha / sqrt(2), as in Mitsuba; at 0 the surface is `diffuse`. If `alpha` is a
+// color, the mean of its channels counts. sample() follows the cosine law, or `warp` as in
+// `diffuse`.
 //
-// The formulas are fits, and a white surface seen at a grazing angle reflects up to 4% more light
-// than arrives; with a reflectance of at most 0.95 none does.
-// Light is scattered on the side of the shading normal only; the other side is black.
+// The formulas are fits. A white surface seen at a grazing angle reflects up to 4% more light than
+// arrives; with a reflectance of at most 0.95 it does not. Only the side of the shading normal
+// scatters light; the other side is black.
 //
 //     { type: rough_diffuse, reflectance: [0.6, 0.5, 0.4], alpha: 0.4 }
 #include "rough_diffuse.h"
@@ -29,8 +29,9 @@
 namespace pharos {
 namespace {
 
-/// Two directions with z > 0 as the model sees them. `a` is the one farther from the normal. What
-/// grows without bounds at grazing angles is multiplied by cos(i), which bounds it.
+/// Two directions with z > 0, in the terms of the model. `a` is the angle of the direction farther
+/// from the normal. Terms that are unbounded at grazing angles are multiplied by cos(i), which
+/// bounds them.
 struct Grooves {
   Grooves(Vec3 wo, Vec3 wi) : cos_i(wi.z) {
     const float sin_o = std::hypot(wo.x, wo.y), sin_i = std::hypot(wi.x, wi.y);
@@ -43,15 +44,16 @@ struct Grooves {
     cos_tan_mean = (sin_a + sin_b) * (cos_i / (wo.z + wi.z));
   }
 
-  float cos_i;            ///< cosine of the direction of scattering
+  float cos_i;            ///< cosine of the scattered direction
   float a, b;             ///< angles to the normal [rad]
-  float sin_a;            ///< sine of the larger
-  float cos_azimuth = 0;  ///< of the azimuth between them; 0 where there is none
+  float sin_a;            ///< sine of the larger angle
+  float cos_azimuth = 0;  ///< cosine of the azimuth between the directions; 0 if undefined
   float cos_tan_b;        ///< cos(i) tan(b)
   float cos_tan_mean;     ///< cos(i) tan((a + b) / 2)
 };
 
-/// f cos(i) pi of light reflected once and twice, over the reflectance and over its square.
+/// f cos(i) pi of light reflected once, divided by the reflectance, and of light reflected twice,
+/// divided by its square.
 struct Orders {
   float once, twice;
 };
@@ -81,7 +83,7 @@ void RoughDiffuse::Settings::describe(Schema<Settings>& s) {
                  "0.5");
   describe_share(s, "alpha", &Settings::alpha, "Root mean square slope of the facets", "0.2");
   s.field("use_fast_approx", &Settings::use_fast_approx,
-          "Whether to take the paper's qualitative model");
+          "Whether to use the qualitative model of Oren and Nayar");
   describe_warp(s);
   s.example("{ reflectance: [0.9, 0.5, 0.2], alpha: 0.5 }");
   s.example("{ reflectance: 0.95, alpha: 0.3 }");

@@ -26,7 +26,7 @@ class RoughDiffuse final : public Bsdf {
   std::optional<ScatterSample> sample(const SurfacePoint& point, Vec3 wo, float u_choice, Vec2 u,
                                       ScatterOptions options) const override;
   float roughness(const SurfacePoint&) const override { return 1; }
-  /// That of the facets, which a rough surface falls short of by some percent.
+  /// The reflectance of the facets. The albedo of a rough surface is lower by a few percent.
   Rgb albedo(const SurfacePoint& point) const override {
     return settings_.reflectance->evaluate(point);
   }

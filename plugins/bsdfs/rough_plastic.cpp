@@ -1,13 +1,13 @@
-// rough_plastic: `plastic` whose coat is rough, a sum of microfacets and a matt base,
+// rough_plastic: `plastic` with a rough coat, the sum of microfacets and a matt base,
 //
 //     f = F(o.m) D(m) G2(o, i) / (4 cos(o) cos(i))  +  T(o) T(i) / (pi eta^2)  a / (1 - a F'),
 //
-// m being the unit half vector, T the coat's transmittance in one direction, F' the mean
-// reflectance of its inner side (see diffuse_base.h). T is what the first term does not reflect
-// (rough_coat.h), so that a white base reflects all light up to the error of a table, which is
-// below 0.001 for alpha >= 0.001. sample() chooses coat and base in proportion to the mean of the
-// channels of what they reflect. `distribution` and `masking` are as in rough_conductor. Light is
-// scattered on the side of the normal only.
+// where m is the unit half vector, T the coat's transmittance in one direction, and F' the mean
+// reflectance of its inner side (see diffuse_base.h). T is the share of light that the first term
+// does not reflect (rough_coat.h). So a white base reflects all light, up to the error of a table,
+// which is below 0.001 for alpha >= 0.001. sample() chooses between coat and base in proportion to
+// the mean of the channels of the light they reflect. `distribution` and `masking` have the same
+// meaning as in rough_conductor. Only the side of the normal scatters light.
 //
 //     { type: rough_plastic, alpha: 0.15, reflectance: [0.1, 0.3, 0.7], nonlinear: true }
 #include "rough_plastic.h"
@@ -28,7 +28,8 @@ void RoughPlastic::Settings::describe(Schema<Settings>& s) {
                  "0.5");
   describe_factor(s, "specular_reflectance", &Settings::specular_reflectance,
                   "Factor on what the coat reflects");
-  s.field("nonlinear", &Settings::nonlinear, "Whether repeated reflection deepens the color");
+  s.field("nonlinear", &Settings::nonlinear,
+          "Whether repeated reflection below the coat deepens the color");
   s.example("{ alpha: 0.02, reflectance: 1, nonlinear: true }");
   s.example(
       "{ alpha: 0.4, distribution: beckmann, ior: 1.9, reflectance: [0.8, 0.4, 0.05], nonlinear: "

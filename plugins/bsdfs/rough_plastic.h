@@ -34,15 +34,15 @@ class RoughPlastic final : public Bsdf {
   Rgb albedo(const SurfacePoint& point) const override;
 
  private:
-  /// What light from one direction meets at a point.
+  /// The layers at a point for light from one direction.
   struct Layers {
-    Rgb specular;       ///< factor on what the coat mirrors [1]
-    Rgb emerging;       ///< share of what has entered that leaves in the end [1]
-    float entering;     ///< share that enters the coat [1]
-    LobeChoice choice;  ///< the coat first, the base second
+    Rgb specular;       ///< factor on the coat's reflection [1]
+    Rgb emerging;       ///< share of the light that has entered and finally leaves [1]
+    float entering;     ///< share of light that enters the coat [1]
+    LobeChoice choice;  ///< the coat comes first, the base second
   };
   Layers layers(const SurfacePoint& point, float cosine) const;
-  /// What both layers send to `wi`.
+  /// The light that both layers scatter to `wi`.
   ScatterValue scattered(const Layers& layers, Vec3 wo, Vec3 wi) const;
 
   Settings settings_;

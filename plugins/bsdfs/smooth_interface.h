@@ -9,8 +9,9 @@
 
 namespace pharos {
 
-/// What smooth interfaces share that split light into a mirrored and a transmitted part: all of
-/// their events are discrete, chosen by the shares alone, and tinted by two textures.
+/// The common base of smooth interfaces that split light into a mirrored and a transmitted part.
+/// All their events are discrete. The shares alone determine the choice between events, and two
+/// textures tint the parts.
 class SmoothInterface : public Bsdf {
  public:
   ScatterValue evaluate(const SurfacePoint&, Vec3, Vec3, ScatterOptions) const override {
@@ -27,19 +28,20 @@ class SmoothInterface : public Bsdf {
   }
 
  protected:
-  /// Factors on both parts, and the share [1] mirrored of light from everywhere.
+  /// Takes the factors on both parts, and the share [1] of uniform light that is mirrored.
   SmoothInterface(Ref<Texture> reflectance, Ref<Texture> transmittance, float average_reflected)
       : reflectance_(std::move(reflectance)),
         transmittance_(std::move(transmittance)),
         average_reflected_(average_reflected) {}
 
-  /// How the other part goes on.
+  /// How the transmitted part continues.
   struct Onward {
     Event event;
     Vec3 direction;
-    float scale = 1;  ///< of radiance by compressed solid angle
+    float scale = 1;  ///< factor on radiance for compressed solid angle
   };
-  /// Both parts where the share `reflected` of light from `wo` is mirrored, if allowed.
+  /// Returns both parts, as far as they are allowed, if the share `reflected` of light from `wo` is
+  /// mirrored.
   DiscreteOutcomes split(const SurfacePoint& point, Vec3 wo, float reflected, const Onward& onward,
                          EventMask allowed) const {
     const float transmitted = 1 - reflected;

@@ -1,12 +1,13 @@
-// thin_dielectric: a clear pane so thin that both of its faces are one surface, such as a window or
-// a soap film, the same medium on either side. With F by Fresnel's equations at each face, light
-// goes to and fro between them; the sum over all ways is
+// thin_dielectric: a clear pane, such as a window or a soap film, so thin that both of its faces
+// are one surface. The medium is the same on both sides. Each face reflects the share F given by
+// Fresnel's equations, and light goes to and fro between the faces. The sum over all numbers of
+// reflections is
 //
-//     reflected  F + (1 - F)^2 F (1 + F^2 + F^4 + ...) = 2 F / (1 + F),
-//     transmitted   (1 - F)^2   (1 + F^2 + F^4 + ...) = (1 - F) / (1 + F)
+//     reflected     F + (1 - F)^2 F (1 + F^2 + F^4 + ...) = 2 F / (1 + F),
+//     transmitted       (1 - F)^2   (1 + F^2 + F^4 + ...) = (1 - F) / (1 + F)
 //
-// (Stokes 1862 for piles of plates; without interference). What is transmitted goes straight on,
-// undisplaced: the event is `pass_through`, with which shading normals have nothing to do.
+// (Stokes 1862 for piles of plates; without interference). Transmitted light goes straight on,
+// without displacement. Its event is `pass_through`, which does not depend on shading normals.
 //
 //     { type: thin_dielectric, ior: 1.5, specular_transmittance: [0.9, 1, 0.95] }
 #include "thin_dielectric.h"
@@ -18,7 +19,7 @@
 namespace pharos {
 namespace {
 
-/// The share [1] that a pane reflects at `cosine` to its normal, in [0, 1].
+/// The share [1] of light that a pane reflects at `cosine` to its normal, in [0, 1].
 float pane_reflectance(float cosine, float ior) {
   const float fresnel = dielectric_fresnel(cosine, ior).reflectance;
   return 2 * fresnel / (1 + fresnel);

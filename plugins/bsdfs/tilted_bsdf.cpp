@@ -6,15 +6,15 @@
 namespace pharos {
 namespace {
 
-/// Normals whose cosine to the surface's is less are lifted to it.
+/// Normals with a smaller cosine to the surface's normal are lifted to this cosine.
 constexpr float kLeastCosine = 1e-3f;
 
 Vec3 to_world(const Frame& frame, Vec3 local) {
   return normalize(frame.to_world(local));
 }
 
-/// What the tilt makes of light scattered from `wo` into `wi`, `o` and `i` in the tilted frame: see
-/// TiltedBsdf.
+/// The factor of the tilt on light scattered from `wo` into `wi`; `o` and `i` are the same
+/// directions in the tilted frame. See TiltedBsdf.
 float tilt_factor(Vec3 wo, Vec3 o, Vec3 wi, Vec3 i, Transport transport) {
   if (!(wo.z * o.z > 0 && wi.z * i.z > 0)) return 0;
   if (transport == Transport::radiance) return 1;
@@ -29,7 +29,7 @@ std::optional<TiltedBsdf::Tilt> TiltedBsdf::tilt(const SurfacePoint& point) cons
   if (!(size > 0) || !std::isfinite(size) || (n.x == 0 && n.y == 0)) return {};
   n.z = std::max(n.z, kLeastCosine * size);
   n = normalize(n);
-  const Vec3 s = normalize(Vec3{n.z, 0, -n.x});  // above x, as dp/du of the displaced surface is
+  const Vec3 s = normalize(Vec3{n.z, 0, -n.x});  // above x, like dp/du of the displaced surface
   const Frame frame{s, cross(n, s), n};
   Tilt result{frame, point};
   const Frame& own = point.shading;

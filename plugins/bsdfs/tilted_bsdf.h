@@ -6,15 +6,16 @@
 
 namespace pharos {
 
-/// A BSDF in a shading frame that is tilted from point to point: the base of bump_map and
+/// A BSDF in a shading frame that is tilted from point to point; the base of bump_map and
 /// normal_map.
 ///
-/// The nested BSDF is asked in the tilted frame, whose s stays above the surface's. A direction
-/// that lies on different sides of the surface and of the tilted plane scatters nothing, so that no
-/// light leaks through; it is lost, and never gained. The BSDF about the tilted normal is
-/// reciprocal if the nested one is, but cosines to that normal are not those of the flow of light
-/// through the surface. As for shading normals, importance carries the correction that makes both
-/// transports agree (Veach 1997, eq. 5.19), and may gain. What passes straight through is as it is.
+/// The nested BSDF is evaluated in the tilted frame. The tangent s of this frame lies above the
+/// surface's s. A direction that lies on different sides of the surface and of the tilted plane
+/// scatters nothing, so that no light leaks through. This light is lost; the tilt never adds any.
+/// If the nested BSDF is reciprocal, it stays so about the tilted normal. However, cosines to the
+/// tilted normal do not describe the flow of light through the surface. As with shading normals,
+/// importance is multiplied by the correction that makes both transports agree (Veach 1997, eq.
+/// 5.19), and may gain energy. Light that passes straight through is not changed.
 class TiltedBsdf : public Bsdf {
  public:
   explicit TiltedBsdf(Ref<Bsdf> bsdf) : bsdf_(std::move(bsdf)) {}
@@ -33,18 +34,18 @@ class TiltedBsdf : public Bsdf {
   bool tilts_normal() const override { return true; }
 
  protected:
-  /// The tilted normal in the point's shading frame, of any length; (0, 0, 1) where nothing is
-  /// known. One that lies below the surface, or nearly, is lifted to where it is just above; one
-  /// that is zero or not finite tilts nothing.
+  /// The tilted normal in the point's shading frame, of any length. It is (0, 0, 1) if the tilt is
+  /// unknown. A normal below the surface or nearly level with it is lifted to just above the
+  /// surface. A normal that is zero or not finite tilts nothing.
   virtual Vec3 normal(const SurfacePoint& point) const = 0;
 
  private:
-  /// The tilted frame, in coordinates of the point's own, and the point with it.
+  /// The tilted frame in coordinates of the point's own frame, and the point with this frame.
   struct Tilt {
     Frame frame;
     SurfacePoint point;
   };
-  /// Empty where nothing is tilted.
+  /// Empty if nothing is tilted.
   std::optional<Tilt> tilt(const SurfacePoint& point) const;
 
   Ref<Bsdf> bsdf_;

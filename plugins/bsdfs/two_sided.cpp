@@ -1,7 +1,7 @@
-// two_sided: gives an opaque material, which scatters on the side of the normal only, a back. The
-// back behaves as the front of `back` would (of `bsdf`, if `back` is left out) in a shading frame
-// mirrored at the surface: z changes its sign, x and y stay. For a material with holes put the mask
-// outside, around two_sided.
+// two_sided: gives an opaque material, which scatters only on the side of the normal, a second
+// side. The back behaves like the front of `back` (or of `bsdf`, if `back` is not given) in a
+// shading frame mirrored at the surface: z changes its sign, x and y stay. For a material with
+// holes, put the mask outside, around two_sided.
 //
 //     { type: two_sided, bsdf: { type: plastic, reflectance: 0.8 }, back: { type: diffuse } }
 #include "two_sided.h"
@@ -30,9 +30,10 @@ void check_opaque(const Bsdf& bsdf, const char* key) {
 }  // namespace
 
 void TwoSided::Settings::describe(Schema<Settings>& s) {
-  s.field("bsdf", &Settings::bsdf, "Opaque material of the side of the normal")
+  s.field("bsdf", &Settings::bsdf, "Opaque material of the front, the side of the normal")
       .otherwise("{ type: diffuse }");
-  s.field("back", &Settings::back, "Opaque material of the other side; without it as the first");
+  s.field("back", &Settings::back,
+          "Opaque material of the back; by default the material of the front");
   s.example("{ bsdf: { type: plastic, ior: 1.7 } }");
   s.example("{ bsdf: { type: rough_conductor, alpha: 0.3 }, back: { type: rough_plastic } }");
 }

@@ -10,10 +10,10 @@ class TwoSided final : public Bsdf {
  public:
   struct Settings {
     Ref<Bsdf> bsdf;
-    Ref<Bsdf> back;  ///< null: as `bsdf`
+    Ref<Bsdf> back;  ///< null: same as `bsdf`
     static void describe(Schema<Settings>& s);
   };
-  /// Throws InputError when a material lets light through.
+  /// Throws InputError if a material transmits light.
   explicit TwoSided(const Settings& settings);
 
   EventMask events() const override { return front_->events() | back_->events(); }
@@ -24,7 +24,7 @@ class TwoSided final : public Bsdf {
   DiscreteOutcomes discrete(const SurfacePoint& point, Vec3 wo,
                             ScatterOptions options) const override;
   float roughness(const SurfacePoint& point) const override;
-  /// The front's: which side is seen is not asked.
+  /// The albedo of the front; the visible side is not known here.
   Rgb albedo(const SurfacePoint& point) const override { return front_->albedo(point); }
   bool needs_tangents() const override {
     return front_->needs_tangents() || back_->needs_tangents();

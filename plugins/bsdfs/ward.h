@@ -10,7 +10,7 @@
 
 namespace pharos {
 
-/// How Ward's lobe is scaled; see ward.cpp.
+/// The scale factor of Ward's lobe; see ward.cpp.
 enum class WardVariant { ward, ward_duer, balanced };
 template <>
 struct EnumNames<WardVariant> {
@@ -31,7 +31,7 @@ class Ward final : public Bsdf {
     WardVariant variant = WardVariant::balanced;
     static void describe(Schema<Settings>& s);
   };
-  /// Throws InputError when both reflectances may add up to more than one.
+  /// Throws InputError if both reflectances may add up to more than one.
   explicit Ward(const Settings& settings);
 
   EventMask events() const override { return mask_of(Event::smooth_reflect); }
@@ -49,18 +49,18 @@ class Ward final : public Bsdf {
   /// Both lobes at a point.
   struct Lobes {
     Rgb specular, diffuse;
-    LobeChoice choice;  ///< the specular one first
+    LobeChoice choice;  ///< the specular lobe comes first
   };
   Lobes lobes(const SurfacePoint& point) const;
-  /// What both lobes send from `wo` to `wi`, both with z > 0.
+  /// The light that both lobes scatter from `wo` to `wi`, both with z > 0.
   ScatterValue scattered(const Lobes& lobes, Vec3 wo, Vec3 wi) const;
-  /// The specular lobe of reflectance one: value f |cos(wi)| over pdf, and pdf.
+  /// The specular lobe for a reflectance of one: value f |cos(wi)| over pdf, and pdf.
   struct Glossy {
     float weight = 0;  ///< [1]
     float pdf = 0;     ///< [1/sr]
   };
   Glossy glossy(Vec3 wo, Vec3 wi) const;
-  /// A direction of the density that glossy() states; its z may be negative.
+  /// Draws a direction with the density of glossy(); its z may be negative.
   Vec3 sample_glossy(Vec3 wo, Vec2 u) const;
 
   Settings settings_;

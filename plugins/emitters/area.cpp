@@ -1,6 +1,6 @@
-// area: a shape shines. Every point sends `scale` times the texture `radiance` [W/(m^2 sr)] into
-// every direction on the side of its normal and nothing to the other side. A color or a number
-// may stand for the texture.
+// area: a shape that emits light. Every point sends `scale` times the texture `radiance` [W/(m^2
+// sr)] in every direction on the side of its normal, and nothing to the other side. A color or a
+// number may replace the texture.
 //
 //     type: quad
 //     emitter: { type: area, radiance: [4, 3, 2], scale: 10 }
@@ -14,7 +14,7 @@
 namespace pharos {
 namespace {
 
-/// The same into all directions.
+/// Equal emission in all directions.
 struct UniformLobe {
   float operator()(float) const { return 1; }
   float projected_solid_angle() const { return kPi; }

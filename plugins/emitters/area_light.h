@@ -10,7 +10,7 @@
 
 namespace pharos {
 
-/// Declares `radiance` and `scale`, which all lights on shapes have.
+/// Declares `radiance` and `scale`, the common parameters of all lights on shapes.
 template <class Settings>
 void describe_radiance(Schema<Settings>& s, std::string help) {
   s.field("radiance", &Settings::radiance, std::move(help))
@@ -23,13 +23,14 @@ void describe_radiance(Schema<Settings>& s, std::string help) {
   s.field("scale", &Settings::scale, "Factor on the radiance").at_least(0);
 }
 
-/// A light on a shape: `scale` times the texture `radiance` times what the lobe makes of the angle
-/// to the geometric normal, and nothing to the other side. Sampled as the shape is.
+/// A light on a shape. Its radiance is `scale` times the texture `radiance` times the lobe's factor
+/// for the angle to the geometric normal. It emits nothing on the other side. Positions are sampled
+/// as the shape samples them.
 ///
-/// `Lobe` has `float operator()(float cosine) const`, the factor [1] for a cosine in (0, 1],
+/// `Lobe` has `float operator()(float cosine) const`, the factor [1] for a cosine in (0, 1], and
 /// `float projected_solid_angle() const`, the integral of factor times cosine over the hemisphere
-/// [sr], and `Vec3 sample(Vec2 u) const`, a direction about +z whose density `float pdf(float
-/// cosine) const` [1/sr] goes about like factor times cosine.
+/// [sr]. `Vec3 sample(Vec2 u) const` draws a direction about +z. Its density `float pdf(float
+/// cosine) const` [1/sr] is roughly proportional to factor times cosine.
 template <class Lobe>
 class AreaLight final : public Light {
  public:
@@ -62,7 +63,7 @@ class AreaLight final : public Light {
   }
 
   Rgb radiance(const SurfacePoint& point, Vec3 direction) const override {
-    // Of two rounded unit vectors the product may exceed one, which narrow lobes magnify.
+    // The product of two rounded unit vectors may exceed one, and narrow lobes magnify this error.
     const float cosine = std::min(1.0f, dot(direction, point.normal));
     if (cosine <= 0) return {};
     return scale_ * lobe_(cosine) * radiance_.evaluate(point);

@@ -1,5 +1,6 @@
-// constant: an environment that sends the same radiance from every direction, sampled uniformly
-// over the sphere of directions (density 1/(4 pi) [1/sr]). A closed white furnace in one line.
+// constant: an environment that sends the same radiance from every direction. It is sampled
+// uniformly over the sphere of directions (density 1/(4 pi) [1/sr]). It makes a closed white
+// furnace in one line.
 //
 //     emitters: [ { type: constant, radiance: [0.5, 0.7, 1] } ]
 

@@ -31,8 +31,8 @@ double elapsed_days(const Observer& observer, double universal_hours) {
   return static_cast<double>((sys_days(date) - start).count()) - 0.5 + universal_hours / 24;
 }
 
-// The algorithm and numbers of Blanco-Muriel et al. 2001, "Computing the Solar Vector" (Solar
-// Energy 70), good to half a minute of arc until 2015 and not much worse later.
+// Uses the algorithm and numbers of Blanco-Muriel et al. 2001, "Computing the Solar Vector" (Solar
+// Energy 70). They are accurate to half a minute of arc until 2015 and not much worse later.
 
 CelestialPlace celestial_place(double days) {
   const double omega = 2.1429 - 0.0010394594 * days;
@@ -49,15 +49,16 @@ CelestialPlace celestial_place(double days) {
 }  // namespace
 
 void Observer::describe(Schema<Observer>& s) {
-  s.field("latitude", &Observer::latitude, "North of the equator")
+  s.field("latitude", &Observer::latitude, "Latitude, positive north of the equator")
       .unit("degrees")
       .at_least(-90)
       .at_most(90);
-  s.field("longitude", &Observer::longitude, "East of Greenwich")
+  s.field("longitude", &Observer::longitude, "Longitude, positive east of Greenwich")
       .unit("degrees")
       .at_least(-180)
       .at_most(180);
-  s.field("timezone", &Observer::timezone, "How far the clock is ahead of Greenwich's")
+  s.field("timezone", &Observer::timezone,
+          "Difference of the clock to Greenwich time, positive in the east")
       .unit("hours")
       .at_least(-15)
       .at_most(15);
@@ -86,7 +87,8 @@ SunPlace sun_place(const Observer& observer) {
   const double height = std::cos(latitude) * std::cos(hour_angle) * std::cos(declination) +
                         std::sin(declination) * std::sin(latitude);
   const double zenith = std::acos(std::clamp(height, -1.0, 1.0));
-  constexpr double kParallax = 6371.01 / 149597890;  // Earth's radius by the distance of the sun
+  constexpr double kParallax =
+      6371.01 / 149597890;  // Earth's radius over its distance from the sun
   return {
       .zenith = zenith + kParallax * std::sin(zenith),
       .azimuth = std::atan2(-std::sin(hour_angle), std::tan(declination) * std::cos(latitude) -

@@ -6,20 +6,20 @@
 #include <pharos/core/frame.h>
 #include <pharos/core/transform.h>
 
-/// What the emitters `sky` and `sun` share: where the sun stands.
+/// The position of the sun, shared by the emitters `sky` and `sun`.
 namespace pharos {
 
-/// A place on Earth and a time, of the calendar and clock there.
+/// A place on Earth and a local date and time.
 struct Observer {
   float latitude = 35.6894f, longitude = 139.6917f;  ///< [degrees], north and east positive
-  float timezone = 9;                                ///< of the clock, east of Greenwich [hours]
+  float timezone = 9;  ///< difference of the clock to Greenwich time, east positive [hours]
   int year = 2010, month = 7, day = 10;
   float hour = 15, minute = 0, second = 0;
 
   static void describe(Schema<Observer>& s);
 };
 
-/// Settings of either emitter.
+/// The common settings of `sky` and `sun`.
 struct DaylightSettings {
   float turbidity = 3;
   std::optional<Vec3> sun_direction;
@@ -29,24 +29,25 @@ struct DaylightSettings {
   float scale = 1;
 };
 
-/// The sun in the emitter's space, where +y is up, +x east and -z north.
+/// The position of the sun in the emitter's space, where +y is up, +x east and -z north.
 struct SunPlace {
   double zenith = 0;   ///< angle from the zenith, in [0, pi / 2] [radians]
   double azimuth = 0;  ///< from north through east [radians]
 
-  /// The direction at the angle `zenith` from the zenith, below the sun or above it.
+  /// Returns the direction at the angle `zenith` from the zenith and at the sun's azimuth.
   Vec3 direction(double zenith) const;
 };
 
-/// Where the sun stands for `observer`, also below the horizon. Throws InputError for days that
-/// there are not.
+/// Returns the position of the sun for `observer`, also below the horizon. Throws InputError if the
+/// date does not exist.
 SunPlace sun_place(const Observer& observer);
 
-/// Where the sun stands that `settings` state, in a space of `axes`. Throws InputError, which
-/// begins with the name `emitter`, when they state it twice, and when it is below the horizon.
+/// Returns the position of the sun given by `settings`, in a space with the given `axes`. Throws
+/// InputError, beginning with the name `emitter`, if the settings give the position twice or if the
+/// sun is below the horizon.
 SunPlace sun_place(const DaylightSettings& settings, const Frame& axes, const char* emitter);
 
-/// Declares the parameters of DaylightSettings, for Settings that derive from it.
+/// Declares the parameters of DaylightSettings for a Settings class derived from it.
 template <class Settings>
 void describe_daylight(Schema<Settings>& s) {
   s.template field<float>("turbidity", &Settings::turbidity,

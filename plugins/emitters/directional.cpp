@@ -1,6 +1,6 @@
-// directional: parallel light from infinitely far away, like the sun's without its disk. It runs
-// along `direction` and makes `irradiance` [W/m^2] on surfaces that it meets at normal incidence.
-// No path runs into it by chance: next event estimation alone finds it.
+// directional: parallel light from infinitely far away, like sunlight without the sun's disk. It
+// travels along `direction` and produces the irradiance `irradiance` [W/m^2] on surfaces at normal
+// incidence. A path cannot hit it by chance; only next event estimation finds it.
 //
 //     emitters: [ { type: directional, irradiance: [1, 0.9, 0.8], direction: [1, 0, -2] } ]
 
@@ -43,7 +43,8 @@ void DirectionalEmitter::Settings::describe(Schema<Settings>& s) {
   s.field("irradiance", &Settings::irradiance, "Irradiance at normal incidence")
       .unit("W/m^2")
       .at_least(0);
-  s.field("direction", &Settings::direction, "Where the light goes; any length but 0")
+  s.field("direction", &Settings::direction,
+          "Direction in which the light travels; any length except 0")
       .check("a direction",
              [](const Vec3& d) { return std::abs(length(normalize(d)) - 1) < 1e-3f; });
   s.field("scale", &Settings::scale, "Factor on the irradiance").at_least(0);

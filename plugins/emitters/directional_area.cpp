@@ -1,13 +1,15 @@
-// directional_area: a shape shines, most along its normal. `radiance` [W/(m^2 sr)], times `scale`,
-// is the peak on the axis; at an angle of cosine c to the geometric normal it is multiplied by
+// directional_area: a shape that emits most light along its normal. `radiance` [W/(m^2 sr)] times
+// `scale` is the peak on the axis. At an angle of cosine c to the geometric normal the radiance is
+// multiplied by
 //
 //     cosine_power:      c^exponent
 //     von_mises_fisher:  exp(concentration (c - 1))
 //
-// and nothing goes to the other side. An exponent or concentration of 0 is a plain `area`; 1000
-// leaves half of the radiance at 2 degrees. More than 100000, 0.2 degrees, is refused: there the
-// rounding of a cosine, 6e-8, moves the radiance by half a percent. As the peak is fixed, narrow
-// lobes have less power: the radiant exitance of radiance 1 is
+// Nothing is emitted to the other side. An exponent or concentration of 0 gives a plain `area`;
+// with 1000 the radiance drops to half at 2 degrees. Values above 100000 (0.2 degrees) are
+// rejected, because the rounding error of a cosine, 6e-8, would change the radiance by half a
+// percent. Since the peak is fixed, narrow lobes have less power. The radiant exitance for radiance
+// 1 is
 //
 //     cosine_power:      2 pi / (exponent + 2)
 //     von_mises_fisher:  2 pi (k - 1 + exp(-k)) / k^2    with k = concentration
@@ -25,7 +27,7 @@
 namespace pharos {
 namespace {
 
-/// The largest exponent or concentration for which cosines in single precision are good enough.
+/// The largest exponent or concentration for which cosines in single precision are accurate enough.
 constexpr float kNarrowest = 1e5f;
 
 struct CosinePowerLobe {
@@ -33,7 +35,7 @@ struct CosinePowerLobe {
 
   float operator()(float cosine) const { return std::pow(cosine, exponent); }
   float projected_solid_angle() const { return 2 * kPi / (exponent + 2); }
-  /// By the inverse of the distribution of the cosine, cosine^(exponent + 2).
+  /// Inverts the distribution function of the cosine, cosine^(exponent + 2).
   Vec3 sample(Vec2 u) const {
     return warp::about_z(-std::expm1(std::log(1 - u.x) / (exponent + 2)), u.y);
   }
@@ -53,7 +55,7 @@ struct VonMisesFisherLobe {
     const double integral = k < kSeriesIsBetter ? 0.5 - k / 6 : (k + std::expm1(-k)) / (k * k);
     return 2 * kPi * static_cast<float>(integral);
   }
-  /// In proportion to the factor alone, on the hemisphere; uniform for a concentration of 0.
+  /// Draws in proportion to the factor alone, on the hemisphere; uniform for a concentration of 0.
   Vec3 sample(Vec2 u) const {
     const float k = concentration;
     const float one_minus_cos = k < kUniform ? u.x : -std::log1p(u.x * std::expm1(-k)) / k;
@@ -65,7 +67,7 @@ struct VonMisesFisherLobe {
     return k * std::exp(k * (cosine - 1)) / (-2 * kPi * std::expm1(-k));
   }
 
-  /// Below this, the lobe is even within what floats can tell.
+  /// Below this value the lobe is uniform within the precision of float.
   static constexpr float kUniform = 1e-6f;
 };
 
@@ -73,11 +75,12 @@ struct VonMisesFisherLobe {
 
 void DirectionalAreaEmitter::Settings::describe(Schema<Settings>& s) {
   describe_radiance(s, "Radiance along the normal");
-  s.field("lobe", &Settings::lobe, "How radiance goes down with the angle to the normal");
-  s.field("exponent", &Settings::exponent, "Power of the cosine; of lobe cosine_power")
+  s.field("lobe", &Settings::lobe, "How radiance decreases with the angle to the normal");
+  s.field("exponent", &Settings::exponent, "Exponent of the cosine, for lobe cosine_power")
       .at_least(0)
       .at_most(kNarrowest);
-  s.field("concentration", &Settings::concentration, "Of lobe von_mises_fisher")
+  s.field("concentration", &Settings::concentration,
+          "Narrowness of the lobe, for lobe von_mises_fisher")
       .at_least(0)
       .at_most(kNarrowest);
   s.example("{ radiance: [4, 3, 2], lobe: cosine_power, exponent: 20 }");

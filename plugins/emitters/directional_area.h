@@ -9,7 +9,7 @@
 
 namespace pharos {
 
-/// How radiance goes down with the angle to the normal.
+/// How radiance decreases with the angle to the normal.
 enum class EmissionLobe { cosine_power, von_mises_fisher };
 
 template <>
@@ -31,7 +31,8 @@ class DirectionalAreaEmitter : public Emitter {
     static void describe(Schema<Settings>& s);
   };
 
-  /// Throws InputError unless the lobe's own parameter is given, and not the other's.
+  /// Throws InputError unless the lobe's own parameter is given and the other lobe's parameter is
+  /// not.
   explicit DirectionalAreaEmitter(Settings settings);
 
   bool needs_shape() const override { return true; }

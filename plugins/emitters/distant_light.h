@@ -5,8 +5,8 @@
 
 namespace pharos {
 
-/// A light sample from infinitely far away: unit `direction` points to where the light comes from.
-/// Its stand-in lies outside the scene's sphere wherever `from` is.
+/// Returns a light sample from infinitely far away. The unit vector `direction` points towards the
+/// light. The point that represents the light lies outside the scene's sphere for every `from`.
 inline LightSample distant_sample(const EmitterSite& site, Point3 from, Vec3 direction,
                                   Rgb radiance, float pdf) {
   LightSample sample;
@@ -22,14 +22,15 @@ inline LightSample distant_sample(const EmitterSite& site, Point3 from, Vec3 dir
   return sample;
 }
 
-/// How densely rays from infinitely far away are drawn: the scene's sphere shows the same disk to
-/// all directions, over which they are spread evenly [1/m^2].
+/// The density of the positions of rays from infinitely far away [1/m^2]. Rays are spread evenly
+/// over the disk that the scene's sphere shows to every direction.
 inline float distant_position_pdf(const EmitterSite& site) {
   return 1 / (kPi * square(site.scene_radius));
 }
 
-/// A ray from infinitely far away that crosses the scene's sphere, where it comes from `towards`,
-/// drawn with density `pdf` [1/sr] (1 for a single direction), of `radiance` (irradiance).
+/// Returns a ray from infinitely far away that crosses the scene's sphere. `towards` points to its
+/// origin and was drawn with density `pdf` [1/sr]. For a light of a single direction, `pdf` is 1
+/// and `radiance` is the irradiance.
 inline EmissionSample distant_emission(const EmitterSite& site, Vec3 towards, Rgb radiance,
                                        float pdf, Vec2 u_position) {
   EmissionSample sample{.direction = -towards, .kind = VertexKind::environment};
@@ -45,8 +46,8 @@ inline EmissionSample distant_emission(const EmitterSite& site, Vec3 towards, Rg
   return sample;
 }
 
-/// Power that enters the scene's sphere [W] when the irradiances at normal incidence from all
-/// directions add up to `irradiance` [W/m^2]: the sphere shows the same disk to all of them.
+/// The power that enters the scene's sphere [W] if the irradiances at normal incidence from all
+/// directions add up to `irradiance` [W/m^2]. The sphere shows the same disk to all directions.
 inline float power_into_scene(const EmitterSite& site, float irradiance) {
   return kPi * square(site.scene_radius) * irradiance;
 }

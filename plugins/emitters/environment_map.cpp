@@ -1,20 +1,21 @@
-// environment_map: radiance from infinitely far away, by direction, from an image in
-// latitude-longitude layout (equirectangular). In the map's own space +y is up: the top row of
-// the image is what is seen looking along +y, the bottom row along -y. A direction d meets the
-// image at
+// environment_map: radiance from infinitely far away, given by direction in an image of
+// latitude-longitude layout (equirectangular). In the map's own space +y is up: the top row of the
+// image lies along +y, the bottom row along -y. A direction d meets the image at
 //
-//     u = atan2(d.x, -d.z) / (2 pi)    from the left edge, which is seen along -z, as a share
-//     v = acos(d.y) / pi               from the top edge
+//     u = atan2(d.x, -d.z) / (2 pi)    share of the width from the left edge, which lies along -z
+//     v = acos(d.y) / pi               share of the height from the top edge
 //
-// so that the middle of the image is seen along +z and columns go on to the right of it along -x,
-// as in Mitsuba 0.6. The image covers the whole sphere, whatever its shape: pixels are as wide as
-// high at the horizon if it is 2:1, and any other ratio is stretched. Scenes where +z is up turn it
-// by 90 degrees about x. Radiance is bilinear between the pixels' centres, around in u and up to
-// the edge in v, times `scale`. Files of 8 and 16 bit are taken as sRGB.
+// The middle of the image therefore lies along +z, and the columns to its right continue towards
+// -x, as in Mitsuba 0.6. The image covers the whole sphere for any aspect ratio. With 2:1 pixels at
+// the horizon are as wide as high; any other ratio stretches them. For scenes where +z is up,
+// rotate the map by 90 degrees about x. Radiance is bilinear between the pixels' centers, wraps
+// around in u, is clamped at the edges in v, and is multiplied by `scale`. Files of 8 and 16 bits
+// are read as sRGB.
 //
-// Sampled in proportion to radiance, nearly: the density is bilinear between the pixels' means of
-// channels, so that nothing that shines is missed. It is inverted in latitude first, then along the
-// row, and the map from primary numbers to directions is continuous where the image shines.
+// Directions are sampled nearly in proportion to radiance. The density is bilinear between the
+// means of the pixels' channels, so no direction with radiance is missed. It is inverted in
+// latitude first, then along the row. The map from random numbers to directions is continuous
+// wherever the image is not black.
 //
 //     emitters:
 //       - { type: environment_map, file: sky.exr, scale: 2,
@@ -29,7 +30,7 @@ namespace pharos {
 void EnvironmentMap::Settings::describe(Schema<Settings>& s) {
   s.field("file", &Settings::file, "Image in latitude-longitude layout").required();
   s.field("to_world", &Settings::to_world,
-          "From the map's space, where +y is up, to world space; no shear, even scale");
+          "Map from the image's space, where +y is up, to world space; even scale, no shear");
   s.field("scale", &Settings::scale, "Factor on the radiance").at_least(0);
   s.example("{ file: example.exr }");
   s.example(

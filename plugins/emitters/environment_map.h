@@ -20,8 +20,8 @@ class EnvironmentMap : public Emitter {
     static void describe(Schema<Settings>& s);
   };
 
-  /// Reads the file. Throws InputError when it cannot be read, holds negative values, infinity or
-  /// NaN, or when to_world does not keep angles.
+  /// Reads the file. Throws InputError if the file cannot be read, if it contains negative values,
+  /// infinity or NaN, or if to_world does not preserve angles.
   explicit EnvironmentMap(const Settings& settings);
 
   bool needs_shape() const override { return false; }

@@ -9,8 +9,8 @@
 namespace pharos {
 namespace {
 
-/// Where in [0, 1] the integral of the linear density from `a` at 0 to `b` at 1 has reached the
-/// share `u`. Written so that nothing cancels.
+/// Returns the position in [0, 1] at which the integral of the linear density from `a` at 0 to `b`
+/// at 1 reaches the share `u`. The form avoids cancellation.
 double linear_from_unit(double u, double a, double b) {
   const double denominator = a + std::sqrt((1 - u) * a * a + u * b * b);
   return denominator > 0 ? std::clamp(u * (a + b) / denominator, 0.0, 1.0) : u;
@@ -77,7 +77,7 @@ std::optional<Vec3> LatLongDistribution::sample(Vec2 u) const {
   return LatLong::direction(sample_column(u.x, rows), above);
 }
 
-/// The coordinate u within a pair of rows that is not black.
+/// Returns the coordinate u within a pair of rows that is not black.
 float LatLongDistribution::sample_column(float u, const Blend& rows) const {
   const double target = double{u} * cumulative(image_.width(), rows);
   int low = 0, high = image_.width();  // cumulative(low) <= target < cumulative(high)
@@ -99,7 +99,7 @@ float LatLongDistribution::pdf(const LatLong& place) const {
   const int band = PixelPair::at(place.v, image_.height()).low + 1;
   const auto b = static_cast<std::size_t>(band);
   const double t = (place.above - edges_[b]) / (edges_[b + 1] - edges_[b]);
-  // The band was found in float.
+  // The band was found in float, so t may lie slightly outside [0, 1].
   const Blend rows{image_.clamped(band - 1), image_.clamped(band), std::clamp(t, 0.0, 1.0)};
   const double left = weight(image_.wrapped(across.low), rows);
   const double right = weight(image_.wrapped(across.low + 1), rows);

@@ -8,27 +8,29 @@
 
 namespace pharos {
 
-/// Directions in proportion to an image of the sphere, nearly: the density interpolates the pixels'
-/// means of channels bilinearly in u and in the share of the sphere above, where the image does so
-/// in u and v. So it is positive wherever the image is, its integral and inverse are elementary,
-/// and solid angle needs no sine. The two differ between rows only, by less than a factor of two
-/// next to the poles and less and less away from them.
+/// A distribution of directions that is nearly proportional to an image of the sphere. The density
+/// interpolates the mean of each pixel's channels bilinearly in u and in the share of the sphere
+/// above, while the image itself is bilinear in u and v. Therefore the density is positive wherever
+/// the image is, its integral and inverse are elementary, and solid angle needs no sine. Density
+/// and image differ only between rows, by less than a factor of two next to the poles and less and
+/// less away from them.
 class LatLongDistribution {
  public:
-  /// Refers to `image`. Throws InputError when its integral is beyond a float.
+  /// Refers to `image`. Throws InputError if the image's integral exceeds the range of float.
   explicit LatLongDistribution(const LatLongImage& image);
 
-  /// The place that belongs to `u`, continuous in it where the density is not zero: the marginal
-  /// of `above` inverted, then the conditional of u. Empty when the image is black, and for the few
-  /// u.y, of no measure, that fall on the edge of a black row.
+  /// Maps `u` to a direction, continuously wherever the density is not zero. It inverts first the
+  /// marginal distribution of `above`, then the conditional distribution of u. Empty if the image
+  /// is black, and for a set of u.y of measure zero that falls on the edge of a black row.
   std::optional<Vec3> sample(Vec2 u) const;
-  /// The density of sample() [1/sr]; 0 when the image is black.
+  /// The density of sample() [1/sr]; 0 if the image is black.
   float pdf(const LatLong& place) const;
-  /// Of the interpolated means over the sphere of directions [unit of the image times sr].
+  /// The integral of the interpolated means over the sphere of directions [unit of the image times
+  /// sr].
   float integral() const { return static_cast<float>(total_) * 4 * kPi; }
 
  private:
-  /// Rows `upper` and `lower` of the image, mixed as 1 - t to t.
+  /// Rows `upper` and `lower` of the image, mixed with the weights 1 - t and t.
   struct Blend {
     int upper, lower;
     double t;
@@ -48,12 +50,12 @@ class LatLongDistribution {
   void add_bands();
 
   const LatLongImage& image_;
-  /// Integral over u from the center of column 0 to that of each column, row by row, in units of a
-  /// column's width. Summed in double and rounded: a step lost by that is one that a primary number
-  /// of 24 bits could not hit either.
+  /// The integral over u from the center of column 0 to the center of each column, row by row, in
+  /// units of a column's width. The sums are computed in double precision and rounded to float. A
+  /// step lost by this rounding is too small for a random number of 24 bits to hit anyway.
   std::vector<float> cumulative_;
-  /// `above` at the upper pole, the rows' centres and the lower pole: band b lies between edges b
-  /// and b + 1, between rows b - 1 and b.
+  /// `above` at the upper pole, the rows' centers and the lower pole. Band b lies between edges b
+  /// and b + 1, that is between rows b - 1 and b.
   std::vector<double> edges_;
   std::vector<double> bands_;  ///< integral over `above` and u up to each edge
   double total_ = 0;

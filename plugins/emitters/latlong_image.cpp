@@ -14,7 +14,7 @@ LatLong LatLong::of(Vec3 d) {
   const float turn = std::atan2(d.x, -d.z) / (2 * kPi);
   const double x = d.x, y = d.y, z = d.z;
   const double sine_squared = x * x + z * z;
-  // From the sine, because next to a pole the cosine keeps no digits of the angle.
+  // Computed from the sine, because next to a pole the cosine keeps no digits of the angle.
   const double to_pole = sine_squared / (2 * (1 + std::abs(y)));
   return {.u = turn < 0 ? std::min(turn + 1, kOneMinusEpsilon) : turn,
           .v = static_cast<float>(std::atan2(std::sqrt(sine_squared), y)) / kPi,

@@ -12,23 +12,24 @@
 
 namespace pharos {
 
-/// A place on the sphere of directions, as latitude-longitude images are laid out: `u` in [0, 1)
-/// runs about the +y axis from -z through +x, +z and -x, `v` in [0, 1] from +y to -y.
+/// A position on the sphere of directions in the layout of latitude-longitude images. `u` in [0, 1)
+/// runs about the +y axis from -z through +x, +z and -x. `v` in [0, 1] runs from +y to -y.
 struct LatLong {
   float u = 0;
   float v = 0;
-  /// (1 - y) / 2 in [0, 1], the share of the sphere above; a float would lose the lower pole.
+  /// (1 - y) / 2 in [0, 1], the share of the sphere above; a float would lose digits at the lower
+  /// pole.
   double above = 0;
 
-  /// Of a unit direction.
+  /// The position of a unit direction.
   static LatLong of(Vec3 direction);
   /// The unit direction at `u` and `above`.
   static Vec3 direction(float u, double above);
 };
 
-/// The bilinear cell that a coordinate lies in: between pixel centres `low` and `low + 1`, at the
-/// fraction `t` in [0, 1] of the way. `low` is -1 before the first center, and never names a pixel
-/// further outside, whatever the coordinate, NaN included.
+/// The bilinear cell that contains a coordinate: between the pixel centers `low` and `low + 1`, at
+/// the fraction `t` in [0, 1]. `low` is -1 before the first center. For every coordinate, including
+/// NaN, it lies at most one pixel outside the image.
 struct PixelPair {
   int low = 0;
   float t = 0;
@@ -41,14 +42,14 @@ struct PixelPair {
 };
 
 /// A color for every direction: an image that wraps around in u and is clamped in v, bilinear
-/// between pixel centres ((column + 0.5) / width, (row + 0.5) / height).
+/// between the pixel centers ((column + 0.5) / width, (row + 0.5) / height).
 class LatLongImage {
  public:
-  /// Reads an image file; the color is that of channels R, G, B or else Y, without such names that
-  /// of the first three channels or of the only one. Throws InputError as read_image() does, and
-  /// for values that are negative or not finite.
+  /// Reads an image file. The color comes from the channels R, G, B or else Y; if there are no
+  /// channels of these names, it comes from the first three channels or from the only one. Throws
+  /// InputError as read_image() does, and for values that are negative or not finite.
   explicit LatLongImage(const std::filesystem::path& file);
-  /// Of `pixels` row by row, top row first: width x height of them, finite and not negative.
+  /// Takes width x height `pixels` row by row, top row first. They must be finite and not negative.
   LatLongImage(int width, int height, std::vector<Rgb> pixels)
       : width_(width), height_(height), pixels_(std::move(pixels)) {}
 
@@ -60,7 +61,8 @@ class LatLongImage {
   }
   Rgb evaluate(const LatLong& place) const;
 
-  /// The column `column` stands for, at most one outside; rows likewise.
+  /// Maps a column index that is at most one outside the image to the column it refers to;
+  /// clamped() does the same for rows.
   int wrapped(int column) const { return column < 0 ? width_ - 1 : column < width_ ? column : 0; }
   int clamped(int row) const { return row < 0 ? 0 : row < height_ ? row : height_ - 1; }
 

@@ -20,8 +20,8 @@ class LatLongLight final : public Light {
   LightSample sample(Point3 from, Vec2 u) const override {
     const std::optional<Vec3> local = distribution_.sample(u);
     if (!local) return {};
-    // Asked again, so that value and density are to the last bit those of a ray that leaves the
-    // scene this way.
+    // Value and density are evaluated for the rounded direction, so that they match to the last bit
+    // the values for a ray that leaves the scene in this direction.
     const Vec3 direction = axes_.to_world(*local);
     const LatLong place = LatLong::of(axes_.to_local(direction));
     return distant_sample(site_, from, direction, scale_ * image_.evaluate(place),
@@ -54,7 +54,7 @@ class LatLongLight final : public Light {
  private:
   const LatLongImage& image_;
   const LatLongDistribution& distribution_;
-  Frame axes_;  ///< of the map's space, in the world; left-handed when to_world mirrors
+  Frame axes_;  ///< axes of the map's space in the world; left-handed if to_world mirrors
   float scale_;
   EmitterSite site_;
 };
@@ -64,7 +64,7 @@ class LatLongLight final : public Light {
 Frame turned_axes(const Transform& map, const char* emitter) {
   const Vec3 x = map.vector({1, 0, 0}), y = map.vector({0, 1, 0}), z = map.vector({0, 0, 1});
   const Frame axes{normalize(x), normalize(y), normalize(z)};
-  constexpr float kTolerance = 1e-4f;  // products of rotations in float stay well below
+  constexpr float kTolerance = 1e-4f;  // products of rotations in float stay well below this
   const float skew =
       std::max({abs_dot(axes.s, axes.t), abs_dot(axes.t, axes.n), abs_dot(axes.n, axes.s)});
   const auto [shortest, longest] = std::minmax({length(x), length(y), length(z)});

@@ -11,13 +11,13 @@
 
 namespace pharos {
 
-/// The unit images of the three axes under a map that turns, mirrors and scales evenly; the scale
-/// says nothing about directions. Left-handed where it mirrors. Throws InputError, which begins
-/// with the name `emitter`, for any other map.
+/// Returns the unit images of the three axes under a map that rotates, mirrors and scales evenly.
+/// The scale has no effect on directions. The axes are left-handed if the map mirrors. Throws
+/// InputError, beginning with the name `emitter`, for any other map.
 Frame turned_axes(const Transform& to_world, const char* emitter);
 
-/// An environment of the radiance of `image` times `scale`, sampled by `distribution`; `axes` are
-/// those of the image's space in the world. Refers to both.
+/// Returns an environment whose radiance is `image` times `scale`, sampled by `distribution`.
+/// `axes` are the axes of the image's space in the world. Refers to `image` and `distribution`.
 std::unique_ptr<const Light> latlong_light(const LatLongImage& image,
                                            const LatLongDistribution& distribution,
                                            const Frame& axes, float scale, const EmitterSite& site);

@@ -4,9 +4,9 @@
 
 namespace pharos {
 
-/// The only sample of a light without extent at `position`. `intensity(direction)` [W/sr] is what
-/// it sends into a unit direction away from itself. Density 0 where nothing arrives, and at a
-/// distance too small for its square to have an inverse.
+/// Returns the only sample of a light without extent at `position`. `intensity(direction)` [W/sr]
+/// is the intensity in a unit direction away from the light. The density is 0 if no light arrives,
+/// or if the distance is so small that its inverse square is not finite.
 template <class Intensity>
 LightSample local_sample(Point3 position, Point3 from, const Intensity& intensity) {
   LightSample sample;
@@ -25,8 +25,8 @@ LightSample local_sample(Point3 position, Point3 from, const Intensity& intensit
   return sample;
 }
 
-/// A ray that leaves a light without extent at `position` into `direction`, drawn with density
-/// `pdf` [1/sr], of `intensity` [W/sr].
+/// Returns a ray that leaves a light without extent at `position` in `direction`. The direction was
+/// drawn with density `pdf` [1/sr] and has the given `intensity` [W/sr].
 inline EmissionSample local_emission(Point3 position, Vec3 direction, float pdf, Rgb intensity) {
   EmissionSample sample{.direction = direction, .kind = VertexKind::light};
   sample.point.position = position;

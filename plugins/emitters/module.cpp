@@ -11,15 +11,16 @@
 #include "sun.h"
 
 PHAROS_MODULE(registry) {
-  registry.add<pharos::AreaEmitter>("area", "Radiance from the outer side of a shape");
+  registry.add<pharos::AreaEmitter>("area", "A shape that emits light on the side of its normal");
   registry.add<pharos::ConstantEmitter>("constant", "The same radiance from all directions");
   registry.add<pharos::DirectionalEmitter>("directional", "Parallel light from far away");
   registry.add<pharos::DirectionalAreaEmitter>("directional_area",
-                                               "A shape that shines most along its normal");
+                                               "A shape that emits most light along its normal");
   registry.add<pharos::EnvironmentMap>("environment_map",
                                        "Radiance by direction from a latitude-longitude image");
   registry.add<pharos::PointEmitter>("point", "Light from a point, the same in all directions");
-  registry.add<pharos::SkyEmitter>("sky", "The clear sky of a turbidity and a height of the sun");
+  registry.add<pharos::SkyEmitter>("sky",
+                                   "The clear sky for a given turbidity and position of the sun");
   registry.add<pharos::SpotEmitter>("spot", "Light from a point within a cone");
-  registry.add<pharos::SunEmitter>("sun", "The sun's disk, as the air lets it through");
+  registry.add<pharos::SunEmitter>("sun", "The sun's disk, attenuated by the atmosphere");
 }

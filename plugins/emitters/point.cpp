@@ -1,6 +1,6 @@
-// point: light from a single point, the same `intensity` [W/sr] into every direction. At distance r
-// it makes an irradiance of intensity / r^2 at normal incidence. No path runs into it by chance:
-// next event estimation alone finds it.
+// point: light from a single point, with the same `intensity` [W/sr] in every direction. At
+// distance r it produces the irradiance intensity / r^2 at normal incidence. A path cannot hit it
+// by chance; only next event estimation finds it.
 //
 //     emitters: [ { type: point, intensity: [3, 1, 1], position: [0, 0, 2] } ]
 
@@ -42,7 +42,8 @@ void PointEmitter::Settings::describe(Schema<Settings>& s) {
   s.field("intensity", &Settings::intensity, "Intensity in every direction")
       .unit("W/sr")
       .at_least(0);
-  s.field("position", &Settings::position, "Where it is, before to_world").unit("scene units");
+  s.field("position", &Settings::position, "Position before to_world is applied")
+      .unit("scene units");
   s.field("to_world", &Settings::to_world, "From local to world space");
   s.field("scale", &Settings::scale, "Factor on the intensity").at_least(0);
   s.example("{ intensity: [3, 1, 0.5], position: [0.2, -0.3, 2] }");

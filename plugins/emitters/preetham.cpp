@@ -7,11 +7,11 @@
 namespace pharos {
 namespace {
 
-/// From luminance [cd/m^2] to the mean spectral radiance of that luminance: the maximal luminous
-/// efficacy [lm/W] times the integral of the matching function of Y [nm].
+/// Luminance [cd/m^2] per mean spectral radiance [W/(m^2 sr nm)]: the maximal luminous efficacy
+/// [lm/W] times the integral of the matching function of Y [nm].
 constexpr double kLuminancePerRadiance = 683.002 * 106.856895;
 
-/// A share of the sun's light that the atmosphere lets through depends on these.
+/// Spectral data from which the share of sunlight transmitted by the atmosphere follows.
 struct SpectralRow {
   double sun;          ///< radiance outside the atmosphere [W/(m^2 sr nm)]
   double ozone;        ///< absorption [1/cm]
@@ -20,7 +20,7 @@ struct SpectralRow {
 
 constexpr double kFirstWavelength = 380, kWavelengthStep = 10;  // [nm]
 
-/// The paper's table 2 up to 750 nm. Mixed gases absorb beyond that alone.
+/// The paper's table 2 up to 750 nm. Mixed gases absorb only at longer wavelengths.
 constexpr std::array<SpectralRow, 38> kSpectrum{{
     {16559.0, 0, 0},         {16233.7, 0, 0},          {21127.5, 0, 0},     {25888.2, 0, 0},
     {25829.1, 0, 0},         {24232.3, 0, 0},          {26760.5, 0, 0},     {29658.3, 0.003, 0},
@@ -38,8 +38,8 @@ double cubic(double t, double c3, double c2, double c1, double c0) {
   return ((c3 * t + c2) * t + c1) * t + c0;
 }
 
-/// The share of light of `wavelength` [nm] that comes through `mass` times the air above, with the
-/// amounts of ozone and water that the paper takes.
+/// The share of light of `wavelength` [nm] that is transmitted through `mass` times the vertical
+/// air mass, with the paper's amounts of ozone and water.
 double transmittance(const SpectralRow& row, double wavelength, double mass, double turbidity) {
   constexpr double kOzone = 0.35, kWater = 2, kAerosolExponent = 1.3;  // [cm], [cm], [1]
   const double micrometres = wavelength / 1000;

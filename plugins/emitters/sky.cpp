@@ -1,21 +1,22 @@
 // sky: the light of the clear sky without the sun's disk, by Preetham, Shirley and Smits 1999 ("A
-// Practical Analytic Model for Daylight"): luminance and chromaticity from closed formulas in the
-// air's turbidity, the height of the sun and the angles from sun and zenith, taken to linear
-// Rec.709. With `sun` of the same parameters beside it, it is daylight.
+// Practical Analytic Model for Daylight"). Closed formulas give luminance and chromaticity from the
+// air's turbidity, the height of the sun and the angles to sun and zenith; the result is converted
+// to linear Rec.709. Together with a `sun` of the same parameters it makes daylight.
 //
-// The sun stands at `sun_direction`, or where it is seen by an `observer` at a place and time (to
-// half a minute of arc, without refraction); daylight saving time is for the timezone to state. In
-// the sky's own space +y is up, +x east and -z north; to_world turns it. A sun below the horizon is
-// an error. Below the horizon the sky is black, unless `stretch` takes the horizon further down: a
-// factor on all angles from the zenith, for scenes whose ground ends too soon.
+// The sun stands at `sun_direction`, or where an `observer` at a place and time sees it (to half a
+// minute of arc, without refraction). Daylight saving time must be included in the timezone. In the
+// sky's own space +y is up, +x east and -z north; to_world maps it to the world. A sun below the
+// horizon is an error. Below the horizon the sky is black. `stretch` is a factor on all angles from
+// the zenith that lowers the horizon, for scenes whose ground ends too soon.
 //
-// Radiance is spectral radiance in W/(m^2 sr nm), as Mitsuba 0.6 has it: mean over wavelength,
-// weighted by the matching functions, so that a luminance Y of Rec.709 is 72984 Y cd/m^2. The model
-// was fitted for turbidities from 2 to 6. Below 2 its horizon is far too bright, and the light that
-// the ground throws back into the sky is that of the fit, whatever the ground of the scene.
+// Radiance is spectral radiance in W/(m^2 sr nm), as in Mitsuba 0.6: a mean over wavelength,
+// weighted by the matching functions. A luminance Y in Rec.709 therefore means 72984 Y cd/m^2. The
+// model was fitted for turbidities from 2 to 6. Below 2 its horizon is far too bright. The fit
+// includes light that the ground reflects into the sky, and this part does not depend on the
+// scene's ground.
 //
 // The sky is evaluated at the pixels of an image of the sphere, `resolution` pixels wide and half
-// as high, and from there on it is the `environment_map` of that image.
+// as high. From then on it behaves like the `environment_map` of this image.
 //
 //     emitters:
 //       - { type: sky, turbidity: 3, sun_direction: [1, 0, 1],
@@ -56,7 +57,7 @@ LatLongImage sky_image(const SkyEmitter::Settings& settings, const SunPlace& sun
 
 void SkyEmitter::Settings::describe(Schema<Settings>& s) {
   describe_daylight(s);
-  s.field("resolution", &Settings::resolution, "Width of the image; even")
+  s.field("resolution", &Settings::resolution, "Width of the image that stores the sky; even")
       .unit("pixels")
       .at_least(8)
       .at_most(8192)

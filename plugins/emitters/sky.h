@@ -17,8 +17,8 @@ class SkyEmitter : public Emitter {
     static void describe(Schema<Settings>& s);
   };
 
-  /// Throws InputError when the sun is below the horizon or stated twice, or when to_world does
-  /// not keep angles.
+  /// Throws InputError if the sun is below the horizon or given twice, or if to_world does not
+  /// preserve angles.
   explicit SkyEmitter(const Settings& settings);
 
   bool needs_shape() const override { return false; }

@@ -1,14 +1,15 @@
 // spot: light from a single point about the axis +z of its own space. Up to the angle `beam_width`
-// from the axis it sends `intensity` [W/sr], beyond `cutoff_angle` nothing. In between the
-// intensity goes down
+// from the axis it sends `intensity` [W/sr]; beyond `cutoff_angle` it sends nothing. In between the
+// intensity decreases
 //
-//     linear:  with the angle, (c - a) / (c - b), as Mitsuba 0.6 has it
-//     smooth:  with a Hermite step 3 t^2 - 2 t^3 in t = (cos a - cos c) / (cos b - cos c), as pbrt
+//     linear:  with the angle, (c - a) / (c - b), as in Mitsuba 0.6
+//     smooth:  with a Hermite step 3 t^2 - 2 t^3 in t = (cos a - cos c) / (cos b - cos c), as in
+//     pbrt
 //
 // where b is the beam's width, c the cutoff and a the angle from the axis. Both angles are measured
 // from the axis: a cutoff of 20 degrees makes a cone 40 degrees wide. A cutoff below 0.001 degrees
-// is refused: single precision resolves directions to about 0.00001. No path runs into the light by
-// chance: next event estimation alone finds it.
+// is rejected, because single precision resolves directions to about 0.00001. A path cannot hit the
+// light by chance; only next event estimation finds it.
 //
 //     emitters:
 //       - { type: spot, intensity: 8, cutoff_angle: 25, beam_width: 15,
@@ -59,7 +60,7 @@ class SpotLight final : public Light {
   }
 
  private:
-  /// The share [1] of the intensity that goes into `direction`.
+  /// The share [1] of the intensity that is sent in `direction`.
   float share(Vec3 direction) const {
     // The arc tangent keeps the digits of small angles, which the arc cosine loses.
     const float angle = std::atan2(length(cross(axis_, direction)), dot(axis_, direction));
@@ -70,20 +71,20 @@ class SpotLight final : public Light {
     return t * t * (3 - 2 * t);
   }
 
-  /// Half of cos a - cos c for an `angle` a up to the cutoff c, as a product, since the difference
-  /// has no digits left where both are small.
+  /// Half of cos a - cos c for an `angle` a up to the cutoff c. The product form is used because
+  /// the difference has no digits left if both angles are small.
   float above_cutoff(float angle) const {
     return std::sin(0.5f * (cutoff_ + angle)) * std::sin(0.5f * (cutoff_ - angle));
   }
 
-  /// The integral of share() over solid angle, by 2 pi [sr].
+  /// The integral of share() over solid angle, divided by 2 pi [sr].
   double integrated_share() const {
     const double b = beam_, c = cutoff_;
     if (falloff_ == SpotFalloff::smooth) {
       const double sin_b = std::sin(b / 2), sin_c = std::sin(c / 2);
       return sin_b * sin_b + sin_c * sin_c;  // 1 - (cos b + cos c) / 2
     }
-    // 1 - (sin c - sin b) / (c - b), which the second form lets b reach c.
+    // The integral is 1 - (sin c - sin b) / (c - b). The form below also holds for b = c.
     const double half = (c - b) / 2;
     const double sinc = half > 0 ? std::sin(half) / half : 1;
     return 1 - std::cos((b + c) / 2) * sinc;
@@ -94,23 +95,26 @@ class SpotLight final : public Light {
   Vec3 axis_;
   SpotFalloff falloff_;
   float beam_, cutoff_;     ///< [radians]
-  float one_minus_cutoff_;  ///< 1 - cos of the latter
+  float one_minus_cutoff_;  ///< 1 - cos of the cutoff
 };
 
 }  // namespace
 
 void SpotEmitter::Settings::describe(Schema<Settings>& s) {
   s.field("intensity", &Settings::intensity, "Intensity within the beam").unit("W/sr").at_least(0);
-  s.field("cutoff_angle", &Settings::cutoff_angle, "Angle from the axis beyond which it is dark")
+  s.field("cutoff_angle", &Settings::cutoff_angle,
+          "Angle from the axis beyond which no light is sent")
       .unit("degrees")
       .at_least(0.001)
       .at_most(180);
   s.field("beam_width", &Settings::beam_width,
-          "Angle from the axis up to which it is brightest; at most cutoff_angle")
+          "Angle from the axis up to which the intensity is constant; at most cutoff_angle")
       .unit("degrees")
       .at_least(0);
-  s.field("falloff", &Settings::falloff, "From beam_width to cutoff_angle");
-  s.field("to_world", &Settings::to_world, "From the light's space, where it shines along +z");
+  s.field("falloff", &Settings::falloff,
+          "How the intensity decreases from beam_width to cutoff_angle");
+  s.field("to_world", &Settings::to_world,
+          "From the light's space, where it shines along +z, to world space");
   s.field("scale", &Settings::scale, "Factor on the intensity").at_least(0);
   s.example("{ cutoff_angle: 60, beam_width: 0, falloff: smooth }");
   s.example("{ cutoff_angle: 5, beam_width: 5, intensity: [2, 8, 2], scale: 10 }");

@@ -7,10 +7,10 @@
 
 namespace pharos {
 
-/// How the intensity goes down from the beam's edge to the cutoff.
+/// How the intensity decreases from the beam's edge to the cutoff.
 enum class SpotFalloff {
-  linear,  ///< in the angle
-  smooth   ///< a cubic Hermite step in the cosine
+  linear,  ///< linear in the angle
+  smooth   ///< cubic Hermite step in the cosine
 };
 
 template <>
@@ -32,7 +32,7 @@ class SpotEmitter : public Emitter {
     static void describe(Schema<Settings>& s);
   };
 
-  /// Throws InputError when the beam is wider than the cutoff.
+  /// Throws InputError if the beam is wider than the cutoff.
   explicit SpotEmitter(const Settings& settings);
 
   bool needs_shape() const override { return false; }

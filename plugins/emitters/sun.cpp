@@ -1,13 +1,14 @@
-// sun: the sun's disk as it is seen from the ground, of the same radiance all over. Its light has
-// come through Rayleigh's scattering, aerosols, ozone and water vapor as in Preetham, Shirley and
-// Smits 1999 ("A Practical Analytic Model for Daylight", appendix), by the paper's tables from 380
-// to 750 nm in steps of 10, weighted by the CIE 1931 matching functions and taken to linear
-// Rec.709. `sky` of the same parameters is the rest of the daylight; see there for the units, the
-// sun's place and `stretch`. A sun below the horizon is an error.
+// sun: the sun's disk as seen from the ground, with uniform radiance. Its light is attenuated by
+// Rayleigh scattering, aerosols, ozone and water vapor as in Preetham, Shirley and Smits 1999 ("A
+// Practical Analytic Model for Daylight", appendix). The paper's tables from 380 to 750 nm, in
+// steps of 10, are weighted by the CIE 1931 matching functions and converted to linear Rec.709. A
+// `sky` of the same parameters is the rest of the daylight; sky.cpp describes the units, the sun's
+// position and `stretch`. A sun below the horizon is an error.
 //
-// The disk is 0.5358 degrees wide, as in Mitsuba 0.6. `radius_scale` makes it larger, for softer
-// shadows and less noise, or smaller, at the same irradiance; at 0 it is parallel light from a
-// single direction, like `directional`. Directions are drawn uniformly from its cone.
+// The disk is 0.5358 degrees wide, as in Mitsuba 0.6. `radius_scale` enlarges it, for softer
+// shadows and less noise, or shrinks it; the irradiance stays the same. With 0 the sun is parallel
+// light from a single direction, like `directional`. Directions are drawn uniformly from the disk's
+// cone.
 //
 //     emitters:
 //       - { type: sun, turbidity: 3, sun_direction: [1, 2, 1] }
@@ -29,7 +30,7 @@ namespace {
 
 constexpr float kAngularRadius = 0.5f * 0.5358f;  // [degrees]
 
-/// 1 - cos of the radius at `scale`, without losing digits.
+/// Returns 1 - cos of the disk's radius at `scale`, without losing digits.
 float one_minus_cos(float scale) {
   const float sine = std::sin(0.5f * radians(kAngularRadius * scale));
   return 2 * sine * sine;
@@ -51,7 +52,7 @@ class SunLight final : public Light {
 
   bool is_environment() const override { return true; }
   float pdf_direction(Vec3 direction) const override {
-    // By the chord, which keeps the digits of small angles: its square is 2 - 2 cos.
+    // Uses the chord, whose square is 2 - 2 cos, because it keeps the digits of small angles.
     const Vec3 chord = direction - frame_.n;
     return dot(chord, chord) <= 2 * one_minus_cos_ ? warp::cone_pdf(one_minus_cos_) : 0.0f;
   }
@@ -82,7 +83,7 @@ class SunLight final : public Light {
 void SunEmitter::Settings::describe(Schema<Settings>& s) {
   describe_daylight(s);
   s.field("radius_scale", &Settings::radius_scale,
-          "Factor on the disk's radius, 0 or at least 0.01; the irradiance stays")
+          "Factor on the disk's radius, 0 or at least 0.01; it does not change the irradiance")
       .at_most(100)
       .check("0 or at least 0.01", [](float scale) { return scale == 0 || scale >= 0.01f; });
   s.example("{ turbidity: 2, sun_direction: [1, 1, 0], radius_scale: 20 }");

@@ -15,8 +15,8 @@ class SunEmitter : public Emitter {
     static void describe(Schema<Settings>& s);
   };
 
-  /// Throws InputError when the sun is below the horizon or stated twice, or when to_world does
-  /// not keep angles.
+  /// Throws InputError if the sun is below the horizon or given twice, or if to_world does not
+  /// preserve angles.
   explicit SunEmitter(const Settings& settings);
 
   bool needs_shape() const override { return false; }
@@ -25,7 +25,7 @@ class SunEmitter : public Emitter {
  private:
   Vec3 towards_sun_;
   Rgb irradiance_;       ///< at normal incidence [W/(m^2 nm)]
-  float one_minus_cos_;  ///< of the disk's angular radius; 0: a single direction
+  float one_minus_cos_;  ///< for the disk's angular radius; 0 for a single direction
 };
 
 }  // namespace pharos

@@ -18,12 +18,12 @@ struct Xyz {
   friend Xyz operator*(double s, Xyz c) { return {s * c.x, s * c.y, s * c.z}; }
 };
 
-/// Of chromaticity (x, y), y > 0, and luminance Y.
+/// Converts chromaticity (x, y), y > 0, and luminance Y.
 inline Xyz xyz_from_xyy(double x, double y, double luminance) {
   return (luminance / y) * Xyz{x, y, std::max(0.0, 1 - x - y)};
 }
 
-/// The nearest color in linear Rec.709: what lies outside its gamut is cut off at zero.
+/// Converts to linear Rec.709. Negative channels, of colors outside its gamut, are set to zero.
 inline Rgb rgb_from_xyz(Xyz c) {
   const auto channel = [](double v) { return static_cast<float>(std::max(0.0, v)); };
   return {channel(3.2404542 * c.x - 1.5371385 * c.y - 0.4985314 * c.z),

@@ -1,4 +1,4 @@
-// box: every sample within a square about the pixel's center counts the same. With the default
+// box: equal weight for every sample within a square about the pixel's center. With the default
 // radius each sample belongs to one pixel, and pixels are independent of each other.
 //
 //     { type: box, radius: 0.5 }

@@ -1,7 +1,7 @@
 // catmull_rom: the interpolating cubic of Catmull and Rom 1974 ("A Class of Local Interpolating
-// Splines"), the member B = 0, C = 1/2 of `mitchell`'s family. It is 1 at the pixel's center and 0
-// at every other one (with the radius of 2), and reproduces quadratic polynomials: edges stay
-// sharper than with B = C = 1/3, and ring more.
+// Splines"), which is `mitchell` with B = 0 and C = 1/2. With the radius of 2 it is 1 at the
+// pixel's center and 0 at every other pixel's center, and it reproduces quadratic polynomials.
+// Edges stay sharper than with B = C = 1/3 and ring more.
 //
 //     { type: catmull_rom }
 #include "catmull_rom.h"

@@ -1,5 +1,6 @@
-// gaussian: g(x) g(y) with g(x) = exp(-x^2 / (2 s^2)) - exp(-r^2 / (2 s^2)), s the standard
-// deviation, lowered so that it reaches zero at the radius r without a step.
+// gaussian: g(x) g(y) with g(x) = exp(-x^2 / (2 s^2)) - exp(-r^2 / (2 s^2)), where s is the
+// standard deviation. The second term lowers the Gaussian, so that it reaches zero at the radius r
+// without a step.
 //
 //     { type: gaussian, stddev: 0.5, radius: 1.5 }
 #include "gaussian.h"

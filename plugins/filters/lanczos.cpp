@@ -1,8 +1,8 @@
-// lanczos: s(x / n) s(x) by s(y / n) s(y), s(t) = sin(pi t) / (pi t), up to the radius of n pixels:
-// the ideal low-pass filter, windowed by the middle lobe of a wider one (Duchon 1979, "Lanczos
-// Filtering in One and Two Dimensions"). It keeps the most detail of all filters here. Every other
-// of its `lobes` is negative, so bright edges have dark fringes, and noise is amplified where a
-// pixel has few samples.
+// lanczos: s(x / n) s(x) s(y / n) s(y) with s(t) = sin(pi t) / (pi t), up to the radius of n
+// pixels. It is the ideal low-pass filter, windowed by the middle lobe of a wider one (Duchon 1979,
+// "Lanczos Filtering in One and Two Dimensions"). It keeps the most detail of all filters here.
+// Every other one of its `lobes` is negative, so bright edges have dark fringes, and noise is
+// amplified in pixels with few samples.
 //
 //     { type: lanczos, lobes: 3 }
 #include "lanczos.h"
@@ -18,10 +18,10 @@ double sinc(double x) {
   return std::abs(t) > 1e-8 ? std::sin(t) / t : 1;
 }
 
-/// Half the integral of the profile of `lobes` lobes, by Simpson's rule; its error, relative to the
-/// whole, is below 1e-8.
+/// Half the integral of the profile with `lobes` lobes, by Simpson's rule. The relative error of
+/// the whole integral is below 1e-8.
 double half_side(int lobes) {
-  constexpr int kSteps = 64;  // a lobe
+  constexpr int kSteps = 64;  // per lobe
   double sum = 0;
   for (int i = 0; i <= kSteps * lobes; ++i) {
     const double x = static_cast<double>(i) / kSteps;
@@ -34,7 +34,8 @@ double half_side(int lobes) {
 }  // namespace
 
 void LanczosFilter::Settings::describe(Schema<Settings>& s) {
-  s.field("lobes", &Settings::lobes, "Zero crossings on each side, which is the half-width")
+  s.field("lobes", &Settings::lobes,
+          "Number of zero crossings on each side, equal to the half-width")
       .unit("pixels")
       .at_least(1)
       .at_most(16);

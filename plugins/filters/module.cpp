@@ -9,10 +9,10 @@
 
 PHAROS_MODULE(registry) {
   registry.add<pharos::BoxFilter>("box", "Equal weight over a square");
-  registry.add<pharos::CatmullRomFilter>("catmull_rom", "The interpolating cubic, sharp");
+  registry.add<pharos::CatmullRomFilter>("catmull_rom", "An interpolating cubic, sharp");
   registry.add<pharos::GaussianFilter>("gaussian", "A Gaussian that ends at zero");
   registry.add<pharos::LanczosFilter>("lanczos", "A windowed sinc, the sharpest");
-  registry.add<pharos::TentFilter>("tent", "Falls linearly to zero");
+  registry.add<pharos::TentFilter>("tent", "A tent that falls linearly to zero");
   registry.add<pharos::MitchellFilter>("mitchell", "Mitchell and Netravali's sharpening cubic");
   registry.set_default<pharos::Filter>("box");
 }

@@ -1,6 +1,6 @@
-// tent: t(x) t(y) with t(x) = 1 - |x| / r, zero from the radius r on. With the default radius a
-// pixel is the linear interpolation's share of the samples around it, and the weights of the pixels
-// around any sample add up to one.
+// tent: t(x) t(y) with t(x) = 1 - |x| / r, zero from the radius r on. With the default radius the
+// weights are those of linear interpolation, and the weights of the pixels around any sample add up
+// to one.
 //
 //     { type: tent, radius: 1 }
 #include "tent.h"

@@ -13,7 +13,7 @@ class UniformLearner final : public Learner {
 
   LearnerTraits traits() const override;
   std::unique_ptr<LearningState> begin(const LearningContext& context) const override;
-  std::shared_ptr<const GuidingModel> load_model(std::istream& in) const override;
+  std::shared_ptr<GuidingModel> empty_model() const override;
 };
 
 }  // namespace pharos

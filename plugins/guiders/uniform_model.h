@@ -1,30 +1,39 @@
 #pragma once
 
 #include <pharos/guiding/contract/model.h>
+#include <pharos/guiding/contract/radiance_estimate.h>
 
 namespace pharos {
 
-/// One number: the mean radiance that paths met.
-class UniformModel final : public GuidingModel {
+/// One number: the mean radiance that paths met. It serves as an estimate of incident radiance,
+/// too.
+class UniformModel final : public GuidingModel, public RadianceEstimate {
  public:
-  /// The kind of model. A learner and a guider that both name it go together.
-  static constexpr const char* kName = "uniform";
-  /// To be raised whenever save() writes something else.
-  static constexpr std::uint32_t kVersion = 1;
+  static constexpr std::string_view kName = "uniform";
 
+  UniformModel() = default;
   /// `radiance` >= 0, in the unit of the scene's emitters.
   explicit UniformModel(double radiance) : radiance_(radiance) {}
 
-  std::string name() const override { return kName; }
-  std::uint32_t version() const override { return kVersion; }
-  std::size_t size_bytes() const override { return sizeof *this; }
-  void save(std::ostream& out) const override;
+  /// `version` must be raised whenever archive() changes.
+  ModelInfo info() const override {
+    return {.name = std::string(kName), .version = 1, .bytes = sizeof *this};
+  }
+  void archive(Archive& archive) override {
+    archive(radiance_);
+    archive.expect(radiance_ >= 0, "the radiance");
+  }
+  /// Nothing is known while no path has met any light.
+  Place place(const GuidingVertex&) const override {
+    return {.evidence = radiance_ > 0 ? 1.0f : 0.0f};
+  }
+  double density(Point3, const Vec3*) const override { return radiance_; }
 
-  double density(Point3) const override { return radiance_; }
-  double density(Point3, Vec3) const override { return radiance_; }
+  RadianceTraits radiance_traits() const override { return {.incident = true}; }
+  float incident_radiance(Point3, Vec3) const override { return static_cast<float>(radiance_); }
 
  private:
-  double radiance_;
+  double radiance_ = 0;
 };
 
 }  // namespace pharos

@@ -1,5 +1,5 @@
-// xml: scenes of Mitsuba, of its versions 0.x, 2 and 3. document.h reads the file, mapping.h says
-// what stands for each object; docs/mitsuba.md lists what is supported, approximated and refused.
+// xml: scenes of Mitsuba, versions 0.x, 2 and 3. document.h reads the file and mapping.h maps each
+// object; docs/mitsuba.md lists what is supported, approximated and refused.
 #include "mitsuba_importer.h"
 
 #include "mapping/mapping.h"

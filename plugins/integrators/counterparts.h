@@ -36,7 +36,7 @@ class LightCounterparts {
         lights_(lights),
         guiding_(guiding),
         u_lens_(u_lens),
-        first_steps_(target.sensor, guiding, arena),
+        first_steps_(guiding, arena),
         continuations_(target.scene, guiding, Transport::importance, arena) {}
 
   /// The path has gone from one vertex to the next.
@@ -138,7 +138,7 @@ class CameraCounterparts {
       : scene_(target.scene),
         lights_(lights),
         guiding_(guiding),
-        first_steps_(target.sensor, guiding, arena),
+        first_steps_(guiding, arena),
         continuations_(target.scene, guiding, Transport::radiance, arena) {}
 
   /// The path begins with this emission.

@@ -231,7 +231,7 @@ class LightWalk {
   /// f/p of a step.
   Rgb weight_of(const ScatterStep& step, const Segment& segment, const PathVertex& to) const {
     const Passage& passage = segment.passage;
-    if (guidance_.distribution == nullptr && !scene_.has_media()) return step.unguided_weight;
+    if (!guidance_.is_guided() && !scene_.has_media()) return step.unguided_weight;
     const StepDensity density = step_density(guidance_,
                                              {.direction = step.direction,
                                               .distance = segment.length,
@@ -260,7 +260,7 @@ class LightWalk {
                                 .towards_previous = towards_previous_,
                                 .transport = Transport::importance,
                                 .bounce = 0,
-                                .scattering = *scattering_,
+                                .scattering = &*scattering_,
                                 .medium = here().medium});
     guidance_ = context_.guiding->query(*query_, arena_);
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <utility>
 
 #include <pharos/guiding/record/path_record.h>
@@ -25,7 +26,7 @@ struct SilentRecorder {
   void film(Vec2) {}
   void arrival(const GuidingVertex&, Rgb) {}
   void emission(Rgb, PathWeight) {}
-  void light(const LightSample&, Event, const StepDensity&, PathWeight, Rgb, Rgb) {}
+  void light(const LightSample&, Event, PathWeight, Rgb, Rgb) {}
   void scattering(const LocalScattering&, float, const Guidance&) {}
   void step(const ScatterStep&, const StepDensity&, const Guidance&, Rgb, const ResolvedVertex&,
             Rgb) {}
@@ -52,7 +53,6 @@ class LogRecorder {
   void arrival(const GuidingVertex& vertex, Rgb throughput) {
     current_ = log_.add({.position = vertex.position,
                          .normal = vertex.normal,
-                         .shading_normal = vertex.shading_normal,
                          .kind = vertex.kind,
                          .parent = current_,
                          .throughput = throughput});
@@ -64,28 +64,20 @@ class LogRecorder {
   /// Emission of the vertex and its MIS weights.
   void emission(Rgb radiance, PathWeight weight) {
     current().emission += weight.own_end * radiance;
-    current().full_emission += radiance;
     current().joint_emission += weight.both_ends * radiance;
   }
 
   /// Light found by next event estimation; `value` is f/p of the connection, without throughput.
-  void light(const LightSample& light, Event event, const StepDensity& density, PathWeight weight,
-             Rgb value, Rgb) {
+  void light(const LightSample& light, Event event, PathWeight weight, Rgb value, Rgb) {
     log_.add({.vertex = current_,
-              .light = {.position = light.point.position,
-                        .normal = light.point.normal,
-                        .shading_normal = light.point.shading.n,
-                        .kind = light.kind,
-                        .parent = current_,
-                        .emission = light.radiance},
+              .position = light.point.position,
+              .kind = light.kind,
+              .event = event,
+              .discrete = light.discrete,
               .direction = light.direction,
               .contribution = weight.own_end * value,
               .joint_contribution = weight.both_ends * value,
-              .mis_weight = weight.own_end,
-              .light_pdf = light.pdf,
-              .scattering_pdf = density.total,
-              .event = event,
-              .discrete = light.discrete});
+              .mis_weight = weight.own_end});
   }
 
   /// The path is about to go on from the vertex.
@@ -94,8 +86,7 @@ class LogRecorder {
     here.roughness = roughness;
     if (scattering.is_surface()) here.eta = scattering.bsdf().relative_ior();
     here.guidable = !scattering.purely_discrete();
-    here.region = guidance.region;
-    here.unguided_fraction = guidance.unguided_fraction;
+    here.mixing_key = guidance.mixing_key;
   }
 
   /// The step from the vertex, once its `target` is known, through this transmittance.
@@ -105,14 +96,14 @@ class LogRecorder {
     here.event = step.event;
     here.direction = step.direction;
     here.local_weight = weight;
-    here.unguided_pdf = density.unguided;
-    here.guided_pdf = density.guided;
-    here.unguided_fraction = guidance.unguided_fraction;
-    here.region = guidance.region;
-    here.guidable |= guidance.distribution != nullptr;
-    here.measure = measure_of(step.event, target.kind);
+    here.continuation = step.continuation;
+    here.pdf = density.total;
+    here.mixing_key = guidance.mixing_key;
+    here.guidable |= guidance.is_guided();
     here.medium_density = target.medium_density;
     here.transmittance = transmittance;
+    std::array<Technique, GuidingSettings::kMostMethods + 1> techniques;
+    log_.set_techniques(current_, guidance.techniques(target, density.unguided, techniques));
   }
 
  private:
@@ -125,8 +116,7 @@ class LogRecorder {
 /// Keeps the contribution of the last light sample, throughput included, for the integrand probe.
 class LightProbeRecorder : public SilentRecorder {
  public:
-  void light(const LightSample&, Event, const StepDensity&, PathWeight weight, Rgb value,
-             Rgb throughput) {
+  void light(const LightSample&, Event, PathWeight weight, Rgb value, Rgb throughput) {
     last_ = throughput * (weight.own_end * value);
   }
   /// That contribution; black where there was none since take() was called last.

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include <pharos/config/registry.h>
-#include <pharos/guiding/pipeline/guiding.h>
+#include <pharos/guiding/pipeline/guiding_settings.h>
 #include <pharos/rendering/integrator.h>
 #include <pharos/rendering/light_selection.h>
 

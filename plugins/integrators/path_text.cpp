@@ -48,6 +48,18 @@ std::string text(Rgb c) {
   return fmt::format("({:.6g}, {:.6g}, {:.6g})", c.r, c.g, c.b);
 }
 
+/// Shares and densities of all techniques: " (unguided 0.5 of 0.31, method 1 0.5 of 2.2)".
+std::string text(std::span<const Technique> techniques) {
+  if (techniques.size() < 2) return {};
+  std::string out =
+      fmt::format(" (share {:.3g} of unguided {:.6g}", techniques[0].share, techniques[0].density);
+  for (std::size_t i = 1; i < techniques.size(); ++i) {
+    out +=
+        fmt::format(", {:.3g} of method {} {:.6g}", techniques[i].share, i, techniques[i].density);
+  }
+  return out + ')';
+}
+
 }  // namespace
 
 std::string path_text(const PathView& path, Rgb radiance) {
@@ -62,15 +74,12 @@ std::string path_text(const PathView& path, Rgb radiance) {
     for (; light < path.light_samples.size() && path.light_samples[light].vertex == i; ++light) {
       const RecordedLightSample& s = path.light_samples[light];
       out += fmt::format("      light sample at {}  contribution {}  MIS weight {:.4g}\n",
-                         text(s.light.position), text(s.contribution), s.mis_weight);
+                         text(s.position), text(s.contribution), s.mis_weight);
     }
     out += fmt::format("      {}", event_name(v.event));
     if (v.event != Event::none) {
-      out += fmt::format(
-          " to {}  weight {}  pdf {:.6g} (unguided {:.6g}, guided {:.6g}, "
-          "unguided fraction {:.3g})",
-          text(v.direction), text(v.local_weight), v.pdf(), v.unguided_pdf, v.guided_pdf,
-          v.unguided_fraction);
+      out += fmt::format(" to {}  weight {}  pdf {:.6g}{}", text(v.direction), text(v.local_weight),
+                         v.pdf, text(path.techniques(v)));
     }
     out += '\n';
   }

@@ -129,16 +129,20 @@ class PathWalk {
     return guide_first_step(lens, size, step);
   }
 
+  GuidingQuery lens_query(const LensPoint& lens) const {
+    return {.current = current_vertex_, .towards_previous = lens.normal, .bounce = 0};
+  }
+
   /// Camera guiding: the mixture of uniform film positions and the guide's directions. A path of
   /// any pixel may then land in any other, so all contributions become splats.
   bool guide_first_step(const LensPoint& lens, Vec2 size, ScatterStep& step) {
     const PreparedSensor& sensor = shared_.target.sensor;
     result_.splat = true;
-    guidance_ = context_.guiding->query_camera(sensor, lens, arena_);
+    query_.emplace(lens_query(lens));
+    guidance_ = context_.guiding->query(*query_, arena_);
     const VertexStream stream(stream_, 0);
-    if (guidance_.distribution != nullptr &&
-        stream.get_1d(Purpose::mix_choice) >= guidance_.unguided_fraction) {
-      const std::optional<Proposal> proposal = guidance_.distribution->propose(stream);
+    if (guidance_.is_guided() && stream.get_1d(Purpose::mix_choice) >= guidance_.unguided_share) {
+      const std::optional<Proposal> proposal = guidance_.propose(stream);
       if (!proposal) return false;
       step.direction = proposal->direction;
       step.reach = proposal->reach;
@@ -198,10 +202,11 @@ class PathWalk {
 
   void weight_step(const ScatterStep& step, const ResolvedVertex& resolved, Rgb transmittance) {
     density_ = step_density(guidance_, resolved, step.unguided_pdf);
-    const bool plain = guidance_.distribution == nullptr && !scene_.has_media();
-    const Rgb weight = plain                ? step.unguided_weight
-                       : density_.total > 0 ? step.value * transmittance / density_.total
-                                            : Rgb();
+    const bool plain = !guidance_.is_guided() && !scene_.has_media();
+    Rgb weight = plain                ? step.unguided_weight
+                 : density_.total > 0 ? step.value * transmittance / density_.total
+                                      : Rgb();
+    weight *= step.continuation;
     arrived_discretely_ = bounce_ == 0 || is_discrete(step.event);
     throughput_ *= weight;
     recorder_.step(step, density_, guidance_, weight, resolved, transmittance);
@@ -292,10 +297,9 @@ class PathWalk {
                                   .kind = light.kind,
                                   .event = scattering_->smooth_event(light.direction),
                                   .medium_density = passage.medium_density};
-    // No direction meets a light without extent: its density is for the record alone.
-    const bool wants_density = Recorder::kRecords || !light.discrete;
+    // No step can hit a light without extent.
     const StepDensity density =
-        wants_density ? step_density(guidance_, resolved, scatter.pdf) : StepDensity{};
+        light.discrete ? StepDensity{} : step_density(guidance_, resolved, scatter.pdf);
     const bool in_empty_space = planted(PlantedFault::boundaries_count_as_origins);
     const float step_pdf = in_empty_space ? density.total / passage.medium_density : density.total;
     const float weight =
@@ -307,7 +311,7 @@ class PathWalk {
                                         resolved.event, passage.transmittance);
     }
     radiance_ += whole_weight * throughput_ * value;
-    recorder_.light(light, resolved.event, density, {weight, whole_weight}, value, throughput_);
+    recorder_.light(light, resolved.event, {weight, whole_weight}, value, throughput_);
   }
 
   bool pass(const Ray& shadow, const Medium* medium, Rgb throughput, Passage& passage) const {
@@ -331,7 +335,7 @@ class PathWalk {
                                   .towards_previous = towards_previous_,
                                   .transport = Transport::radiance,
                                   .bounce = Counterparts::kExist ? std::uint16_t{0} : bounce_,
-                                  .scattering = *scattering_,
+                                  .scattering = &*scattering_,
                                   .medium = here.medium});
       guidance_ = context_.guiding->query(*query_, arena_);
     }
@@ -349,8 +353,7 @@ class PathWalk {
     const float survival = std::min(settings_.roulette_limit, value);
     if (stream_.get_1d({Purpose::roulette, bounce_}) >= survival) return false;
     if (planted(PlantedFault::roulette_unweighted)) return true;
-    step.value *= 1 / survival;
-    step.unguided_weight *= 1 / survival;
+    step.continuation = 1 / survival;
     return true;
   }
 

@@ -56,7 +56,6 @@ class RecordedSplats : public Splats {
     const GuidingVertex described = vertex.described();
     current_ = log_.add({.position = described.position,
                          .normal = described.normal,
-                         .shading_normal = described.shading_normal,
                          .kind = described.kind,
                          .parent = current_,
                          .throughput = throughput});
@@ -69,16 +68,12 @@ class RecordedSplats : public Splats {
   }
   void connection(const LensPoint& lens, Vec3 direction, Event event, Rgb value, float weight) {
     log_.add({.vertex = current_,
-              .light = {.position = lens.position,
-                        .normal = lens.normal,
-                        .shading_normal = lens.normal,
-                        .kind = VertexKind::sensor,
-                        .parent = current_},
+              .position = lens.position,
+              .kind = VertexKind::sensor,
+              .event = event,
               .direction = direction,
               .contribution = value,
-              .joint_contribution = weight * value,
-              .mis_weight = 1,
-              .event = event});
+              .joint_contribution = weight * value});
   }
   void deposit(const PathKey& key, WorkResult& result) {
     if (!are_finite()) log_.blacken_last_path();

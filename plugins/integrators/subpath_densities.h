@@ -93,13 +93,13 @@ class Continuations {
                              const LocalScattering& scattering, const ResolvedVertex& target,
                              float unguided) const {
     arena_.reset();
-    const GuidingQuery query{.previous = &before,
-                             .current = at.described(scattering.roughness()),
-                             .towards_previous = direction,
-                             .transport = transport_,
-                             .bounce = 0,
-                             .scattering = scattering,
-                             .medium = at.medium_towards(scene_, direction)};
+    GuidingQuery query{.previous = &before,
+                       .current = at.described(scattering.roughness()),
+                       .towards_previous = direction,
+                       .transport = transport_,
+                       .bounce = 0,
+                       .scattering = &scattering,
+                       .medium = at.medium_towards(scene_, direction)};
     return step_density(guiding_->query(query, arena_), target, unguided);
   }
 
@@ -113,9 +113,8 @@ class Continuations {
 class FirstSteps {
  public:
   /// `guiding` may be null. `arena` is reset by every call.
-  FirstSteps(const PreparedSensor& sensor, const GuidingFrame* guiding, Arena& arena)
-      : sensor_(sensor),
-        guiding_(guiding != nullptr && guiding->guides_camera() ? guiding : nullptr),
+  FirstSteps(const GuidingFrame* guiding, Arena& arena)
+      : guiding_(guiding != nullptr && guiding->guides_camera() ? guiding : nullptr),
         arena_(arena) {}
 
   /// The density, in vertex measure, of the first vertex that `to` leads to from this point of the
@@ -126,14 +125,18 @@ class FirstSteps {
       arena_.reset();
       ResolvedVertex first = to.target;
       first.event = Event::smooth_reflect;
-      density =
-          step_density(guiding_->query_camera(sensor_, lens, arena_), first, direction_pdf).total;
+      GuidingQuery query{.current = {.position = lens.position,
+                                     .normal = lens.normal,
+                                     .shading_normal = lens.normal,
+                                     .kind = VertexKind::sensor},
+                         .towards_previous = lens.normal,
+                         .bounce = 0};
+      density = step_density(guiding_->query(query, arena_), first, direction_pdf).total;
     }
     return density * to.to_vertex_measure();
   }
 
  private:
-  const PreparedSensor& sensor_;
   const GuidingFrame* guiding_;
   Arena& arena_;
 };

@@ -1,10 +1,10 @@
-// henyey_greenstein: mostly forwards (g > 0) or backwards (g < 0), by Henyey and Greenstein 1941
-// ("Diffuse radiation in the galaxy", eq. 2). With the angle t between the directions of flight
-// before and after:
+// henyey_greenstein: scattering mostly forwards (g > 0) or backwards (g < 0), by Henyey and
+// Greenstein 1941 ("Diffuse radiation in the galaxy", eq. 2). With the angle t between the
+// directions of flight before and after scattering:
 //
 //     p(t) = (1 - g^2) / (4 pi (1 + g^2 - 2 g cos t)^(3/2))  [1/sr]
 //
-// Its mean cosine is g: 0 is isotropic, haze has about 0.98.
+// The mean cosine is g. The value 0 is isotropic; haze has about 0.98.
 //
 //     phase: { type: henyey_greenstein, g: 0.8 }
 
@@ -17,7 +17,7 @@
 namespace pharos {
 
 void HenyeyGreensteinPhase::Settings::describe(Schema<Settings>& s) {
-  s.field("g", &Settings::g, "Mean cosine between flight before and after; 0: isotropic")
+  s.field("g", &Settings::g, "Mean cosine of the scattering angle; 0 is isotropic")
       .at_least(-0.9999f)
       .at_most(0.9999f);
   s.example("{ g: 0.6 }");
@@ -26,8 +26,8 @@ void HenyeyGreensteinPhase::Settings::describe(Schema<Settings>& s) {
 }
 
 float HenyeyGreensteinPhase::evaluate(Vec3 wo, Vec3 wi) const {
-  // 1 + g^2 - 2 |g| cos by the chord of the angle to the lobe's axis, which keeps small angles'
-  // digits: its square is 2 - 2 cos.
+  // Computes 1 + g^2 - 2 |g| cos from the chord of the angle to the lobe's axis. The square of the
+  // chord is 2 - 2 cos, and it keeps the digits of small angles.
   const float g = std::abs(g_);
   const Vec3 chord = g_ > 0 ? wi + wo : wi - wo;
   const float base = square(1 - g) + g * length_squared(chord);
@@ -35,8 +35,9 @@ float HenyeyGreensteinPhase::evaluate(Vec3 wo, Vec3 wi) const {
 }
 
 Vec3 HenyeyGreensteinPhase::sample(Vec3 wo, Vec2 u) const {
-  // The inverse of the distribution of cos, (1 + g^2 - s^2) / (2 g) with s = (1 - g^2) / (1 + g - 2
-  // g u), as 1 - cos without differences of close numbers, which also holds for g = 0.
+  // The inverse of the distribution function of cos is (1 + g^2 - s^2) / (2 g), with
+  // s = (1 - g^2) / (1 + g - 2 g u). The form below gives 1 - cos without differences of close
+  // numbers, and it also holds for g = 0.
   const float g = std::abs(g_);
   const float divisor = 1 + g - 2 * g * u.x;
   const float one_minus_cos = (1 - g) * u.x / divisor * ((1 - square(g)) / divisor + 1 - g);

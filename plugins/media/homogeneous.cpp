@@ -1,12 +1,12 @@
-// homogeneous: a medium that is the same everywhere, such as fog, smoke or colored water. Per
-// scene unit of a ray a share `scattering` of the light is scattered and a share `absorption` lost,
-// each with its color and times `scale`; after a distance t exp(-(scattering + absorption) t) is
-// left.
+// homogeneous: a medium that is the same everywhere, such as fog, smoke or colored water. Per scene
+// unit along a ray the share `scattering` of the light is scattered and the share `absorption` is
+// absorbed. Both may be colors, and both are multiplied by `scale`. After a distance t the share
+// exp(-(scattering + absorption) t) is left.
 //
-// Distances are drawn for one channel, chosen in proportion to what the path carries in each, and
-// weighted by the mean density over all of them (multiple importance sampling, balance heuristic).
-// So scattering alone leaves the sum of a path's channels as it is, however differently they are
-// scattered. Media that only absorb let every ray pass.
+// Distances are drawn for one channel, which is chosen in proportion to the path's throughput in
+// each channel. They are weighted by the mean density over all channels (multiple importance
+// sampling, balance heuristic). Pure scattering therefore keeps the sum of a path's channels, even
+// if the channels scatter differently. Media that only absorb let every ray pass.
 //
 //     media:
 //       haze: { type: homogeneous, scattering: 0.2, absorption: [0, 0.01, 0.02],
@@ -19,7 +19,7 @@
 namespace pharos {
 namespace {
 
-/// exp(-coefficient t), 1 for a coefficient of 0 even at infinity.
+/// Returns exp(-coefficient t); 1 for a coefficient of 0, even at infinity.
 float left_after(float coefficient, float t) {
   return coefficient > 0 ? std::exp(-coefficient * t) : 1.0f;
 }
@@ -30,7 +30,8 @@ void HomogeneousMedium::Settings::describe(Schema<Settings>& s) {
   s.field("scattering", &Settings::scattering, "Scattering coefficient").unit("1/m").at_least(0);
   s.field("absorption", &Settings::absorption, "Absorption coefficient").unit("1/m").at_least(0);
   s.field("scale", &Settings::scale, "Factor on both coefficients").at_least(0);
-  s.field("phase", &Settings::phase, "Into which directions it scatters").otherwise("isotropic");
+  s.field("phase", &Settings::phase, "Phase function: the distribution of scattered directions")
+      .otherwise("isotropic");
   s.example("{ scattering: 0.7, phase: { type: henyey_greenstein, g: 0.5 } }");
   s.example("{ scattering: [2, 0.5, 0], absorption: [0, 0.5, 3], scale: 0.5 }");
   s.example("{ scattering: 0, absorption: [0.1, 1, 2] }");

@@ -28,7 +28,7 @@ class HomogeneousMedium final : public Medium {
   bool scatters() const { return !is_black(scattering_); }
 
   Rgb scattering_;  ///< [1/m]
-  Rgb extinction_;  ///< scattering and absorption [1/m]
+  Rgb extinction_;  ///< sum of scattering and absorption [1/m]
   Ref<PhaseFunction> phase_;
 };
 

@@ -1,4 +1,4 @@
-// isotropic: as much light is scattered into every direction, 1 / (4 pi) [1/sr].
+// isotropic: equal scattering in every direction, 1 / (4 pi) [1/sr].
 //
 //     phase: isotropic
 

@@ -7,8 +7,11 @@
 
 PHAROS_MODULE(registry) {
   using namespace pharos;
-  registry.add<HomogeneousMedium>("homogeneous", "The same everywhere, with its own colors");
-  registry.add<IsotropicPhase>("isotropic", "Evenly into all directions");
-  registry.add<HenyeyGreensteinPhase>("henyey_greenstein", "More or less forwards or backwards");
-  registry.add<RayleighPhase>("rayleigh", "By particles much smaller than a wavelength, like air");
+  registry.add<HomogeneousMedium>("homogeneous",
+                                  "A medium whose coefficients are the same everywhere");
+  registry.add<IsotropicPhase>("isotropic", "Even scattering in all directions");
+  registry.add<HenyeyGreensteinPhase>("henyey_greenstein",
+                                      "Scattering mostly forwards or backwards");
+  registry.add<RayleighPhase>("rayleigh",
+                              "Scattering by particles much smaller than a wavelength, as in air");
 }

@@ -1,10 +1,10 @@
-// rayleigh: what particles much smaller than a wavelength do with unpolarized light, as much
-// forwards as backwards, half as much aside. With the angle t between the directions of flight
-// before and after:
+// rayleigh: scattering of unpolarized light by particles much smaller than a wavelength. Forward
+// and backward scattering are equal, and sideways scattering is half as strong. With the angle t
+// between the directions of flight before and after scattering:
 //
 //     p(t) = 3 / (16 pi) (1 + cos^2 t)  [1/sr]
 //
-// The color of such scattering, as of the sky, is for the medium's coefficients to say.
+// The color of such scattering, for example in the sky, is set by the medium's coefficients.
 //
 //     phase: rayleigh
 
@@ -21,8 +21,8 @@ float RayleighPhase::evaluate(Vec3 wo, Vec3 wi) const {
 }
 
 Vec3 RayleighPhase::sample(Vec3 wo, Vec2 u) const {
-  // The distribution of c = cos t is (c^3 + 3 c + 4) / 8: Cardano's formula for its inverse. Of the
-  // two cube roots the larger is taken, the other is minus its inverse.
+  // The distribution function of c = cos t is (c^3 + 3 c + 4) / 8. Cardano's formula inverts it.
+  // The larger of the two cube roots is computed; the other is minus its inverse.
   const float half = 2 * (2 * u.x - 1);
   const float root = std::cbrt(std::abs(half) + std::sqrt(square(half) + 1));
   const float cosine = std::copysign(root - 1 / root, half);

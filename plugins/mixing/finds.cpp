@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <pharos/core/binary_stream.h>
-
 namespace pharos {
 
 void Finds::add(double u, double weight) {
@@ -15,14 +13,6 @@ void Finds::add(double u, double weight) {
   Bin& bin = bins_[std::min(static_cast<std::size_t>(place), bins_.size() - 1)];
   bin.weight += weight;
   bin.moment += weight * u;
-}
-
-void Finds::add(const Finds& other) {
-  steps_ += other.steps_;
-  for (std::size_t i = 0; i < bins_.size(); ++i) {
-    bins_[i].weight += other.bins_[i].weight;
-    bins_[i].moment += other.bins_[i].moment;
-  }
 }
 
 std::vector<Finds::Term> Finds::terms(double drawn_with) const {
@@ -38,21 +28,12 @@ std::vector<Finds::Term> Finds::terms(double drawn_with) const {
   return all;
 }
 
-void Finds::save(std::ostream& out) const {
-  save_number(out, steps_);
-  for (const Bin& bin : bins_) {
-    save_number(out, bin.weight);
-    save_number(out, bin.moment);
-  }
-}
-
-void Finds::load(std::istream& in) {
-  steps_ = load_number<std::uint64_t>(in);
-  for (Bin& bin : bins_) {
-    bin.weight = load_finite<double>(in);
-    bin.moment = load_finite<double>(in);
-    if (bin.moment < 0 || bin.moment > bin.weight) throw InputError("what was saved is damaged");
-  }
+void Finds::archive(Archive& archive) {
+  const std::size_t count = bins_.size();
+  archive(steps_, bins_);
+  bool is_sound = bins_.size() == count;
+  for (const Bin& bin : bins_) is_sound &= bin.moment >= 0 && bin.moment <= bin.weight;
+  archive.expect(is_sound, "what was learned of mixing");
 }
 
 double objective_slope(const std::vector<Finds::Term>& terms, double a, MixingObjective objective) {

@@ -2,8 +2,9 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <iosfwd>
 #include <vector>
+
+#include <pharos/core/archive.h>
 
 namespace pharos {
 
@@ -37,22 +38,20 @@ class Finds {
 
   /// A step of weight `weight` >= 0 and of `u` in [0, 1].
   void add(double u, double weight);
-  /// Adds what `other`, of as many bins, holds.
-  void add(const Finds& other);
 
   /// Number of steps, those of weight zero included.
   std::uint64_t steps() const { return steps_; }
   /// The bins that hold anything, for steps drawn with a share `drawn_with` in (0, 1).
   std::vector<Term> terms(double drawn_with) const;
 
-  void save(std::ostream& out) const;
-  /// Reads what save() wrote with as many bins. Throws InputError when it is cut off or damaged.
-  void load(std::istream& in);
+  /// Loads what was saved with as many bins.
+  void archive(Archive& archive);
 
  private:
   struct Bin {
     double weight = 0;  ///< sum of weights
     double moment = 0;  ///< sum of weights times u
+    void archive(Archive& archive) { archive(weight, moment); }
   };
 
   std::vector<Bin> bins_;

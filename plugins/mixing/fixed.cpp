@@ -7,31 +7,32 @@
 namespace pharos {
 namespace {
 
-class ConstantFraction final : public MixingFractions {
+class ConstantShares final : public MixingShares {
  public:
-  explicit ConstantFraction(float fraction) : fraction_(fraction) {}
-  float unguided_fraction(std::uint32_t) const override { return fraction_; }
+  ConstantShares(float unguided, std::span<const float> weights)
+      : unguided_(unguided), weights_(weights.begin(), weights.end()) {}
+  std::uint32_t at(const MixingQuery& query, std::span<float> shares) const override {
+    share_by_weight(weights_, query.places, unguided_, shares);
+    return 0;
+  }
 
  private:
-  float fraction_;
+  float unguided_;
+  std::vector<float> weights_;
 };
 
+/// There is nothing to learn and nothing to save.
 class FixedState final : public MixingState {
  public:
-  explicit FixedState(float fraction)
-      : fractions_(std::make_shared<const ConstantFraction>(fraction)) {}
+  FixedState(float unguided, std::span<const float> weights)
+      : shares_(std::make_shared<const ConstantShares>(unguided, weights)) {}
   void absorb(const PathLog&) override {}
-  std::shared_ptr<const MixingFractions> update(std::uint32_t,
-                                                std::span<const std::uint32_t>) override {
-    return fractions_;
-  }
-  // There is nothing to remember.
-  void save(std::ostream&) const override {}
-  void load(std::istream&) override {}
-  void merge(const MixingState&) override {}
+  void update(std::uint32_t, std::span<const std::uint32_t>) override {}
+  std::shared_ptr<const MixingShares> shares() const override { return shares_; }
+  void archive(Archive&) override {}
 
  private:
-  std::shared_ptr<const MixingFractions> fractions_;
+  std::shared_ptr<const MixingShares> shares_;
 };
 
 }  // namespace
@@ -42,8 +43,8 @@ void FixedMixing::Settings::describe(Schema<Settings>& s) {
       .at_most(1);
 }
 
-std::unique_ptr<MixingState> FixedMixing::begin() const {
-  return std::make_unique<FixedState>(unguided_fraction_);
+std::unique_ptr<MixingState> FixedMixing::begin(std::span<const float> weights) const {
+  return std::make_unique<FixedState>(unguided_fraction_, weights);
 }
 
 }  // namespace pharos

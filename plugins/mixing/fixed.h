@@ -13,7 +13,7 @@ class FixedMixing final : public MixingPolicy {
   };
   explicit FixedMixing(const Settings& settings) : unguided_fraction_(settings.unguided_fraction) {}
 
-  std::unique_ptr<MixingState> begin() const override;
+  std::unique_ptr<MixingState> begin(std::span<const float> weights) const override;
 
  private:
   float unguided_fraction_;

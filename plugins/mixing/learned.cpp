@@ -28,7 +28,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <pharos/core/binary_stream.h>
 #include <pharos/core/error.h>
 #include <pharos/core/parallel.h>
 #include <pharos/statistics/adam.h>
@@ -39,9 +38,6 @@ namespace {
 using statistics::Adam;
 using Settings = LearnedMixing::Settings;
 
-constexpr const char* kStateName = "learned mixing";
-constexpr std::uint32_t kStateVersion = 1;
-
 double logit(double share) {
   return std::log(share / (1 - share));
 }
@@ -49,13 +45,25 @@ double share_of(double theta) {
   return 1 / (1 + std::exp(-theta));
 }
 
-class RegionFractions final : public MixingFractions {
+/// The region of the first method that knows something at the vertex decides.
+class RegionShares final : public MixingShares {
  public:
-  explicit RegionFractions(std::vector<float> fractions) : fractions_(std::move(fractions)) {}
-  float unguided_fraction(std::uint32_t region) const override { return fractions_[region]; }
+  RegionShares(std::vector<float> unguided, std::vector<float> weights)
+      : unguided_(std::move(unguided)), weights_(std::move(weights)) {}
+
+  /// Returns the region.
+  std::uint32_t at(const MixingQuery& query, std::span<float> shares) const override {
+    std::uint32_t region = 0;
+    for (std::size_t i = query.places.size(); i-- > 0;) {
+      if (query.places[i].evidence > 0) region = query.places[i].region;
+    }
+    share_by_weight(weights_, query.places, unguided_[region], shares);
+    return region;
+  }
 
  private:
-  std::vector<float> fractions_;
+  std::vector<float> unguided_;  ///< of each region
+  std::vector<float> weights_;   ///< of each method
 };
 
 /// What is known of one region.
@@ -63,11 +71,16 @@ struct Region {
   double theta;  ///< log-odds of the share of unguided samples
   Adam adam;
   Finds finds;  ///< since the last update
+  void archive(Archive& archive) {
+    archive(theta, adam, finds);
+    archive.expect(std::abs(theta) < 100, "what was learned of mixing");
+  }
 };
 
 class LearnedState final : public MixingState {
  public:
-  explicit LearnedState(const Settings& settings) : settings_(settings) {}
+  LearnedState(const Settings& settings, std::span<const float> weights)
+      : settings_(settings), weights_(weights.begin(), weights.end()) {}
 
   void absorb(const PathLog& log) override {
     for (std::size_t i = 0; i < log.size(); ++i) {
@@ -76,33 +89,34 @@ class LearnedState final : public MixingState {
       estimate_incident_radiance(path, incident_);
       for (std::size_t k = 0; k < path.vertices.size(); ++k) {
         const RecordedVertex& vertex = path.vertices[k];
-        // The share of a vertex is below one only where a guide had an answer.
-        if (vertex.unguided_fraction < 1) add(vertex, incident_[k]);
+        if (vertex.mixing_key != kNoMixing) add(path, vertex, incident_[k]);
       }
     }
   }
 
-  std::shared_ptr<const MixingFractions> update(std::uint32_t region_count,
-                                                std::span<const std::uint32_t> origins) override {
+  void update(std::uint32_t regions, std::span<const std::uint32_t> origins) override {
     parallel_for(regions_.size(), [&](std::size_t i) { learn(regions_[i]); });
     std::vector<Region> next;
-    std::vector<float> fractions;
-    for (std::uint32_t i = 0; i < region_count; ++i) {
+    for (std::uint32_t i = 0; i < regions; ++i) {
       const std::uint32_t origin = origins.empty() ? i : origins[i];
       next.push_back(origin < regions_.size() ? heir_of(regions_[origin]) : new_region());
-      fractions.push_back(fraction(next.back()));
     }
     regions_ = std::move(next);
-    return std::make_shared<RegionFractions>(std::move(fractions));
   }
 
-  void save(std::ostream& out) const override;
-  void load(std::istream& in) override;
-  void merge(const MixingState& other) override;
+  std::shared_ptr<const MixingShares> shares() const override {
+    std::vector<float> unguided;
+    for (const Region& region : regions_) unguided.push_back(fraction(region));
+    return std::make_shared<RegionShares>(std::move(unguided), weights_);
+  }
+
+  void archive(Archive& archive) override {
+    archive.heading("learned mixing", 2);
+    archive.list(regions_, [&] { return new_region(); });
+  }
 
  private:
   Region new_region() const { return {logit(settings_.initial), {}, Finds(settings_.bins)}; }
-  Region load_region(std::istream& in) const;
   Region heir_of(const Region& region) const {
     return {region.theta, region.adam, Finds(settings_.bins)};
   }
@@ -114,15 +128,18 @@ class LearnedState final : public MixingState {
         std::clamp(share_of(region.theta), settings_.least, 1 - settings_.least));
   }
 
-  void add(const RecordedVertex& vertex, Rgb incident) {
+  void add(const PathView& path, const RecordedVertex& vertex, Rgb incident) {
     const double found = mean(vertex.local_weight * incident);
     const double weight = settings_.objective == MixingObjective::kl ? found : found * found;
-    const double share = vertex.unguided_fraction;
-    const double unguided = share * vertex.unguided_pdf, guided = (1 - share) * vertex.guided_pdf;
+    double unguided = 0, guided = 0;
+    const std::span<const Technique> techniques = path.techniques(vertex);
+    for (std::size_t i = 0; i < techniques.size(); ++i) {
+      (i == 0 ? unguided : guided) += double{techniques[i].share} * techniques[i].density;
+    }
     // A step that found nothing may have no density at all: it was a zero sample.
     const double u = weight > 0 ? unguided / (unguided + guided) : 0;
     // One infinite find would stay in the sums for good.
-    if (std::isfinite(weight) && std::isfinite(u)) regions_[vertex.region].finds.add(u, weight);
+    if (std::isfinite(weight) && std::isfinite(u)) regions_[vertex.mixing_key].finds.add(u, weight);
   }
 
   void learn(Region& region) const {
@@ -142,63 +159,10 @@ class LearnedState final : public MixingState {
   }
 
   const Settings settings_;
+  std::vector<float> weights_;
   std::vector<Region> regions_;
   std::vector<Rgb> incident_;  ///< of one path; a member to keep its memory
 };
-
-void LearnedState::save(std::ostream& out) const {
-  save_heading(out, kStateName, kStateVersion);
-  save_number(out, static_cast<std::uint32_t>(settings_.objective));
-  save_number(out, settings_.bins);
-  save_number(out, static_cast<std::uint64_t>(regions_.size()));
-  for (const Region& region : regions_) {
-    const Adam::Moments& moments = region.adam.moments();
-    for (const double value :
-         {region.theta, moments.mean, moments.square, moments.mean_left, moments.square_left}) {
-      save_number(out, value);
-    }
-    region.finds.save(out);
-  }
-}
-
-void LearnedState::load(std::istream& in) {
-  expect_heading(in, kStateName, kStateVersion);
-  const auto objective = load_number<std::uint32_t>(in), bins = load_number<std::uint32_t>(in);
-  if (objective != static_cast<std::uint32_t>(settings_.objective) || bins != settings_.bins) {
-    throw InputError("mixing was learned with another objective or another number of bins");
-  }
-  const auto count = load_number<std::uint64_t>(in);
-  std::vector<Region> regions;
-  // A count that is damaged must not decide how much memory is taken: regions are read first.
-  for (std::uint64_t i = 0; i < count; ++i) regions.push_back(load_region(in));
-  regions_ = std::move(regions);
-}
-
-Region LearnedState::load_region(std::istream& in) const {
-  Region region = new_region();
-  region.theta = std::clamp(load_finite<double>(in), -limit(), limit());
-  Adam::Moments moments;
-  for (double* value : {&moments.mean, &moments.square, &moments.mean_left, &moments.square_left}) {
-    *value = load_finite<double>(in);
-  }
-  const auto is_share = [](double x) { return x >= 0 && x <= 1; };
-  if (moments.square < 0 || !is_share(moments.mean_left) || !is_share(moments.square_left)) {
-    throw InputError("what was saved is damaged");
-  }
-  region.adam = Adam(moments);
-  region.finds.load(in);
-  return region;
-}
-
-void LearnedState::merge(const MixingState& other) {
-  const auto& theirs = dynamic_cast<const LearnedState&>(other);
-  if (theirs.regions_.size() != regions_.size() || theirs.settings_.bins != settings_.bins) {
-    throw InputError("mixing can be merged only with a state of the same settings and updates");
-  }
-  for (std::size_t i = 0; i < regions_.size(); ++i) {
-    regions_[i].finds.add(theirs.regions_[i].finds);
-  }
-}
 
 }  // namespace
 
@@ -231,8 +195,8 @@ LearnedMixing::LearnedMixing(const Settings& settings) : settings_(settings) {
   }
 }
 
-std::unique_ptr<MixingState> LearnedMixing::begin() const {
-  return std::make_unique<LearnedState>(settings_);
+std::unique_ptr<MixingState> LearnedMixing::begin(std::span<const float> weights) const {
+  return std::make_unique<LearnedState>(settings_, weights);
 }
 
 }  // namespace pharos

@@ -37,7 +37,7 @@ class LearnedMixing final : public MixingPolicy {
   /// Throws InputError when `initial` is not in [least, 1 - least].
   explicit LearnedMixing(const Settings& settings);
 
-  std::unique_ptr<MixingState> begin() const override;
+  std::unique_ptr<MixingState> begin(std::span<const float> weights) const override;
 
  private:
   Settings settings_;

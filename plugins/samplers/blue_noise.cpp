@@ -9,28 +9,28 @@
 namespace pharos::pmj02 {
 namespace {
 
-/// In how many ways blocks are judged, and how many sizes of intervals are tried for each size of
-/// blocks: with these four sequences are prepared in a twentieth of a second.
+/// The number of views that judge blocks, and the number of interval sizes tried for each block
+/// size. With these values four sequences are prepared in a twentieth of a second.
 constexpr int kViews = 8, kDepths = 3;
 
-/// One way in which a block of points is used: `flips` are the digits that are flipped.
+/// One way of using a block of points: `flips` are the flipped digits.
 struct View {
   std::vector<Point> points;
   Point flips;
 };
 
-/// Half of an interval of x or of y; `depth` digits tell it.
+/// A half of an interval of x or of y, selected by its first `depth` digits.
 struct Half {
   std::uint32_t Point::*axis;
   int depth;
-  std::uint32_t parent;  ///< the depth - 1 first digits
+  std::uint32_t parent;  ///< the first depth - 1 digits
 
   bool holds(const Point& p) const { return depth == 1 || (p.*axis) >> (33 - depth) == parent; }
   std::uint32_t digit() const { return 0x80000000u >> (depth - 1); }
 };
 
-/// How much two points crowd each other on the torus, at most 1, when n points share the square:
-/// less the farther apart, 0 from a distance of n^-1/2 on.
+/// Returns how much two of n points crowd each other on the torus. The value is at most 1,
+/// decreases with the distance, and is 0 from a distance of n^-1/2 on.
 float crowding(Point a, Point b, float count) {
   const float x = static_cast<float>(static_cast<std::int32_t>(a.x - b.x)) * 0x1p-32f;
   const float y = static_cast<float>(static_cast<std::int32_t>(a.y - b.y)) * 0x1p-32f;
@@ -44,7 +44,7 @@ float crowding(Point a, std::span<const Point> others, float count) {
   return sum;
 }
 
-/// Of the pairs of points with at least one in the interval.
+/// Sums over the pairs of points with at least one point in the interval.
 float crowding(const View& view, const Half& half) {
   const auto count = static_cast<float>(view.points.size());
   std::vector<Point> inside;
@@ -72,7 +72,7 @@ void swap_halves(std::vector<View>& views, const Half& half) {
   }
 }
 
-/// Views of blocks of `size` points.
+/// Draws views of blocks of `size` points.
 std::vector<View> draw_views(const std::vector<Point>& points, std::size_t size,
                              RandomStream& random) {
   std::vector<View> views(kViews);

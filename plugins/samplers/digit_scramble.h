@@ -13,14 +13,14 @@
 
 namespace pharos {
 
-/// Nested random permutations of several digits of a base at once: each digit is permuted in a way
-/// that the digits before it pick. They are drawn into tables; each node of a tree of digits takes
-/// two of these, one after the other; if `shifted` one, and then its digits are shifted, so that
-/// all images of a value are exactly as likely.
+/// Nested random permutations of several digits of a base at once: the digits before a digit select
+/// its permutation. The permutations are drawn into tables. Each node of the tree of digits applies
+/// two tables, one after the other. If `shifted` is set, a node applies one table and then shifts
+/// its digits, so that all images of a value are exactly equally likely.
 template <std::uint32_t base, std::uint32_t digits, bool shifted>
 class DigitScramble {
  public:
-  /// base to the power `digits`: how many values are permuted.
+  /// The number of permuted values: base to the power `digits`.
   static constexpr std::uint32_t kCount = [] {
     std::uint32_t count = 1;
     for (std::uint32_t i = 0; i < digits; ++i) count *= base;
@@ -36,8 +36,8 @@ class DigitScramble {
     for (std::uint32_t i = 0; i < sums_.size(); ++i) sums_[i] = digit_sum(i / kCount, i % kCount);
   }
 
-  /// The image of `value` (its first digit is the most significant one) at the node whose place in
-  /// the tree is `prefix`. `seed` picks the scramble of the whole tree.
+  /// Returns the image of `value`, whose first digit is the most significant one, at the node whose
+  /// place in the tree is `prefix`. `seed` selects the scramble of the whole tree.
   std::uint32_t operator()(std::uint32_t value, std::uint32_t prefix, std::uint64_t seed) const {
     const std::uint64_t hash = mix_sum(seed + prefix);
     if constexpr (!shifted) {
@@ -68,7 +68,7 @@ class DigitScramble {
     return images;
   }
 
-  /// All digits in a random order.
+  /// Returns all digits in a random order.
   static std::array<std::uint32_t, base> random_digits(RandomStream& random) {
     std::array<std::uint32_t, base> order;
     std::iota(order.begin(), order.end(), 0);
@@ -76,7 +76,7 @@ class DigitScramble {
     return order;
   }
 
-  /// The sum of each pair of digits, without carry.
+  /// Adds each pair of digits of `a` and `b` without carry.
   static std::uint8_t digit_sum(std::uint32_t a, std::uint32_t b) {
     std::uint32_t sum = 0, place = 1;
     for (std::uint32_t d = 0; d < digits; ++d, a /= base, b /= base, place *= base) {

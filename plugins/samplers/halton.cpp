@@ -1,15 +1,15 @@
 // halton: each dimension of a pixel is the Halton sequence of bases 2 and 3 (Halton 1960) with a
 // nested scramble of its digits (Owen 1995, "Randomly Permuted (t,m,s)-Nets and (t,s)-Sequences").
-// Of any 2^a 3^b consecutive ones of its points one lies in each of the 2^a by 3^b equal cells of
-// the square.
+// Any 2^a 3^b consecutive points of it lie one each in the 2^a by 3^b equal cells of the square.
 //
-// Dimensions are padded: every one has these two bases, not the next primes. Paths ask for numbers
-// by purpose, in hundreds of dimensions, and of large bases only thousands of samples would fill
-// even the first digit. So that padded dimensions are unrelated, each goes through the sequence in
-// an order of its own, with the digits of the index in base 6 permuted, the first digits first:
-// prefixes of 6^k points stay blocks of consecutive points. So 6, 36, 216, 1296 samples are best;
-// between, n = j 6^k are as even as j sets of 6^k. The shuffles are as long as the plan's samples
-// need, 6^9 at most (6^6 with a time budget); further samples begin anew.
+// Dimensions are padded: each has these two bases instead of the next primes. Paths request numbers
+// by purpose, in hundreds of dimensions, and thousands of samples would be needed to fill even the
+// first digit of a large base. To make the padded dimensions unrelated, each visits the sequence in
+// its own order: it permutes the digits of the index in base 6, the first digits first. Prefixes of
+// 6^k points remain blocks of consecutive points. The best numbers of samples are therefore 6, 36,
+// 216 and 1296; between them, n = j 6^k points are as even as j sets of 6^k. The shuffles cover as
+// many samples as the plan needs, at most 6^9 (6^6 with a time budget). Further samples begin a new
+// set.
 //
 //     { type: halton }
 #include "halton.h"
@@ -21,24 +21,24 @@
 namespace pharos {
 namespace {
 
-/// Indices are shuffled three digits of base 6 at a time, numbers in base 3 are scrambled four
-/// digits at a time.
+/// The shuffle of indices permutes three digits of base 6 at a time; the scramble of numbers in
+/// base 3 permutes four digits at a time.
 constexpr std::uint32_t kSixths = 216, kThirds = 81;
 
 constexpr std::uint32_t power(std::uint32_t base, std::uint32_t exponent) {
   return exponent == 0 ? 1 : base * power(base, exponent - 1);
 }
 
-/// The four lowest digits of base 3 in the opposite order.
+/// Reverses the order of the four lowest digits in base 3.
 constexpr std::uint32_t reversed_thirds(std::uint32_t v) {
   return v % 3 * 27 + v / 3 % 3 * 9 + v / 9 % 3 * 3 + v / 27;
 }
 
-/// For sets of 216^groups samples; 1 to 3.
+/// A prepared sampler with sets of 216^groups samples, for 1 to 3 groups.
 template <std::uint32_t groups>
 class PreparedHalton final : public PreparedSampler {
  public:
-  /// `seed` draws the permutations of digits.
+  /// `seed` draws the permutations of the digits.
   explicit PreparedHalton(std::uint64_t seed)
       : sixths_(hash_combine(seed, 1)), thirds_(hash_combine(seed, 2)) {
     for (std::uint32_t v = 0; v < kThirds; ++v) reversed_[v] = reversed_thirds(v);
@@ -62,12 +62,14 @@ class PreparedHalton final : public PreparedSampler {
   static constexpr std::uint32_t kPeriod = power(kSixths, groups);
   static constexpr std::uint32_t kThirdGroups = std::min(groups + 1, 3u);
   static constexpr Strata kStrata{power(kThirds, kThirdGroups)};
-  /// Of the state: the number within the set, below 216^3. The others are a hash of pixel and set.
+  /// Bits of the state that hold the number within the set, below 216^3. The other bits hold a hash
+  /// of the pixel and the set.
   static constexpr int kIndexBits = 24;
-  /// Tells the places of groups apart.
+  /// Added to the seed from group to group, so that the groups are permuted differently.
   static constexpr std::uint64_t kNextPlace = 0x8cb92ba72f3d8dd7ull;
 
-  /// Each group of digits is permuted as those before it, the quotient, say.
+  /// Permutes each group of digits in a way that depends on the quotient `before`, the digits
+  /// before the group.
   std::uint32_t shuffled(const SampleStream& stream, const Seeds& seeds) const {
     auto rest = static_cast<std::uint32_t>(stream.state() & ((1u << kIndexBits) - 1));
     std::uint64_t seed = (std::uint64_t{seeds.order} << 32) | seeds.x;
@@ -82,7 +84,7 @@ class PreparedHalton final : public PreparedSampler {
     return image;
   }
 
-  /// The first digits of the number are the last ones of the index.
+  /// Returns the number in base 3. Its first digits are the last digits of the index.
   float base_3(std::uint32_t index, const Seeds& seeds) const {
     std::uint64_t seed = (std::uint64_t{seeds.y} << 32) | seeds.more;
     std::uint32_t image = 0, before = 0, rest = index, place = 1;
@@ -104,7 +106,8 @@ class PreparedHalton final : public PreparedSampler {
 
 }  // namespace
 
-/// As many groups of digits as the plan's samples need; with a time budget sets have 6^6 samples.
+/// Chooses as many groups of digits as the samples of the plan need. With a time budget sets have
+/// 6^6 samples.
 std::unique_ptr<const PreparedSampler> HaltonSampler::prepare(const PixelGrid&,
                                                               const SamplePlan& plan,
                                                               const IntegrandProbe*) const {

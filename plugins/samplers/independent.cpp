@@ -22,7 +22,7 @@ class PreparedIndependent final : public PreparedSampler {
   }
 
  private:
-  /// The path's own SplitMix64 stream at the dimension's place.
+  /// Returns the word of the path's own SplitMix64 stream at the place of the dimension.
   static std::uint64_t bits(const SampleStream& stream, Dimension dimension) {
     return mix_bits(stream.state() + dimension.code() * 0x9e3779b97f4a7c15ull);
   }

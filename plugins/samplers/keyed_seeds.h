@@ -9,28 +9,29 @@
 /// Seeds of the hash-based samplers.
 namespace pharos {
 
-/// Both halves of the product, added up without carry: each bit hangs on many of both factors.
+/// Combines both halves of the product by exclusive or. Each bit depends on many bits of both
+/// factors.
 constexpr std::uint64_t folded_product(std::uint64_t a, std::uint64_t b) {
   __extension__ using Long = unsigned __int128;
   const Long product = Long{a} * b;
   return static_cast<std::uint64_t>(product >> 64) ^ static_cast<std::uint64_t>(product);
 }
 
-/// Mixes a word in which words were added up times odd constants (the step of wyrand, Wang Yi
-/// 2019). Faster than mix_bits(), but not one to one.
+/// Mixes a word that is a sum of words times odd constants (the step of wyrand, Wang Yi 2019).
+/// Faster than mix_bits(), but not one to one.
 constexpr std::uint64_t mix_sum(std::uint64_t v) {
   return folded_product(v, v ^ 0xe7037ed1a0b428dbull);
 }
 
-/// What all samples of a pixel share, or those of one part of them (a set, a dimension): a hash of
-/// seed, iteration, index and the part's number.
+/// Returns a hash of the seed, the iteration, the index and the number of a part of the pixel (a
+/// set, a dimension). All samples of the pixel, or of that part, share the hash.
 constexpr std::uint64_t hash_pixel(const PathKey& key, std::uint64_t part = 0) {
   return mix_sum(key.seed * 0x9b05688c2b3e6c1full + key.iteration * 0xd6e8feb86659fd93ull +
                  key.index * 0xa0761d6478bd642full + part * 0xe7037ed1a0b428dbull +
                  0x632be59bd9b4e019ull);
 }
 
-/// Four unrelated words of 32 bits for one dimension of what `state` names.
+/// Four unrelated 32-bit words for one dimension of the pixel or set that `state` identifies.
 struct Seeds {
   std::uint32_t order, x, y, more;
 };
@@ -44,14 +45,15 @@ constexpr Seeds seeds_of(std::uint64_t state, Dimension dimension) {
           static_cast<std::uint32_t>(second >> 32), static_cast<std::uint32_t>(second)};
 }
 
-/// A sample's place in sets of a fixed size, packed into a stream's state: a hash of the pixel and
-/// of the set's number in the upper 48 bits, the number within the set in the lower 16.
+/// The place of a sample in sets of a fixed size, packed into the state of a stream. The upper 48
+/// bits hold a hash of the pixel and of the number of the set, the lower 16 bits the number within
+/// the set.
 class SetPlace {
  public:
   /// The largest size of a set.
   static constexpr std::uint32_t kMostSamples = 1u << 16;
 
-  /// The place of a sample whose sets have `size` samples, 1 to kMostSamples.
+  /// Returns the place of a sample in sets of `size` samples, 1 to kMostSamples.
   static constexpr SetPlace of(const PathKey& key, std::uint32_t size) {
     const std::uint32_t set = key.sample / size;
     return SetPlace((hash_pixel(key, set) << 16) | (key.sample - set * size));

@@ -1,21 +1,21 @@
 // multi_jittered: correlated multi-jittered sampling (Kensler 2013, "Correlated Multi-Jittered
 // Sampling", Pixar Technical Memo 13-01). The n = m k samples of a set lie one each in the cells of
-// a grid of m columns and k rows, and also one each in n intervals of equal length of x, and of y:
-// within its column a point's place is that of its row after a permutation of the rows, the same
-// one for all columns; within its row it is that of its column before the columns are permuted.
-// Sharing the permutations keeps neighbors apart. Each dimension of a pixel has permutations,
-// jitter and an order of the cells of its own; samples beyond a set belong to the next one, with
-// permutations of its own.
+// a grid of m columns and k rows. They also lie one each in n equal intervals of x, and of y. The
+// place of a point within its column is its row after a permutation of the rows, which all columns
+// share. The place of a point within its row is its column before the columns are permuted. Sharing
+// the permutations keeps neighbors apart. Each dimension of a pixel has its own permutations,
+// jitter and order of the cells. Samples beyond a set belong to the next set, which has its own
+// permutations.
 //
-// An n that is no product of two similar numbers gets a last row that is not full, as in Kensler's
-// second form: n intervals of y still hold a point each; of m k ones of x some are left out. The
-// rows are m of these intervals of y high, the last one fewer.
+// If n is not a product of two similar numbers, the last row is not full, as in Kensler's second
+// form. The n intervals of y still hold one point each; of the m k intervals of x some remain
+// empty. Each row is as high as m of the intervals of y, the last row as high as fewer.
 //
-// Sharing has a price: all columns misplace their points alike, which adds up where a smooth
-// integrand ends otherwise than it begins, by an amount that changes along the other axis (as x y
-// does). There the variance falls as n^-1.5 only, where it does as n^-2 if every column and every
-// row has a permutation of its own (`correlated: false`; Chiu, Shirley and Wang 1994,
-// "Multi-Jittered Sampling"). On edges both fall as n^-1.5.
+// Sharing the permutations has a disadvantage. All columns misplace their points in the same way,
+// which adds up if a smooth integrand has different values at opposite borders and the difference
+// changes along the other axis (as for x y). The variance then falls only as n^-1.5. It falls as
+// n^-2 if every column and every row has its own permutation (`correlated: false`; Chiu, Shirley
+// and Wang 1994, "Multi-Jittered Sampling"). On edges both variants fall as n^-1.5.
 //
 //     { type: multi_jittered, samples: 16 }
 #include "multi_jittered.h"
@@ -66,14 +66,16 @@ class PreparedMultiJittered final : public PreparedSampler {
   GridCells places_;
   Strata cells_, numbers_;
   DrawnPermutations orders_, column_orders_, row_orders_;
-  std::uint32_t apart_;  ///< what tells the seeds of columns, and of rows, apart
+  std::uint32_t apart_;  ///< factor that separates the seeds of the columns, and of the rows; 0:
+                         ///< all share a seed
 };
 
 }  // namespace
 
 void MultiJitteredSampler::Settings::describe(Schema<Settings>& s) {
   describe_samples(s);
-  s.field("correlated", &Settings::correlated, "Whether all columns, and all rows, are alike");
+  s.field("correlated", &Settings::correlated,
+          "Whether all columns, and all rows, share a permutation");
   s.example("{ samples: 7 }");
   s.example("{ samples: 32, correlated: false }");
 }

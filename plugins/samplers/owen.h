@@ -7,8 +7,8 @@
 #include <pharos/core/random.h>
 
 /// The first two Sobol' dimensions, a (0,2)-sequence in base 2, with hashed Owen scrambling.
-/// Numbers are 32-bit fractions. `reversed` marks bit-reversed ones, whose lowest bit is the first
-/// digit: scrambling and generating are cheap there.
+/// Numbers are 32-bit fractions. `reversed` marks bit-reversed fractions, whose lowest bit is the
+/// first digit. Scrambling and generating are cheap in this form.
 namespace pharos::owen {
 
 template <class Word>
@@ -20,10 +20,10 @@ constexpr Word reverse_bits(Word v) {
   return ((v >> 1) & 0x55555555u) | ((v & 0x55555555u) << 1);
 }
 
-/// A nested uniform scramble of a reversed fraction, chosen by `seed`: every digit is flipped or
-/// not by the digits before it. The form is that of Laine and Karras (2011, "Stratified Sampling
-/// for Stochastic Transparency"), with the constants of Vegdahl (2021, "Building a Better LK
-/// Hash").
+/// Applies the nested uniform scramble that `seed` selects to a reversed fraction: the digits
+/// before a digit decide whether it is flipped. The form of the hash is due to Laine and Karras
+/// (2011, "Stratified Sampling for Stochastic Transparency"), its constants to Vegdahl (2021,
+/// "Building a Better LK Hash").
 template <class Word>
 constexpr Word scramble_reversed(Word v, Word seed) {
   v ^= v * 0x3d20adeau;
@@ -34,15 +34,16 @@ constexpr Word scramble_reversed(Word v, Word seed) {
   return v;
 }
 
-/// A permutation of indices that maps the first 2^k of them, for every k, to an aligned block of
-/// 2^k: each such block of a (0,2)-sequence is a net, so its prefixes stay stratified.
+/// Permutes indices so that for every k the first 2^k indices map to an aligned block of 2^k. Each
+/// such block of a (0,2)-sequence is a net, so prefixes of the sequence remain stratified.
 constexpr std::uint32_t shuffle_index(std::uint32_t index, std::uint32_t seed) {
   return reverse_bits(scramble_reversed(reverse_bits(index), seed));
 }
 
-/// Reversed value of the second Sobol' dimension (that of the first is the index itself). Its
-/// matrix is Pascal's triangle modulo 2; digit k is the sum of those digits j of the index whose
-/// position contains k as a set of bits (Lucas), which five butterfly steps add up.
+/// Returns the reversed value of the second Sobol' dimension. (The reversed value of the first
+/// dimension is the index itself.) The generator matrix is Pascal's triangle modulo 2: digit k is
+/// the sum of the digits j of the index whose position j contains k as a set of bits (Lucas). Five
+/// butterfly steps compute the sum.
 constexpr std::uint32_t sobol_y_reversed(std::uint32_t index) {
   index ^= (index >> 1) & 0x55555555u;
   index ^= (index >> 2) & 0x33333333u;
@@ -52,12 +53,12 @@ constexpr std::uint32_t sobol_y_reversed(std::uint32_t index) {
   return index;
 }
 
-/// The number in [0, 1) whose reversed fraction is the scramble of `reversed` that `seed` picks.
+/// Returns the number in [0, 1) whose reversed fraction is `reversed`, scrambled by `seed`.
 constexpr float scrambled_number(std::uint32_t reversed, std::uint32_t seed) {
   return to_unit_float(reverse_bits(scramble_reversed(reversed, seed)));
 }
 
-/// Two of them, computed side by side.
+/// Computes two scrambled numbers side by side.
 inline Vec2 scrambled_point(std::uint64_t reversed, std::uint64_t seeds) {
   using Pair = std::uint64_t __attribute__((vector_size(16)));
   using Words = std::uint32_t __attribute__((vector_size(16)));
@@ -67,8 +68,8 @@ inline Vec2 scrambled_point(std::uint64_t reversed, std::uint64_t seeds) {
           static_cast<float>(static_cast<std::int32_t>(steps[1])) * 0x1p-24f};
 }
 
-/// What each four bits of a reversed index add to its Sobol' point: the sum, modulo 2, is the
-/// point, y above x, both reversed.
+/// The contribution of each four bits of a reversed index to its Sobol' point. The sum of the
+/// contributions modulo 2 is the point, y above x, both reversed.
 inline constexpr auto kSobolParts = [] {
   std::array<std::array<std::uint64_t, 16>, 8> parts{};
   for (std::uint32_t k = 0; k < 8; ++k) {
@@ -80,20 +81,21 @@ inline constexpr auto kSobolParts = [] {
   return parts;
 }();
 
-/// The Sobol' number of an index, scrambled.
+/// Returns the scrambled Sobol' number of an index.
 constexpr float sobol_number(std::uint32_t reversed_index, std::uint32_t seed) {
   return scrambled_number(reverse_bits(reversed_index), seed);
 }
 
-/// The Sobol' point of an index, y above x, both reversed. From a table, as eight loads at once
-/// take less time than the steps of reverse_bits() and sobol_y_reversed() one after the other.
+/// Returns the Sobol' point of an index, y above x, both reversed. It uses a table, because eight
+/// independent loads take less time than the dependent steps of reverse_bits() and
+/// sobol_y_reversed().
 constexpr std::uint64_t sobol_reversed(std::uint32_t reversed_index) {
   std::uint64_t sum = 0;
   for (std::uint32_t k = 0; k < 8; ++k) sum ^= kSobolParts[k][(reversed_index >> (4 * k)) & 15];
   return sum;
 }
 
-/// The Sobol' point of an index, scrambled.
+/// Returns the scrambled Sobol' point of an index.
 inline Vec2 sobol_point(std::uint32_t reversed_index, std::uint32_t seed_x, std::uint32_t seed_y) {
   return scrambled_point(sobol_reversed(reversed_index), (std::uint64_t{seed_y} << 32) | seed_x);
 }

@@ -1,19 +1,21 @@
 // pmj02: progressive multi-jittered (0,2) sequences (Christensen, Kensler and Kilpatrick 2018,
-// "Progressive Multi-Jittered Sample Sequences"): random points whose first n, n any power of two,
-// have one point in every elementary interval of area 1/n.
+// "Progressive Multi-Jittered Sample Sequences"). The points are random, and for any power of two n
+// the first n points lie one each in every elementary interval of area 1/n.
 //
 // When n points double, each interval of length 1/n of x holds one old point and must get one new
-// point in its other half; the same holds for y, and which new x goes with which new y follows from
-// the elementary intervals between. So what Christensen et al. search for among random candidates
-// can be written down: copy the first k digits, k = log2 n, of two old numbers, flip digit k + 1,
-// draw the rest at random (Helmer, Christensen and Kensler 2021, "Stochastic Generation of (t, s)
-// Sample Sequences"). With the partners that Sobol's matrices give every aligned block of 2^j
-// points is a net, not only the first. In distribution that is Sobol's sequence with Owen's
-// scrambling, as `sobol` has it, but with digits that are drawn instead of hashed.
+// point in its other half. The same holds for y. The elementary intervals between determine which
+// new x goes with which new y. Christensen et al. search for such points among random candidates,
+// but the points can be constructed directly: copy the first k = log2 n digits of two old numbers,
+// flip digit k + 1, and draw the others at random (Helmer, Christensen and Kensler 2021,
+// "Stochastic Generation of (t, s) Sample Sequences"). With the partners given by Sobol's matrices
+// every aligned block of 2^j points is a net, not only the first block. In distribution this is
+// Sobol's sequence with Owen's scrambling, the sequence of `sobol`, except that the digits are
+// drawn instead of hashed.
 //
-// Eight sequences are made before rendering, as long as the samples of a pixel, at least 256 points
-// and at most 65,536 (4,096 with a time budget); every dimension of a pixel takes one, in an order
-// and with digits flipped at random of its own. Samples beyond a table begin anew.
+// Eight sequences are made before rendering. They are as long as the samples of a pixel, at least
+// 256 points and at most 65,536 points (4,096 with a time budget). Every dimension of a pixel uses
+// one sequence in its own order and with its own randomly flipped digits. Samples beyond a table
+// begin a new set.
 //
 //     { type: pmj02 }
 #include "pmj02.h"

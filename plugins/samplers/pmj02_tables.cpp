@@ -9,8 +9,8 @@
 namespace pharos::pmj02 {
 namespace {
 
-/// The number in the same interval of length 2^-k as `partner`, in the other half of it, with its
-/// further digits from `random`.
+/// Returns the number in the other half of the interval of length 2^-k that contains `partner`. Its
+/// further digits come from `random`.
 std::uint32_t beside(std::uint32_t partner, int k, std::uint32_t random) {
   const std::uint32_t free_digits = 0x7fffffffu >> k;
   return ((partner ^ (0x80000000u >> k)) & ~free_digits) | (random & free_digits);
@@ -50,8 +50,9 @@ class PreparedTables final : public PreparedSampler {
 void double_sequence(std::vector<Point>& points, std::uint64_t seed) {
   const auto count = static_cast<std::uint32_t>(points.size());
   const int k = std::countr_zero(count);
-  // In x the new point shares its interval with the point of the same lower index bits. In y it is
-  // the one whose index differs by the first k digits of the generator matrix's column k.
+  // In x the new point shares its interval with the point of the same lower index bits. In y it
+  // shares its interval with the point whose index differs by the first k digits of column k of the
+  // generator matrix.
   const std::uint32_t column = owen::sobol_y_reversed(count) & (count - 1);
   points.resize(2 * points.size());
   for (std::uint32_t i = 0; i < count; ++i) {

@@ -1,13 +1,14 @@
-// pmj02bn: `pmj02` with points that keep farther apart (after Christensen, Kensler and Kilpatrick
-// 2018, "Progressive Multi-Jittered Sample Sequences", who pick best candidates). Where the points
-// of a net lie follows from the digits of earlier points, which were drawn at random, long before:
-// best candidates for a point itself could move it within a tiny cell only. So the candidates are
-// scrambles here: in the first 256 points halves of intervals change places wherever that takes
-// points out of each other's way (blue_noise.h), for blocks of 4 up to 256 points, then the
-// sequence goes on from these. It stays a random (0,2)-sequence, used like those of `pmj02`.
+// pmj02bn: `pmj02` with points that keep farther apart, after Christensen, Kensler and Kilpatrick
+// (2018, "Progressive Multi-Jittered Sample Sequences"), who choose best candidates. The digits of
+// earlier points, drawn at random long before, determine where the next points of a net lie. Best
+// candidates for a single point could therefore move it within a tiny cell only. Here the
+// candidates are scrambles: in the first 256 points halves of intervals change places if this moves
+// points apart (blue_noise.h), for blocks of 4 up to 256 points. The sequence then continues from
+// these points. It remains a random (0,2)-sequence and is used in the same way as the sequences of
+// `pmj02`.
 //
-// Mean distances to the nearest neighbor grow by about a tenth up to 256 points, and hardly beyond
-// that. Nets have far fewer degrees of freedom than points: true blue noise is out of reach.
+// Mean distances to the nearest neighbor grow by about a tenth up to 256 points, and hardly beyond.
+// Nets have far fewer degrees of freedom than points, so true blue noise is impossible.
 //
 //     { type: pmj02bn }
 #include "pmj02bn.h"

@@ -12,14 +12,14 @@
 /// The parameter `samples` of samplers that arrange their samples in sets of a fixed size.
 namespace pharos {
 
-/// Where neither the settings nor the plan (a time budget) tell a set's size.
+/// The size of a set if neither the settings nor the plan (a time budget) determine one.
 inline constexpr std::uint32_t kDefaultSetSize = 16;
 
-/// Declares it, for settings with a member of this name.
+/// Declares the parameter `samples` for settings with a member of this name.
 template <class Settings>
 void describe_samples(Schema<Settings>& s) {
   s.field("samples", &Settings::samples,
-          "Size of a set; without it the samples a pixel, or 16 with a time budget")
+          "Size of a set; default: the samples per pixel, or 16 with a time budget")
       .at_least(1)
       .at_most(SetPlace::kMostSamples);
 }
@@ -35,14 +35,15 @@ struct SetSettings {
   }
 };
 
-/// The stated size; without one the planned samples of a pixel, at most a set's most.
+/// Returns the stated size, or else the planned samples of a pixel, at most SetPlace::kMostSamples.
 inline std::uint32_t set_size(std::optional<std::uint32_t> stated, const SamplePlan& plan) {
   if (stated) return *stated;
   if (plan.samples_per_pixel == 0) return kDefaultSetSize;
   return std::min(plan.samples_per_pixel, SetPlace::kMostSamples);
 }
 
-/// Whether passes have to be sets of set_size(): else an iteration is a set, or a part of one.
+/// Returns whether passes must be sets of set_size(). Otherwise an iteration is a set, or a part of
+/// one.
 inline bool sets_are_passes(std::optional<std::uint32_t> stated, const SamplePlan& plan) {
   return stated || plan.samples_per_pixel == 0;
 }

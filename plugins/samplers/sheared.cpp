@@ -1,13 +1,15 @@
-// sheared: points that are stratified in lines of a stated direction (Singh and Jarosz 2017,
-// "Convergence Analysis for Anisotropic Monte Carlo Sampling Spectra"). Points like those of pmj02
-// or multi_jittered fill narrow rows and columns most evenly: they are best for integrands that
-// vary along one axis only, such as an edge along the other. A shear on the torus turns the rows
-// (for directions within 45 degrees of the x axis: y moves by x times the slope) or the columns
-// (for others: x moves by y over the slope) into lines of that direction, the one an edge of the
-// integrand has. It keeps area, so uniform points stay uniform, and for whole slopes no line is
-// broken at the square's border. The other axis keeps its stratification.
+// sheared: points that are stratified in lines of a given direction (Singh and Jarosz 2017,
+// "Convergence Analysis for Anisotropic Monte Carlo Sampling Spectra"). The points of samplers such
+// as pmj02 or multi_jittered fill narrow rows and columns evenly. They are therefore best for
+// integrands that vary along one axis only, such as an edge along the other axis. A shear on the
+// torus turns the rows or the columns into lines of the direction of an edge in the integrand. For
+// directions within 45 degrees of the x axis it turns the rows: y moves by x times the slope. For
+// other directions it turns the columns: x moves by y over the slope. The shear preserves area, so
+// uniform points remain uniform. If the slope is a whole number, the border of the square breaks no
+// line. The other axis keeps its stratification.
 //
-// Only points of `purpose` are sheared, at every vertex; all other numbers are those of `base`.
+// Only the points of `purpose` are sheared, at every path vertex. All other numbers come unchanged
+// from `base`.
 //
 //     { type: sheared, base: pmj02, direction: 45 }
 #include "sheared.h"
@@ -44,7 +46,7 @@ class PreparedSheared final : public PreparedSampler {
   std::span<const FilmSample> film_samples() const override { return base_->film_samples(); }
 
  private:
-  /// Nothing is rounded but the way.
+  /// Moves `u` by `by` times the slope. Only the distance is rounded.
   float moved(float u, float by) const {
     const std::int64_t way = (std::int64_t{steps_of(by)} * slope_) >> 32;
     return number_of(steps_of(u) + static_cast<std::int32_t>(way));
@@ -52,19 +54,20 @@ class PreparedSheared final : public PreparedSampler {
 
   std::unique_ptr<const PreparedSampler> base_;
   Purpose purpose_;
-  bool is_flat_;        ///< y moves by x, else x by y
+  bool is_flat_;        ///< y moves by x, otherwise x by y
   std::int64_t slope_;  ///< in units of 2^-32, so whole slopes are exact
 };
 
 }  // namespace
 
 void ShearedSampler::Settings::describe(Schema<Settings>& s) {
-  s.field("base", &Settings::base, "Sampler of the points that are sheared").otherwise("pmj02");
-  s.field("direction", &Settings::direction, "Of the lines, from the x axis towards the y axis")
+  s.field("base", &Settings::base, "Sampler that provides the points").otherwise("pmj02");
+  s.field("direction", &Settings::direction,
+          "Direction of the lines, measured from the x axis towards the y axis")
       .unit("degrees")
       .at_least(-180)
       .at_most(180);
-  s.field("purpose", &Settings::purpose, "Which points are sheared");
+  s.field("purpose", &Settings::purpose, "Purpose of the points that are sheared");
   s.example("{ direction: 120, purpose: pixel }");
   s.example("{ base: sobol, direction: -20 }");
 }

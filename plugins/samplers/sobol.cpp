@@ -1,9 +1,9 @@
-// sobol: each dimension of a pixel runs through the first two dimensions of Sobol's sequence, a
-// (0,2)-sequence, with an Owen scramble and an order of its own (padding; Kollig and Keller 2002,
-// Burley 2020, "Practical Hash-based Owen Scrambling"). So the first n samples of a pixel, n a
-// power of two, are stratified in every elementary interval of area 1/n of every 2D dimension, and
-// different dimensions, pixels, iterations and seeds are unrelated. Any number of samples is fine;
-// powers of two are best.
+// sobol: each dimension of a pixel uses the first two dimensions of Sobol's sequence, a
+// (0,2)-sequence, with its own Owen scramble and its own order (padding; Kollig and Keller 2002,
+// Burley 2020, "Practical Hash-based Owen Scrambling"). If n is a power of two, the first n samples
+// of a pixel are stratified in every elementary interval of area 1/n of every 2D dimension.
+// Different dimensions, pixels, iterations and seeds are unrelated. Any number of samples is
+// possible; powers of two are best.
 //
 //     { type: sobol }
 #include "sobol.h"
@@ -16,8 +16,8 @@ namespace {
 
 class PreparedSobol final : public PreparedSampler {
  public:
-  /// Upper half: a hash that all samples of a pixel share; lower half: the sample's number,
-  /// reversed.
+  /// Packs a hash that all samples of a pixel share into the upper half of the state, and the
+  /// reversed number of the sample into the lower half.
   std::uint64_t begin(const PathKey& key) const override {
     return (hash_pixel(key) & 0xffffffff00000000ull) | owen::reverse_bits(key.sample);
   }
@@ -31,7 +31,7 @@ class PreparedSobol final : public PreparedSampler {
   }
 
  private:
-  /// The sample's place in the sequence, reversed.
+  /// Returns the place of the sample in the sequence, reversed.
   static std::uint32_t shuffled(const SampleStream& stream, const Seeds& seeds) {
     return owen::scramble_reversed(static_cast<std::uint32_t>(stream.state()), seeds.order);
   }

@@ -16,13 +16,13 @@
 /// Grids of strata and permutations of them.
 namespace pharos {
 
-/// Columns and rows of a grid of strata over the unit square, 2^16 cells at most.
+/// A grid of strata over the unit square, with at most 2^16 cells.
 struct StrataGrid {
   std::uint32_t columns, rows;
   constexpr std::uint32_t cells() const { return columns * rows; }
 };
 
-/// Rows and columns of the cells of a grid, which are numbered row by row.
+/// Maps the number of a cell to its row and column; cells are numbered row by row.
 class GridCells {
  public:
   constexpr explicit GridCells(StrataGrid grid)
@@ -31,7 +31,7 @@ class GridCells {
   struct Cell {
     std::uint32_t column, row;
   };
-  /// A product with the reciprocal, rounded up, is exact for numbers as small as these.
+  /// Multiplies by the reciprocal, rounded up. The quotient is exact for numbers as small as these.
   constexpr Cell operator[](std::uint32_t number) const {
     const auto row = static_cast<std::uint32_t>((number * reciprocal_) >> 32);
     return {number - row * columns_, row};
@@ -42,9 +42,9 @@ class GridCells {
   std::uint64_t reciprocal_;
 };
 
-/// The grid for sets of `samples`: exactly as many cells where that is a product of two numbers
-/// that are no more than a factor of four apart, otherwise the nearly square grid with the fewest
-/// cells to spare. A square has as many columns as rows; otherwise there are more rows.
+/// Returns the grid for sets of `samples`. It has exactly as many cells if that number is a product
+/// of two factors that differ by a factor of four at most. Otherwise it is the nearly square grid
+/// with the fewest spare cells. Grids that are not square have more rows than columns.
 constexpr StrataGrid grid_of(std::uint32_t samples) {
   std::uint32_t root = 1;
   while ((root + 1) * (root + 1) <= samples) ++root;
@@ -56,11 +56,12 @@ constexpr StrataGrid grid_of(std::uint32_t samples) {
   return {root, (samples + root - 1) / root};
 }
 
-/// Permutations of the numbers below a count that words of 32 bits pick: made of tables.
+/// Permutations of the numbers below a count, made of tables. A 32-bit word selects the
+/// permutation.
 class DrawnPermutations {
  public:
-  /// Of the numbers below `count`, 1 to 2^16. `seed` draws the tables: for small counts many, as
-  /// the rotations of each are few.
+  /// Permutes the numbers below `count`, 1 to 2^16. `seed` draws the tables. Small counts get many
+  /// tables, because each table has only few rotations.
   DrawnPermutations(std::uint32_t count, std::uint64_t seed) : count_(count) {
     const int index_bits = static_cast<int>(std::bit_width(count - 1));
     const int table_bits = std::clamp(12 - index_bits, 0, 8);
@@ -75,9 +76,10 @@ class DrawnPermutations {
     }
   }
 
-  /// The image of `index` under the permutation that `seed` picks: two tables, one after the other,
-  /// and rotations before, between and after. The last one makes every image of an index exactly as
-  /// likely, all together all images of two indices nearly so (a fraction of a percent).
+  /// Returns the image of `index` under the permutation that `seed` selects: two tables, one after
+  /// the other, with rotations before, between and after them. The last rotation makes every image
+  /// of an index exactly equally likely. All rotations together make all pairs of images of two
+  /// indices nearly equally likely (within a fraction of a percent).
   std::uint32_t operator()(std::uint32_t index, std::uint32_t seed) const {
     const std::uint64_t last = std::uint64_t{seed} * count_;
     const std::uint64_t others = static_cast<std::uint32_t>(last) * 0x9e3779b97f4a7c15ull;
@@ -87,8 +89,8 @@ class DrawnPermutations {
     return rotated(image(rotated(middle, second), second), last);
   }
 
-  /// The same faster, through one table and with rotations before and after: images of two indices
-  /// together are likely within some 10%, and exactly so over the seeds of tables.
+  /// A faster variant with one table and rotations before and after it. Pairs of images of two
+  /// indices are equally likely within about 10%, and exactly over the seeds of the tables.
   std::uint32_t through_one(std::uint32_t index, std::uint32_t seed) const {
     const std::uint64_t last = std::uint64_t{seed} * count_;
     const std::uint64_t first = static_cast<std::uint32_t>(last) * std::uint64_t{count_};
@@ -96,11 +98,11 @@ class DrawnPermutations {
   }
 
  private:
-  /// The image of `index` in the table that the lower half of `choice` picks.
+  /// Returns the image of `index` in the table that the lower half of `choice` selects.
   std::uint32_t image(std::uint32_t index, std::uint64_t choice) const {
     return images_[((static_cast<std::uint32_t>(choice) >> shift_) & tables_) + index];
   }
-  /// Rotated by the upper half of `choice`, a number below the count.
+  /// Rotates `index` by the upper half of `choice`, a number below the count.
   std::uint32_t rotated(std::uint32_t index, std::uint64_t choice) const {
     index += static_cast<std::uint32_t>(choice >> 32);
     return index < count_ ? index : index - count_;
@@ -108,26 +110,27 @@ class DrawnPermutations {
 
   std::uint32_t count_;
   int shift_;
-  std::uint32_t tables_;               ///< where each table begins, as bits of places in images_
-  std::vector<std::uint16_t> images_;  ///< of all tables, each padded to a power of two
+  std::uint32_t tables_;               ///< bits of a place in images_ that select a table
+  std::vector<std::uint16_t> images_;  ///< the images of all tables, each padded to a power of two
 };
 
-/// Two unrelated fractions of 32 bits for a sample of a set: its jitter.
+/// Returns two unrelated 32-bit fractions, the jitter of a sample of a set.
 constexpr std::uint64_t jitter_bits(std::uint32_t index, const Seeds& seeds) {
   return mix_sum((std::uint64_t{seeds.more} << 32) + index * 0x9e3779b97f4a7c15ull + seeds.x);
 }
 
-/// Equal strata of [0, 1) whose numbers never leave them by rounding.
+/// Equal strata of [0, 1). Rounding never moves a number out of its stratum.
 class Strata {
  public:
-  /// At most 3^12 of them.
+  /// Divides [0, 1) into `count` strata, at most 3^12.
   constexpr explicit Strata(std::uint32_t count) : width_((std::uint64_t{1} << 63) / count) {}
 
-  /// The number at `offset`, a fraction of 32 bits, within a stratum: one of the multiples of 2^-24
-  /// that lie in it.
+  /// Returns the number at `offset`, a 32-bit fraction, within a stratum. The number is one of the
+  /// multiples of 2^-24 in the stratum.
   constexpr float at(std::uint32_t stratum, std::uint32_t offset) const {
-    // The stratum's begin and end in steps of 2^-24, rounded up. Those that are no whole steps keep
-    // 1.8e-6 of a step away from these; the product is too small by 0.95e-6 at most.
+    // The begin and end of the stratum in steps of 2^-24, rounded up. A begin or end that is not a
+    // whole step is at least 1.8e-6 of a step away from one; the product is too small by at most
+    // 0.95e-6 of a step.
     constexpr std::uint64_t kStep = std::uint64_t{1} << 39, kSlack = std::uint64_t{1} << 18;
     const std::uint64_t begin = stratum * width_ + (kStep - kSlack);
     const std::uint64_t first = begin >> 39, count = ((begin + width_) >> 39) - first;
@@ -139,8 +142,8 @@ class Strata {
   std::uint64_t width_;
 };
 
-/// Number `index` of a set of stratified numbers: each in a stratum of its own, in an order that
-/// the seeds pick.
+/// Returns number `index` of a set of stratified numbers. Each number lies in its own stratum; the
+/// seeds select the order of the strata.
 inline float stratified_number(std::uint32_t index, const DrawnPermutations& orders,
                                const Strata& strata, const Seeds& seeds) {
   const auto jitter = static_cast<std::uint32_t>(jitter_bits(index, seeds) >> 32);

@@ -1,10 +1,10 @@
 // stratified: jittered sampling (Cook 1986, "Stochastic Sampling in Computer Graphics"). The n
-// samples of a set lie one each in the n cells of a grid over the unit square, and in n intervals
-// of equal length in 1D, uniformly within their cell. Each dimension of a pixel takes the cells in
-// an order of its own. Samples beyond a set belong to the next one, which is jittered anew.
+// samples of a set lie one each in the n cells of a grid over the unit square, and one each in n
+// equal intervals in 1D, uniformly distributed within their cell. Each dimension of a pixel visits
+// the cells in its own order. Samples beyond a set belong to the next set, which is jittered anew.
 //
-// An n that is no product of two similar numbers (37) gets a grid with a few cells to spare (6 by
-// 7): passes of that size fill it; fewer samples leave cells out, by chance and without bias.
+// If n is not a product of two similar numbers (37), the grid has a few spare cells (6 by 7).
+// Passes of the size of the grid fill it. Fewer samples leave cells out at random and without bias.
 //
 //     { type: stratified, samples: 16 }
 #include "stratified.h"
@@ -16,7 +16,7 @@ namespace {
 
 class PreparedStratified final : public PreparedSampler {
  public:
-  /// `seed` draws the orders of cells.
+  /// `seed` draws the orders of the cells.
   PreparedStratified(StrataGrid grid, std::uint64_t seed)
       : grid_(grid),
         places_(grid),

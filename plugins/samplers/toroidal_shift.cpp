@@ -1,9 +1,10 @@
-// toroidal_shift: the same points in every pixel, moved by an offset of the pixel's own, with what
-// leaves the unit square coming in on its other side (Cranley and Patterson 1976, "Randomization of
-// Number Theoretic Methods for Multiple Integration"). The points are those that `base` has for
-// the first pixel, and a seed of its own; every dimension of a pixel has an offset. An offset makes
-// the arrangement the same about every place, as studies of spectra and convergence ask for, but a
-// net that is moved is no net: for rendering `base` alone is mostly better.
+// toroidal_shift: the same points in every pixel, moved by the pixel's own offset; a point that
+// leaves the unit square enters it again on the opposite side (Cranley and Patterson 1976,
+// "Randomization of Number Theoretic Methods for Multiple Integration"). The points are those of
+// `base` for the first pixel and a separate seed. Every dimension of a pixel has its own offset.
+// The offset makes the arrangement the same around every place, as studies of spectra and
+// convergence require. However, a moved net is not a net: for rendering, `base` alone is usually
+// better.
 //
 //     { type: toroidal_shift, base: multi_jittered }
 #include "toroidal_shift.h"
@@ -32,8 +33,8 @@ class PreparedToroidalShift final : public PreparedSampler {
   std::span<const FilmSample> film_samples() const override { return base_->film_samples(); }
 
  private:
-  /// Of the first pixel. The seed is another one, so that a base that moves points itself does not
-  /// move them by this one's offsets.
+  /// Returns the key of the first pixel with a different seed. If `base` moves points itself, it
+  /// therefore does not move them by the offsets of this sampler.
   static PathKey base_key(PathKey key) {
     key.seed += 0x3c6ef372fe94f82bull;
     key.index = 0;
@@ -42,7 +43,7 @@ class PreparedToroidalShift final : public PreparedSampler {
   SampleStream base_stream(const SampleStream& stream) const {
     return SampleStream(*base_, base_key(stream.key()), stream.state());
   }
-  /// Of both coordinates, in the upper 24 bits of each half, as steps of 2^-24.
+  /// Returns the offsets of both coordinates, in the upper 24 bits of each half, as steps of 2^-24.
   static std::uint64_t offset(const SampleStream& stream, Dimension dimension) {
     return hash_pixel(stream.key(), dimension.code());
   }
@@ -53,7 +54,7 @@ class PreparedToroidalShift final : public PreparedSampler {
 }  // namespace
 
 void ToroidalShiftSampler::Settings::describe(Schema<Settings>& s) {
-  s.field("base", &Settings::base, "Sampler of the points that are moved").otherwise("pmj02");
+  s.field("base", &Settings::base, "Sampler that provides the points").otherwise("pmj02");
   s.example("{ base: { type: multi_jittered, samples: 16 } }");
 }
 

@@ -5,21 +5,21 @@
 
 #include <pharos/core/vec.h>
 
-/// Numbers in [0, 1) as whole steps of 2^-24, in which they can be moved without rounding.
+/// Numbers in [0, 1) as whole steps of 2^-24, which can be moved without rounding.
 namespace pharos {
 
-/// The step in which a number of [0, 1) lies; most samplers' numbers are whole steps.
+/// Returns the step that contains a number of [0, 1). The numbers of most samplers are whole steps.
 constexpr std::int32_t steps_of(float u) {
   return static_cast<std::int32_t>(u * 0x1p24f);
 }
 
-/// The number that so many steps are, modulo one.
+/// Returns the number at `steps` steps, modulo one.
 constexpr float number_of(std::int32_t steps) {
   return static_cast<float>(steps & 0xffffff) * 0x1p-24f;
 }
 
-/// A point moved on the torus by `offset`, whose halves are fractions of 32 bits: x is moved by the
-/// lower one. Both coordinates side by side.
+/// Moves a point on the torus by `offset`, whose halves are 32-bit fractions. The lower half moves
+/// x. Both coordinates are computed side by side.
 inline Vec2 moved(Vec2 u, std::uint64_t offset) {
   using Floats = float __attribute__((vector_size(8)));
   using Steps = std::int32_t __attribute__((vector_size(8)));

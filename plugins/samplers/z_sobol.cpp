@@ -1,21 +1,21 @@
-// z_sobol: one Sobol' sequence for the whole image, dealt out to the pixels along a shuffled
+// z_sobol: one Sobol' sequence for the whole image, distributed to the pixels along a shuffled
 // z-order curve (Ahmed and Wonka 2020, "Screen-Space Blue-Noise Diffusion of Monte Carlo Sampling
-// Error via Hierarchical Ordering of Pixels"). Each pixel takes the next n numbers, n a power of
-// two. So the samples of any aligned square of 2^k by 2^k pixels together, and those of a pixel
-// alone, are stratified in every elementary interval: errors of neighbors cancel, and the image's
-// error looks like blue noise. Each dimension has an order, its (0,2)-sequence an Owen scramble of
-// its own.
+// Error via Hierarchical Ordering of Pixels"). Each pixel takes the next n numbers, where n is a
+// power of two. The samples of any aligned square of 2^k by 2^k pixels together, and the samples of
+// a single pixel, are therefore stratified in every elementary interval. Errors of neighbors
+// cancel, and the error of the image looks like blue noise. Each dimension has its own order, and
+// an Owen scramble of its own for its (0,2)-sequence.
 //
-// Order: at each level of the quadtree of pixels the four children come in a random order,
-// unrelated between nodes. It is made bit-parallel, in two steps: at each node one of three
-// pairings of the four is chosen (by rows or by columns for a quarter each, else crosswise), then
-// pairs and their members change places or not, which is an Owen scramble of the index. A pixel's
-// own samples are shuffled by the latter only, so that every prefix of 2^j samples stays stratified
-// as well.
+// At each level of the quadtree of pixels the four children come in a random order, unrelated
+// between nodes. The order is computed bit-parallel in two steps. First, each node chooses one of
+// three pairings of its four children: by rows or by columns for a quarter of the nodes each,
+// otherwise crosswise. Then pairs, and the members of a pair, change places or not, which is an
+// Owen scramble of the index. The second step alone shuffles a pixel's own samples, so that every
+// prefix of 2^j samples remains stratified as well.
 //
-// `samples` is rounded up to a power of two; a pixel that takes fewer uses a prefix. Where the
-// number of samples is unknown (a time budget) sets of 16, or those stated, follow each other:
-// within each set neighbors fit together, different sets are unrelated.
+// `samples` is rounded up to a power of two; a pixel that takes fewer samples uses a prefix. If the
+// number of samples is unknown (a time budget), sets of 16 samples, or of the stated size, follow
+// each other. Within a set neighbors complement each other; different sets are unrelated.
 //
 //     { type: z_sobol }
 #include "z_sobol.h"
@@ -36,8 +36,9 @@ class PreparedZSobol final : public PreparedSampler {
         padding_(sample_bits_ % 2),
         pixel_digits_(0x55555555u >> (sample_bits_ + padding_)) {}
 
-  /// Upper half: a hash of image and set, and of the place's higher digits; lower half: the 32 last
-  /// bits of the place in the sequence, reversed. Places further apart take unrelated scrambles.
+  /// Packs a hash of the image, the set and the higher digits of the place into the upper half of
+  /// the state, and the last 32 bits of the place in the sequence, reversed, into the lower half.
+  /// Places that differ in the higher digits use unrelated scrambles.
   std::uint64_t begin(const PathKey& key) const override {
     const std::uint64_t y = key.index / width_, x = key.index - y * width_;
     const std::uint64_t pixel = z_order::spread(x) | (z_order::spread(y) << 1);
@@ -59,7 +60,7 @@ class PreparedZSobol final : public PreparedSampler {
   }
 
  private:
-  /// The shuffled place in the sequence, reversed.
+  /// Returns the shuffled place in the sequence, reversed.
   std::uint32_t place(const SampleStream& stream, const Seeds& seeds) const {
     const auto reversed = static_cast<std::uint32_t>(stream.state());
     const std::uint32_t paired = z_order::with_pairings(reversed, seeds, pixel_digits_);
@@ -67,8 +68,9 @@ class PreparedZSobol final : public PreparedSampler {
   }
 
   std::uint64_t width_;
-  int sample_bits_;             ///< of a set's size
-  int padding_;                 ///< a bit that lets the pixels' digits begin at an even place
+  int sample_bits_;             ///< bits of the size of a set
+  int padding_;                 ///< one bit if needed, so that the digits of pixels begin at an
+                                ///< even place
   std::uint32_t pixel_digits_;  ///< even places of the reversed digits of pixels
 };
 

@@ -6,7 +6,7 @@
 
 namespace pharos {
 
-/// The film as a rectangle about the local view axis +z. Film positions run from the top left; the
+/// The film as a rectangle about the local view axis +z. Film positions start at the top left. The
 /// rectangle's +x is on the left and its +y on top.
 class FilmWindow {
  public:
@@ -14,11 +14,11 @@ class FilmWindow {
   FilmWindow(float half_width, float aspect)
       : half_width_(half_width), half_height_(half_width / aspect) {}
 
-  /// The point of the rectangle at a film position.
+  /// Returns the point of the rectangle at a film position.
   Vec2 point(Vec2 film) const {
     return {(1 - 2 * film.x) * half_width_, (1 - 2 * film.y) * half_height_};
   }
-  /// The inverse; empty off the film.
+  /// Returns the film position of a point of the rectangle; empty outside the film.
   std::optional<Vec2> film(Vec2 point) const {
     const Vec2 film{(1 - point.x / half_width_) / 2, (1 - point.y / half_height_) / 2};
     if (!(film.x >= 0 && film.x < 1 && film.y >= 0 && film.y < 1)) return std::nullopt;

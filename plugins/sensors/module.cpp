@@ -5,7 +5,7 @@
 #include "thin_lens.h"
 
 PHAROS_MODULE(registry) {
-  registry.add<pharos::OrthographicSensor>("orthographic", "A camera whose rays are parallel");
+  registry.add<pharos::OrthographicSensor>("orthographic", "A camera with parallel rays");
   registry.add<pharos::PerspectiveSensor>("perspective", "A pinhole camera");
   registry.add<pharos::ThinLensSensor>("thin_lens", "A camera with depth of field");
 }

@@ -1,10 +1,10 @@
-// orthographic: a camera whose rays are parallel, for plans and elevations. They start in the local
-// plane z = 0 and run along local +z, with local +y up and, as the frame is right-handed, local +x
-// to the left. What lies behind the plane is not seen. `width` is that of the view, whose height
-// follows from the number of pixels; where `to_world` scales, both scale with it.
+// orthographic: a camera with parallel rays, for plans and elevations. Rays start in the local
+// plane z = 0 and run along local +z. Local +y points up and, since the frame is right-handed,
+// local +x points to the left. Objects behind the plane are not seen. `width` is the width of the
+// view; its height follows from the number of pixels. If `to_world` scales, both scale with it.
 //
-// Film positions choose where a ray starts, so there is no density over directions, and no guide
-// can choose the first vertex.
+// A film position determines where a ray starts. There is no density over directions, so a guide
+// cannot choose the first vertex.
 //
 //     type: orthographic
 //     to_world: { look_at: { origin: [0, 0, 10], target: [0, 0, 0], up: [0, 1, 0] } }
@@ -25,7 +25,7 @@ class PreparedOrthographic : public PreparedSensor {
         center_{.position = to_world_.point({}), .normal = normalize(to_world_.vector({0, 0, 1}))} {
   }
 
-  /// The center stands for all points: a film position has its own.
+  /// The center stands for all points, because each film position has its own.
   LensPoint sample_lens(Vec2) const override { return center_; }
 
   Ray ray(const LensPoint& lens, Vec2 film) const override {
@@ -36,7 +36,7 @@ class PreparedOrthographic : public PreparedSensor {
   std::optional<SensorResponse> response(const LensPoint&, Vec3) const override {
     return std::nullopt;
   }
-  /// Rays are spread evenly over the film, and run straight on from there.
+  /// Rays are spread evenly over the film and run straight on from it.
   std::optional<SensorConnection> connect(Point3 from, Vec2) const override {
     const Vec3 local = to_world_.inverse_point(from);
     const std::optional<Vec2> film = window_.film({local.x, local.y});
@@ -59,7 +59,7 @@ class PreparedOrthographic : public PreparedSensor {
 
 void OrthographicSensor::Settings::describe(Schema<Settings>& s) {
   s.field("to_world", &Settings::to_world, "From the camera's space to world space");
-  s.field("width", &Settings::width, "Width of what is seen").unit("scene units").above(0);
+  s.field("width", &Settings::width, "Width of the view").unit("scene units").above(0);
   s.example("{ width: 0.5 }");
   s.example(
       "{ width: 10, to_world: { look_at: { origin: [0, 5, 5], target: [0, 0, 0], "

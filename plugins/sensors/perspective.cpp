@@ -1,6 +1,6 @@
-// perspective: a pinhole camera at the local origin. It looks along local +z with local +y up and,
-// as the frame is right-handed, local +x to the left; `fov` is the angle between the left and the
-// right edge of the film, whose height follows from the number of pixels.
+// perspective: a pinhole camera at the local origin. It looks along local +z. Local +y points up
+// and, since the frame is right-handed, local +x points to the left. `fov` is the angle between the
+// left and the right edge of the film; the film's height follows from the number of pixels.
 //
 //     type: perspective
 //     to_world: { look_at: { origin: [0, -5, 1], target: [0, 0, 1], up: [0, 0, 1] } }

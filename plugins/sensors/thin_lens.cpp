@@ -1,12 +1,13 @@
 // thin_lens: a camera with an ideal thin lens (Kolb, Mitchell and Hanrahan 1995, "A Realistic
-// Camera Model for Computer Graphics", sec. 2). It looks as `perspective` does; rays of a film
-// position start anywhere on the lens, in the local plane z = 0, and meet where the pinhole
-// camera's ray crosses the plane of focus, local z = `focus_distance`. Things there are sharp. From
-// a lens point l a film position with slopes s goes towards s - l / focus_distance.
+// Camera Model for Computer Graphics", sec. 2). It looks in the same direction as `perspective`.
+// Rays of a film position start anywhere on the lens, in the local plane z = 0. They meet where the
+// pinhole camera's ray crosses the plane of focus, local z = `focus_distance`. Objects in this
+// plane are sharp. From a lens point l, the ray of a film position with slopes s has the
+// slopes s - l / focus_distance.
 //
-// The lens is a disk or a square; `aperture_radius` is the radius of the one and half the edge of
-// the other, along local x and y. With an aperture of 0 it is the pinhole camera. Both lengths are
-// in local space: where `to_world` scales, they scale with it.
+// The lens is a disk or a square. `aperture_radius` is the radius of the disk or half the edge of
+// the square, along local x and y. With an aperture of 0 it is the pinhole camera. Both lengths are
+// in local space: if `to_world` scales, they scale with it.
 //
 //     type: thin_lens
 //     to_world: { look_at: { origin: [0, 1.6, 5], target: [0, 0.8, 0], up: [0, 1, 0] } }
@@ -43,7 +44,8 @@ class PreparedThinLens : public PreparedSensor {
   }
 
  private:
-  /// How much smaller the slopes of directions are from this lens point than from the center.
+  /// Returns the difference between the slopes of directions from the lens center and from this
+  /// lens point.
   Vec2 shift(const LensPoint& lens) const {
     if (settings_.aperture_radius == 0) return {};
     const Point3 local = settings_.to_world.inverse_point(lens.position);
@@ -63,14 +65,14 @@ void ThinLensSensor::Settings::describe(Schema<Settings>& s) {
       .above(0)
       .below(180);
   s.field("aperture_radius", &Settings::aperture_radius,
-          "Radius of the lens, or half the edge of a square one; 0: a pinhole")
+          "Radius of the lens, or half the edge of a square one; 0 is a pinhole")
       .unit("scene units")
       .at_least(0);
   s.field("focus_distance", &Settings::focus_distance,
-          "From the lens to the plane of focus, along the view direction")
+          "Distance from the lens to the plane of focus, along the view direction")
       .unit("scene units")
       .above(0);
-  s.field("aperture", &Settings::aperture, "Shape of the lens, and of what is out of focus");
+  s.field("aperture", &Settings::aperture, "Shape of the lens and of points out of focus");
   s.example("{ fov: 40, aperture_radius: 0.15, focus_distance: 5 }");
   s.example("{ fov: 90, aperture_radius: 0.5, focus_distance: 0.7, aperture: square }");
   s.example("{ aperture_radius: 0 }");

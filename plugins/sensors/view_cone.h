@@ -10,11 +10,11 @@
 
 namespace pharos {
 
-/// Directions through a film window at local z = 1, as seen from the local origin, or from a point
-/// beside it that looks through the same window with all slopes shifted.
+/// Directions through a film window at local z = 1, seen from the local origin or from a point
+/// beside it. A point beside the origin looks through the same window with all slopes shifted.
 class ViewCone {
  public:
-  /// `fov` between the left and the right edge [degrees].
+  /// Takes the angle `fov` between the left and the right edge [degrees].
   ViewCone(const Transform& to_world, float fov, float aspect)
       : to_world_(to_world), window_(std::tan(radians(fov) / 2), aspect) {
     const Vec3 x = to_world.vector({1, 0, 0}), y = to_world.vector({0, 1, 0});
@@ -23,27 +23,28 @@ class ViewCone {
     normal_ = normalize(z);
   }
 
-  /// The point (x, y, 0) of local space, on a lens that faces the view direction.
+  /// Returns the point (x, y, 0) of local space, on a lens that faces the view direction.
   LensPoint lens_point(Vec2 local) const {
     return {.position = to_world_.point({local.x, local.y, 0}), .normal = normal_};
   }
 
-  /// The unit direction of a film position, its slopes in x and y made less by `shift`.
+  /// Returns the unit direction of a film position, with `shift` subtracted from its slopes in x
+  /// and y.
   Vec3 direction(Vec2 film, Vec2 shift) const {
     const Vec2 slope = window_.point(film) - shift;
     return normalize(to_world_.vector({slope.x, slope.y, 1}));
   }
 
-  /// The inverse of direction() with the density of directions.
+  /// Inverts direction() and adds the density of directions.
   std::optional<SensorResponse> response(Vec3 direction, Vec2 shift) const {
     const Vec3 local = to_world_.inverse_vector(direction);
     if (!(local.z > 0)) return std::nullopt;
     const Vec2 slope{local.x / local.z, local.y / local.z};
     const std::optional<Vec2> film = window_.film(slope + shift);
     if (!film) return std::nullopt;
-    // Uniform density 1/A on the window at z = 1 is |v|^3 / (A z^3) in solid angle about a local
-    // direction v, wherever the window is. A linear map of determinant D onto unit directions
-    // divides that by |v|^3 D.
+    // The uniform density 1/A on the window at z = 1 is |v|^3 / (A z^3) in solid angle about a
+    // local direction v, independent of the window's position. A linear map of determinant D onto
+    // unit directions divides it by |v|^3 D.
     return SensorResponse{*film, 1 / (window_.area() * volume_ * local.z * local.z * local.z)};
   }
 

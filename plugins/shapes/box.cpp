@@ -1,6 +1,6 @@
-// box: the cube [-1,1]^3, taken to world space by any affine map. Normals point outwards unless
-// flipped (a room, or a box of light seen from inside); texture coordinates run over [0,1]^2 on
-// every face.
+// box: the cube [-1,1]^3, transformed to world space by any affine map. Normals point outwards
+// unless flipped (for a room, or an emitting box seen from inside). Texture coordinates cover
+// [0,1]^2 on every face.
 //
 //     type: box
 //     to_world: { scale: [2, 1, 0.5] }
@@ -16,7 +16,8 @@ Vec3 axis_vector(int axis, float value) {
   return v;
 }
 
-/// The face whose outward normal is `sign` times the axis; its edges u, v have u x v = normal.
+/// Adds the face whose outward normal is `sign` times the axis. Its edges u and v satisfy u x v =
+/// normal.
 void add_face(TriangleMesh& cube, int axis, float sign) {
   const Vec3 normal = axis_vector(axis, sign);
   const Vec3 u = axis_vector(axis + 1, 1), v = axis_vector(axis + 2, sign);
@@ -41,8 +42,8 @@ TriangleMesh unit_cube() {
 }  // namespace
 
 void Box::Settings::describe(Schema<Settings>& s) {
-  s.field("to_world", &Settings::to_world, "From the cube to world space");
-  s.field("flip_normals", &Settings::flip_normals, "Normals point inwards");
+  s.field("to_world", &Settings::to_world, "Transform from the cube to world space");
+  s.field("flip_normals", &Settings::flip_normals, "Make normals point inwards");
   s.example("{ to_world: { scale: [2, 1, -0.5] } }");
 }
 

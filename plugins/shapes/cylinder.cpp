@@ -1,13 +1,13 @@
 // cylinder: an open tube between the points `p0` and `p1`, intersected exactly, in double
-// precision, from outside and inside; two disks close it. `to_world` may rotate, translate, mirror
-// and scale evenly. Texture coordinates are (azimuth / 2 pi, height from p0 to p1 in [0, 1]); for a
-// tube along +z, azimuth zero lies at +x.
+// precision, from outside and inside. Two disks can close it. `to_world` may rotate, translate,
+// mirror and scale uniformly. Texture coordinates are (azimuth / 2 pi, height from p0 to p1 in [0,
+// 1]); for a tube along +z, azimuth zero lies at +x.
 //
-// Seen from a point, samples are uniform over the height and over the angle about the point in
-// projection along the axis, on the side of the wall that faces it. A strip of angle d(psi) and
-// height dz at distance rho in projection and d in space covers rho^2 / d^3 d(psi) dz [sr], so that
-// the density is d^3 / (angle height rho^2): unlike one over the area, it stays finite at the
-// silhouette.
+// Samples for a reference point are uniform over the height and over the angle about the point in
+// projection along the axis. They lie on the side of the wall that faces the point. A strip of
+// angle d(psi) and height dz at distance rho in projection and d in space covers rho^2 / d^3 d(psi)
+// dz [sr]. The density is therefore d^3 / (angle height rho^2). Unlike a density uniform over the
+// area, it remains finite at the silhouette.
 //
 //     type: cylinder
 //     p0: [-1, 0, 2]
@@ -42,11 +42,12 @@ float world_scale(const Transform& to_world) {
 }  // namespace
 
 void Cylinder::Settings::describe(Schema<Settings>& s) {
-  s.field("p0", &Settings::p0, "Middle of one end, before to_world").unit("scene units");
-  s.field("p1", &Settings::p1, "Middle of the other end, before to_world").unit("scene units");
+  s.field("p0", &Settings::p0, "Center of one end, before to_world").unit("scene units");
+  s.field("p1", &Settings::p1, "Center of the other end, before to_world").unit("scene units");
   s.field("radius", &Settings::radius, "Radius, before to_world").unit("scene units").above(0);
-  s.field("to_world", &Settings::to_world, "From local to world space; no shear, even scale");
-  s.field("flip_normals", &Settings::flip_normals, "Normals point inwards");
+  s.field("to_world", &Settings::to_world,
+          "Transform from local to world space; no shear, uniform scale");
+  s.field("flip_normals", &Settings::flip_normals, "Make normals point inwards");
   s.example("{ p0: [1, 2, 3], p1: [-1, 0, 4], radius: 0.05 }");
   s.example("{ radius: 2, flip_normals: true, to_world: { scale: 3 } }");
 }
@@ -98,7 +99,7 @@ bool Cylinder::intersect(const Ray& ray, std::uint32_t, PrimitiveHit& hit) const
 
 SurfacePoint Cylinder::surface_point(const Ray& ray, const PrimitiveHit& hit) const {
   const Double3 o = to_local(ray.origin), d = to_local(Double3(ray.direction));
-  // As a float, `hit.t` would misplace the hit on a tube that is thin and far away.
+  // As a float, `hit.t` would displace the hit on a tube that is thin and far away.
   const auto roots = distance_roots({o.x, o.y, 0}, {d.x, d.y, 0}, radius_);
   return surface_near(o + (roots ? (*roots)[hit.coordinates.x == 0 ? 0 : 1] : hit.t) * d);
 }
@@ -106,7 +107,7 @@ SurfacePoint Cylinder::surface_point(const Ray& ray, const PrimitiveHit& hit) co
 SurfacePoint Cylinder::surface_near(Double3 local) const {
   const double scale = 1 / std::hypot(local.x, local.y);
   const Double3 outward = (scale * local.x) * side_ + (scale * local.y) * across_;
-  // As with triangles, rays start off the rims so as not to slip past a neighbor that meets them.
+  // As with triangles, rays start off the rims so that they do not slip past an adjacent surface.
   const double margin = std::min(double{error_}, 0.5 * height_);
   const double height = std::clamp(local.z, margin, height_ - margin);
   SurfacePoint point;
@@ -140,7 +141,7 @@ ShapeSample Cylinder::sample_from(Point3 from, Vec2 u) const {
   const Double3 local = to_local(from);
   const double distance = std::hypot(local.x, local.y);
   const double half_angle = half_angle_from(local);
-  // In projection: the angle from the direction to the axis, and where that ray meets the circle.
+  // In projection: the angle from the direction to the axis, and the intersection with the circle.
   const double angle = (2.0 * u.x - 1) * half_angle;
   const double foot = distance * std::cos(angle), offset = distance * std::sin(angle);
   const double half_chord = std::sqrt(std::max(0.0, (radius_ - offset) * (radius_ + offset)));
@@ -157,7 +158,7 @@ ShapeSample Cylinder::sample_from(Point3 from, Vec2 u) const {
 float Cylinder::pdf_from(Point3 from, const SurfacePoint& point) const {
   const Double3 local = to_local(from);
   const bool outside = std::hypot(local.x, local.y) > radius_;
-  // The silhouette gets the benefit of rounding.
+  // Tolerates rounding at the silhouette.
   if (outside && dot(from - point.position, point.normal) < -point.error) return 0;
   return strip_pdf(local, point);
 }

@@ -9,8 +9,8 @@
 namespace pharos {
 namespace {
 
-/// Whether a number that no double can hold is too small, not too large: from the decimal place of
-/// the first digit that counts.
+/// Returns whether a number outside the range of double is too small rather than too large. The
+/// decimal place of its first significant digit decides.
 bool is_tiny(std::string_view number) {
   const std::size_t e = std::min(number.find_first_of("eE"), number.size());
   const std::string_view digits = number.substr(0, e);

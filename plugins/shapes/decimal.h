@@ -4,8 +4,8 @@
 
 namespace pharos {
 
-/// As std::from_chars, but what is nearer to zero than every double becomes 0, and what is beyond
-/// every double infinite.
+/// Reads a number in the same way as std::from_chars. However, numbers nearer to zero than every
+/// double become 0, and numbers beyond every double become infinite.
 std::from_chars_result read_decimal(const char* first, const char* last, double& value);
 
 }  // namespace pharos

@@ -1,7 +1,8 @@
-// disk: the unit disk of the xy plane, taken to world space by any affine map (which makes it an
-// ellipse) and intersected exactly, in double precision. It faces local +z, mirrored or not.
-// Texture coordinates run over [0,1]^2 with local x and y, so that a picture is cut out round.
-// Samples are uniform over the area: an affine map of a plane changes all areas by one factor.
+// disk: the unit disk of the xy plane, transformed to world space by any affine map (which makes it
+// an ellipse) and intersected exactly, in double precision. It faces local +z, even under maps that
+// mirror. Texture coordinates cover [0,1]^2 with local x and y, so the disk shows a round part of
+// an image. Samples are uniform over the area, because an affine map scales all areas of a plane by
+// the same factor.
 //
 //     type: disk
 //     to_world: [ { scale: 0.3 }, { rotate: { axis: [1, 0, 0], degrees: 180 } },
@@ -24,8 +25,9 @@ float largest(Vec3 v) {
   return max_component(abs(v));
 }
 
-/// The smaller semi-axis of the ellipse with conjugate radii x and y: the smaller singular value of
-/// the matrix of both, as their product |x cross y| over the larger one.
+/// Returns the smaller semi-axis of the ellipse with conjugate radii x and y. It is the smaller
+/// singular value of the matrix [x y], the product of both singular values |x cross y| divided by
+/// the larger one.
 double smaller_semi_axis(Double3 x, Double3 y) {
   const double xx = dot(x, x), yy = dot(y, y), xy = dot(x, y);
   const double larger = std::sqrt(0.5 * (xx + yy + std::hypot(xx - yy, 2 * xy)));
@@ -35,8 +37,8 @@ double smaller_semi_axis(Double3 x, Double3 y) {
 }  // namespace
 
 void Disk::Settings::describe(Schema<Settings>& s) {
-  s.field("to_world", &Settings::to_world, "From the unit disk to world space");
-  s.field("flip_normals", &Settings::flip_normals, "Face -z instead of +z");
+  s.field("to_world", &Settings::to_world, "Transform from the unit disk to world space");
+  s.field("flip_normals", &Settings::flip_normals, "Make the disk face -z instead of +z");
   s.example("{ to_world: [{ scale: 0.3 }, { translate: [1, 2, 3] }], flip_normals: true }");
   s.example("{ to_world: { matrix: [2, 0.5, 0, 1, 0, 0.7, 0.4, -3, 0.3, 0, 1, 2] } }");
 }
@@ -87,7 +89,7 @@ SurfacePoint Disk::surface_point(const Ray&, const PrimitiveHit& hit) const {
 
 SurfacePoint Disk::surface_at(Vec2 local) const {
   const float radius = std::hypot(local.x, local.y);
-  // As with triangles, rays start off the rim so as not to slip past a neighbor that meets it.
+  // As with triangles, rays start off the rim so that they do not slip past an adjacent surface.
   const Vec2 inside = radius > largest_radius_ ? largest_radius_ / radius * local : local;
   SurfacePoint point = common_;
   point.position = Vec3(Double3(center_) + (double{inside.x} * Double3(axis_x_) +

@@ -6,8 +6,8 @@
 
 namespace pharos {
 
-/// Three doubles, for the steps of exact shapes in which float would lose what the scene's
-/// coordinates say.
+/// Three doubles, for the steps of exact shapes in which float would lose the precision of the
+/// scene's coordinates.
 struct Double3 {
   double x = 0, y = 0, z = 0;
 
@@ -15,7 +15,7 @@ struct Double3 {
   constexpr Double3(double a, double b, double c) : x(a), y(b), z(c) {}
   explicit constexpr Double3(Vec3 v) : x(v.x), y(v.y), z(v.z) {}
 
-  /// Each component rounded once.
+  /// Rounds each component once.
   explicit constexpr operator Vec3() const {
     return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
   }

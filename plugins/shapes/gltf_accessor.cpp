@@ -19,7 +19,7 @@ T value_at(const char* at) {
   return value;
 }
 
-/// What is left of `bytes` after `offset`.
+/// Returns the rest of `bytes` after `offset`.
 std::string_view from_offset(std::string_view bytes, std::uint64_t offset, const GltfValue& view) {
   if (offset > bytes.size()) {
     view.fail(fmt::format("begins at byte {} of {}", offset, bytes.size()));
@@ -99,7 +99,9 @@ float GltfAccessor::scaled(float integer, float largest) const {
 }
 
 float GltfAccessor::number(const char* at) const {
-  if (type_ == Type::float32) return value_at<float>(at);  // first, as nearly all are
+  if (type_ == Type::float32)
+    return value_at<float>(at);  // first, because nearly all accessors
+                                 // have this type
   switch (type_) {
     case Type::int8:
       return scaled(value_at<std::int8_t>(at), 127);

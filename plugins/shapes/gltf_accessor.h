@@ -17,25 +17,25 @@ struct GltfFile {
   GltfBuffers buffers;
 };
 
-/// A typed view of a buffer: vectors of numbers, all of which are known to lie within the buffer.
-/// Lives as long as the file.
+/// A typed view of a buffer: vectors of numbers, checked to lie within the buffer. The file must
+/// outlive it.
 class GltfAccessor {
  public:
-  /// `reference` names the accessor by its index, `type` is what it must be ("VEC3"). Throws
-  /// InputError for one that is sparse, compressed, or larger than its buffer.
+  /// `reference` names the accessor by its index; `type` is the required type ("VEC3"). Throws
+  /// InputError if the accessor is sparse, compressed, or larger than its buffer.
   GltfAccessor(GltfFile& file, const GltfValue& reference, std::string_view type);
 
   std::uint64_t size() const { return size_; }
-  /// Whether its numbers are unsigned integers, as indices must be.
+  /// Returns whether the numbers are unsigned integers, as indices must be.
   bool is_unsigned() const;
-  /// Vector `i`, with zeros for what its type lacks; integers that are normalized in [0,1] or
-  /// [-1,1].
+  /// Returns vector `i`. Components that its type lacks are zero. Normalized integers are mapped to
+  /// [0,1] or [-1,1].
   Vec3 vector(std::uint64_t i) const;
-  /// The only number of vector `i`, of accessors that are unsigned.
+  /// Returns the only number of vector `i` of an unsigned accessor.
   std::uint32_t index(std::uint64_t i) const;
 
  private:
-  /// The numbers that glTF gives to the types of components.
+  /// The numbers of the component types in glTF.
   enum class Type { int8 = 5120, uint8, int16, uint16, uint32 = 5125, float32 };
 
   static Type type_of(const GltfValue& accessor);

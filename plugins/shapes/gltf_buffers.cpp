@@ -21,7 +21,7 @@ std::uint32_t word_at(std::string_view bytes, std::size_t at) {
   return word;
 }
 
-/// What follows the first letters "glTF".
+/// Reads the chunks of a file that begins with the letters "glTF".
 GltfChunks glb_chunks(std::string_view bytes) {
   if (bytes.size() < kHeaderSize) throw InputError("it ends within its header");
   if (word_at(bytes, 4) != 2) {
@@ -54,7 +54,7 @@ GltfChunks glb_chunks(std::string_view bytes) {
 
 constexpr std::uint8_t kNoDigit = 64;
 
-/// The values of base64's digits by character.
+/// The values of the base64 digits by character.
 constexpr std::array<std::uint8_t, 256> kBase64 = [] {
   constexpr std::string_view digits =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -88,7 +88,7 @@ int hex_digit(char c) {
   return at == std::string_view::npos ? -1 : static_cast<int>(at);
 }
 
-/// Names of files stand in URIs, where "%20" is a blank.
+/// Decodes the percent signs of a URI, in which "%20" is a blank. File names are stored as URIs.
 std::string percent_decoded(std::string_view text) {
   std::string decoded;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -116,7 +116,8 @@ std::string_view GltfBuffers::bytes(const GltfValue& buffer) {
   return all.substr(0, size);
 }
 
-/// Compares no URI again, which may be as long as the file.
+/// Looks the buffer up by its place, because comparing URIs again is slow: they may be as long as
+/// the file.
 std::string_view GltfBuffers::all_bytes(const GltfValue& buffer) {
   const auto known = known_.find(buffer.place());
   if (known != known_.end()) return known->second;

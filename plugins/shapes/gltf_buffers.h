@@ -17,21 +17,21 @@ struct GltfChunks {
   bool is_glb = false, has_binary = false;
 };
 
-/// Takes a file apart; one that does not begin as GLB does is all JSON. Throws InputError when a
-/// GLB file is cut off or of another version.
+/// Splits a file into its chunks. A file that does not begin like a GLB file is all JSON. Throws
+/// InputError if a GLB file is truncated or has another version.
 GltfChunks gltf_chunks(std::string_view bytes);
 
-/// The bytes that a file's buffers stand for: the binary chunk, base64 within the JSON, or further
-/// files, which are read when they are first asked for.
+/// Provides the bytes of a file's buffers: the binary chunk, base64 within the JSON, or other
+/// files, which are read when they are first requested.
 class GltfBuffers {
  public:
-  /// `chunks` and all values asked for live as long as this object; names of files are relative to
+  /// `chunks` and all requested values must outlive this object. File names are relative to
   /// `folder`.
   GltfBuffers(const GltfChunks& chunks, std::filesystem::path folder)
       : chunks_(chunks), folder_(std::move(folder)) {}
 
-  /// Of an item of the root's list `buffers`. Throws InputError when they are not to be had, or
-  /// fewer than the item says.
+  /// Returns the bytes of an item of the root's list `buffers`. Throws InputError if they are not
+  /// available, or are fewer than the item states.
   std::string_view bytes(const GltfValue& buffer);
 
  private:
@@ -41,7 +41,7 @@ class GltfBuffers {
 
   GltfChunks chunks_;
   std::filesystem::path folder_;
-  std::map<std::string, std::string_view> known_;   ///< by place of the buffer
+  std::map<std::string, std::string_view> known_;   ///< by the place of the buffer
   std::map<std::string_view, std::string> loaded_;  ///< by URI, which several buffers may share
 };
 

@@ -21,15 +21,15 @@ namespace {
 
 constexpr int kMostLevels = 500;
 
-/// How the names of extensions begin that are read or leave the triangles as they are; any other
-/// that a file needs may place, hide or encode them.
+/// Prefixes of the extensions that are read, or that do not affect the triangles. Any other
+/// extension that a file requires may place, hide or encode triangles.
 constexpr std::array<std::string_view, 9> kHarmless{
     "KHR_mesh_quantization", "KHR_materials_", "KHR_texture_", "KHR_lights_",  "KHR_xmp",
     "EXT_materials_",        "EXT_texture_",   "EXT_lights_",  "MSFT_texture_"};
 
 struct GltfMesh {
   std::string name;
-  std::vector<GltfPrimitive> primitives;  ///< those with triangles
+  std::vector<GltfPrimitive> primitives;  ///< the primitives that have triangles
   MeshExtent extent;
 };
 
@@ -45,7 +45,7 @@ GltfMesh read_mesh(GltfFile& file, const GltfValue& mesh) {
   return result;
 }
 
-/// An empty mesh that can take so much without growing.
+/// Returns an empty mesh with enough capacity for `extent`.
 TriangleMesh with_room(const MeshExtent& extent) {
   check_triangle_count(extent.triangles, "it");
   const auto vertices = static_cast<std::size_t>(extent.vertices);
@@ -74,7 +74,7 @@ void check_supported(const GltfValue& root) {
   }
 }
 
-/// Goes through the nodes of a scene and joins the meshes that belong to the part.
+/// Visits the nodes of a scene and joins the meshes that belong to the part.
 class SceneReader {
  public:
   SceneReader(GltfFile& file, const std::string& part) : file_(file), part_(part) {}
@@ -90,7 +90,7 @@ class SceneReader {
   }
 
  private:
-  /// A mesh where a node puts it.
+  /// A mesh with the transform of its node.
   struct Placed {
     const GltfMesh& mesh;
     NodeTransform to_root;
@@ -102,8 +102,8 @@ class SceneReader {
     return root.member("scenes").item(0);
   }
 
-  /// True when there are triangles at or below the node. `selected`: whether a node above belongs
-  /// to the part.
+  /// Returns true if there are triangles at or below the node. `selected` states whether a node
+  /// above belongs to the part.
   bool visit(const GltfValue& reference, const NodeTransform& parent, bool selected, int level) {
     const GltfValue node = file_.document.referenced(reference, "nodes");
     if (!visited_.insert(node.place()).second)
@@ -123,7 +123,7 @@ class SceneReader {
     return any;
   }
 
-  /// True when the mesh has triangles.
+  /// Returns true if the mesh has triangles.
   bool place(const GltfMesh& mesh, const NodeTransform& to_root, bool selected) {
     if (mesh.primitives.empty()) return false;
     names_.insert(mesh.name);
@@ -154,8 +154,8 @@ class SceneReader {
   const std::string& part_;
   std::map<std::string, GltfMesh> meshes_;  ///< read so far, by place
   std::set<std::string> visited_;           ///< nodes by place
-  std::set<std::string> names_;             ///< of nodes and meshes with triangles
-  std::vector<Placed> placed_;              ///< the part
+  std::set<std::string> names_;             ///< names of nodes and meshes with triangles
+  std::vector<Placed> placed_;              ///< the meshes of the part
 };
 
 }  // namespace

@@ -6,13 +6,13 @@
 
 namespace pharos {
 
-/// The triangles of a glTF 2.0 file, text or binary (GLB), in its default scene or else its first
-/// one, with the transforms of all nodes applied. Its nodes and meshes are its parts. Numbers of
-/// every type that glTF has are read, also those of KHR_mesh_quantization; skins, morph targets and
-/// animations are passed over. Throws InputError, with the place in the JSON, for what is damaged
-/// or missing, or sparse, for extensions that the file needs and that may bear on its triangles,
-/// such as compression, for nodes that form no tree or one of more than 500 levels, and when there
-/// is no such part.
+/// Reads the triangles of a glTF 2.0 file, text or binary (GLB). It reads the default scene, or
+/// else the first scene, and applies the transforms of all nodes. The nodes and meshes of the file
+/// are its parts. Numbers of all glTF types are read, including those of KHR_mesh_quantization.
+/// Skins, morph targets and animations are ignored. Throws InputError, with the place in the JSON,
+/// if data is damaged, missing or sparse; if the file requires an extension that may affect its
+/// triangles, such as compression; if its nodes do not form a tree of at most 500 levels; and if
+/// there is no such part.
 TriangleMesh read_gltf(const MeshSource& source);
 
 }  // namespace pharos

@@ -20,11 +20,11 @@ std::array<double, n> numbers(const GltfValue& node, const char* key,
 }
 
 NodeTransform matrix_of(const GltfValue& node) {
-  const std::array<double, 16> m = numbers<16>(node, "matrix", {});  // column after column
+  const std::array<double, 16> m = numbers<16>(node, "matrix", {});  // column by column
   return {{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}, {m[12], m[13], m[14]}};
 }
 
-/// By a quaternion (x, y, z, w) of any length but zero.
+/// Returns the rotation by a quaternion (x, y, z, w) of any length except zero.
 NodeTransform rotation_of(const GltfValue& node) {
   auto [x, y, z, w] = numbers<4>(node, "rotation", {0, 0, 0, 1});
   const double length = std::hypot(std::hypot(x, y), std::hypot(z, w));

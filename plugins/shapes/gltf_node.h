@@ -5,9 +5,9 @@
 
 namespace pharos {
 
-/// The map from a glTF node's space to that of its parent: `matrix`, or else `scale`, then
-/// `rotation`, then `translation`. Throws InputError when it is damaged or an extension would place
-/// the node more than once.
+/// Returns the map from a glTF node's space to its parent's space: `matrix`, or else `scale`, then
+/// `rotation`, then `translation`. Throws InputError if the data is damaged or an extension would
+/// place the node more than once.
 NodeTransform node_transform(const GltfValue& node);
 
 }  // namespace pharos

@@ -12,16 +12,16 @@
 
 namespace pharos {
 
-/// Which of the things that not all meshes have a joined mesh has.
+/// The optional attributes that a joined mesh has.
 struct VertexAttributes {
   bool normals = false, uvs = false;
 };
 
-/// How large a joined mesh becomes. In double, as a small file can ask for more than any integer
-/// holds.
+/// The size of a joined mesh. The counts are doubles, because a small file can request more than
+/// any integer type can hold.
 struct MeshExtent {
   double triangles = 0, vertices = 0;
-  VertexAttributes attributes;  ///< that any part of it has
+  VertexAttributes attributes;  ///< the attributes that any part of it has
 
   MeshExtent& operator+=(const MeshExtent& more) {
     triangles += more.triangles;
@@ -32,18 +32,18 @@ struct MeshExtent {
   }
 };
 
-/// A set of triangles in a glTF mesh: single ones, a strip or a fan. Lives as long as the file.
+/// A set of triangles in a glTF mesh: a list, a strip or a fan. The file must outlive it.
 class GltfPrimitive {
  public:
-  /// Throws InputError when what the primitive names is missing, damaged or does not fit together.
+  /// Throws InputError if data of the primitive is missing, damaged or inconsistent.
   GltfPrimitive(GltfFile& file, const GltfValue& primitive);
 
-  /// What append_to() adds; no triangles for points and lines.
+  /// Returns the size of what append_to() adds. Points and lines have no triangles.
   MeshExtent extent() const;
 
-  /// Adds the triangles as `to_root` places them; the outer side of mirrored ones stays the outer
-  /// side. Of `attributes`, those that the primitive lacks are zero. Throws InputError when a
-  /// vertex is missing or not finite.
+  /// Adds the triangles, transformed by `to_root`. The outer side remains the outer side under maps
+  /// that mirror. Those of `attributes` that the primitive lacks become zero. Throws InputError if
+  /// a vertex is missing or not finite.
   void append_to(TriangleMesh& mesh, const NodeTransform& to_root,
                  VertexAttributes attributes) const;
 
@@ -54,10 +54,11 @@ class GltfPrimitive {
   void check() const;
   std::uint64_t corner_count() const { return indices_ ? indices_->size() : positions_.size(); }
   std::uint64_t triangle_count() const;
-  /// All vertices but where many primitives share a long list and name few of it: those get the
-  /// ones they name, so that there are never more than three a triangle.
+  /// Returns whether all vertices are added. If many primitives share a long list and each uses few
+  /// of its vertices, each adds only the vertices that it uses. There are therefore never more than
+  /// three vertices per triangle.
   bool takes_all_vertices() const { return positions_.size() <= 3 * triangle_count(); }
-  /// The vertices of a triangle, known to exist.
+  /// Returns the vertices of a triangle, which are known to exist.
   std::array<std::uint32_t, 3> corners(std::uint64_t triangle) const;
   void append_vertex(TriangleMesh& mesh, std::uint32_t vertex, const NodeTransform& to_root,
                      VertexAttributes attributes) const;

@@ -13,7 +13,7 @@ namespace {
 
 using nlohmann::json;
 
-/// The parser's reason without its name for it and its own account of the place.
+/// Returns the parser's reason without its own name and its own description of the place.
 std::string reason_of(const json::exception& e) {
   const std::string_view what = e.what();
   const std::size_t syntax = what.find("syntax error");
@@ -74,7 +74,7 @@ double GltfValue::number() const {
 
 std::uint64_t GltfValue::whole() const {
   if (json_->is_number_unsigned()) return json_->get<std::uint64_t>();
-  const double value = number();  // 3.0 is a whole number too
+  const double value = number();  // 3.0 is a whole number as well
   if (!(value >= 0 && value <= 0x1p53 && value == std::floor(value))) {
     fail("is no whole number from 0 on");
   }

@@ -13,9 +13,9 @@
 
 namespace pharos {
 
-/// A value in the JSON of a glTF file, with the place where it stands, such as
-/// "accessors[3].count". All functions but the first throw InputError that names the place when the
-/// value is missing or not of the kind asked for. Lives as long as the document.
+/// A value in the JSON of a glTF file, with its place in the file, such as "accessors[3].count".
+/// All functions except the first throw an InputError that names the place if the value is missing
+/// or has another type than requested. The document must outlive the value.
 class GltfValue {
  public:
   GltfValue(const nlohmann::json& json, std::string place)
@@ -23,7 +23,7 @@ class GltfValue {
 
   bool has(const char* key) const;
   GltfValue member(const char* key) const;
-  /// Of an array.
+  /// The size and an item of an array.
   std::size_t size() const;
   GltfValue item(std::size_t index) const;
 
@@ -32,7 +32,7 @@ class GltfValue {
   bool truth() const;
   const std::string& text() const;
 
-  /// A member that may be missing.
+  /// These functions read a member that may be missing.
   std::uint64_t whole(const char* key, std::uint64_t otherwise) const;
   bool truth(const char* key, bool otherwise) const;
   std::string text(const char* key, const std::string& otherwise) const;
@@ -48,11 +48,11 @@ class GltfValue {
 /// A parsed file.
 class GltfDocument {
  public:
-  /// Throws InputError when `text` is not JSON: located if `file` is not empty.
+  /// Throws InputError if `text` is not JSON. The error is located if `file` is not empty.
   GltfDocument(std::string_view text, const std::string& file);
 
   GltfValue root() const { return {*json_, ""}; }
-  /// The item that `reference` names by its index in the root's array `key`.
+  /// Returns the item that `reference` names by its index in the root's array `key`.
   GltfValue referenced(const GltfValue& reference, const char* key) const;
 
  private:

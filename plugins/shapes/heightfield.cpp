@@ -1,11 +1,11 @@
-// heightfield: a landscape over the square [-1,1]^2, as triangles. At each of `resolution` = [nx,
-// ny] corners of a regular grid local z is `height` times the mean color of `texture`, which is
-// asked at the corner's texture coordinates: [0,1]^2 with local x and y, as on a quad. It faces
-// local +z. `smooth` interpolates normals, which central differences of the heights give; else
-// facets.
+// heightfield: a landscape over the square [-1,1]^2, made of triangles. `resolution` = [nx, ny]
+// gives the corners of a regular grid. At each corner local z is `height` times the mean color of
+// `texture`, which is evaluated at the texture coordinates of the corner: [0,1]^2 with local x and
+// y, as on a quad. The heightfield faces local +z. `smooth` interpolates normals, computed by
+// central differences of the heights; otherwise the facets are visible.
 //
-// A bitmap that repeats (its default) blends the picture's opposite borders at the square's; with
-// `wrap: clamp` each keeps its own.
+// A bitmap that repeats (its default) blends the opposite borders of the image at the borders of
+// the square. With `wrap: clamp` each border keeps its own values.
 //
 //     type: heightfield
 //     texture: { type: bitmap, file: hills.exr, wrap: clamp }
@@ -20,7 +20,7 @@
 namespace pharos {
 namespace {
 
-/// The grid's heights in local space.
+/// The heights of the grid in local space.
 class Grid {
  public:
   explicit Grid(const Heightfield::Settings& settings)
@@ -64,7 +64,8 @@ class Grid {
     const Vec2 t = uv(x, y);
     return {2 * t.x - 1, 2 * t.y - 1, heights_[index(x, y)]};
   }
-  /// The slopes between the neighbors on both sides, at the border between one and the corner.
+  /// Computes the slopes between the neighbors on both sides; at the border, between one neighbor
+  /// and the corner itself.
   Vec3 normal(int x, int y) const {
     const Vec3 along_x = position(std::min(x + 1, nx_ - 1), y) - position(std::max(x - 1, 0), y);
     const Vec3 along_y = position(x, std::min(y + 1, ny_ - 1)) - position(x, std::max(y - 1, 0));
@@ -83,14 +84,14 @@ class Grid {
 }  // namespace
 
 void Heightfield::Settings::describe(Schema<Settings>& s) {
-  s.field("texture", &Settings::texture, "Its mean color is the height").required();
-  s.field("resolution", &Settings::resolution, "Corners along local x and y")
+  s.field("texture", &Settings::texture, "Texture whose mean color is the height").required();
+  s.field("resolution", &Settings::resolution, "Number of corners along local x and y")
       .at_least(2)
       .check("two numbers", [](const std::vector<int>& v) { return v.size() == 2; });
-  s.field("height", &Settings::height, "Factor on the texture").unit("scene units");
-  s.field("smooth", &Settings::smooth, "Interpolate normals; else facets");
-  s.field("to_world", &Settings::to_world, "From local to world space");
-  s.field("flip_normals", &Settings::flip_normals, "Face -z instead of +z");
+  s.field("height", &Settings::height, "Factor for the values of the texture").unit("scene units");
+  s.field("smooth", &Settings::smooth, "Interpolate normals instead of showing facets");
+  s.field("to_world", &Settings::to_world, "Transform from local to world space");
+  s.field("flip_normals", &Settings::flip_normals, "Make the heightfield face -z instead of +z");
   s.example("{ texture: { type: bitmap, file: example.png, wrap: clamp }, resolution: [33, 17] }");
   s.example("{ texture: 0.5, height: -2, smooth: false }");
 }
@@ -105,7 +106,7 @@ Heightfield::Heightfield(const Settings& settings)
 
 UvTangents Heightfield::uv_tangents(const SurfacePoint& point) const {
   const Vec3 n = point.shading.n;
-  const float rise = dot(n, upwards_);  // not zero: the surface never stands upright
+  const float rise = dot(n, upwards_);  // not zero: the surface is never vertical
   return {along_u_ - dot(n, along_u_) / rise * upwards_,
           along_v_ - dot(n, along_v_) / rise * upwards_};
 }

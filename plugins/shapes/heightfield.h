@@ -24,11 +24,13 @@ class Heightfield : public TriangleShape {
 
   explicit Heightfield(const Settings& settings);
 
-  /// Those of the smooth surface, orthogonal to the shading normal, where there is one.
+  /// Returns the tangents of the smooth surface, orthogonal to the shading normal, if `smooth` is
+  /// set.
   UvTangents uv_tangents(const SurfacePoint& point) const override;
 
  private:
-  Vec3 along_u_, along_v_, upwards_;  ///< of the flat square and of heights, in world space
+  Vec3 along_u_, along_v_, upwards_;  ///< the edges of the flat square and the direction of
+                                      ///< heights, in world space
 };
 
 }  // namespace pharos

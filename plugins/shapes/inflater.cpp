@@ -10,7 +10,7 @@
 namespace pharos {
 namespace {
 
-/// zlib counts in unsigned ints, files may be larger.
+/// Limits a size to unsigned int, the type of zlib's counts. Files may be larger.
 uInt piece(std::size_t size) {
   return static_cast<uInt>(std::min<std::size_t>(size, std::numeric_limits<uInt>::max()));
 }
@@ -18,13 +18,13 @@ uInt piece(std::size_t size) {
 }  // namespace
 
 struct Inflater::Stream {
-  std::string_view packed;  ///< what zlib has not been given yet
+  std::string_view packed;  ///< input that zlib has not received yet
   z_stream state{};
 };
 
 Inflater::Inflater(std::string_view packed)
     : stream_(std::make_unique<Stream>(Stream{.packed = packed})) {
-  // The one thing that can go wrong here.
+  // Only a lack of memory can make this call fail.
   if (inflateInit(&stream_->state) != Z_OK) throw std::bad_alloc();
 }
 
@@ -38,7 +38,7 @@ bool Inflater::read(char* to, std::size_t size) {
   while (size > 0) {
     if (state.avail_in == 0) {
       state.avail_in = piece(packed.size());
-      // zlib's interface is older than const; it does not write there.
+      // The zlib interface has no const, but zlib does not write to its input.
       state.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));
       packed.remove_prefix(state.avail_in);
     }

@@ -6,18 +6,18 @@
 
 namespace pharos {
 
-/// Unpacks one zlib stream (RFC 1950) from the front, as far as it is asked for, so that nothing
-/// needs memory before its bytes are there.
+/// Unpacks one zlib stream (RFC 1950) from the front, only as far as requested. No memory is
+/// therefore needed for data before its bytes are present.
 class Inflater {
  public:
-  /// Refers to `packed`; what follows the stream in it is passed over.
+  /// Refers to `packed`. Bytes after the end of the stream are ignored.
   explicit Inflater(std::string_view packed);
   ~Inflater();
   Inflater(const Inflater&) = delete;
   Inflater& operator=(const Inflater&) = delete;
 
-  /// The next `size` bytes, to `to`. False when the stream ends before; throws InputError when it
-  /// is damaged.
+  /// Reads the next `size` bytes into `to`. Returns false if the stream ends before. Throws
+  /// InputError if it is damaged.
   bool read(char* to, std::size_t size);
 
  private:

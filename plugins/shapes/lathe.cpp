@@ -1,14 +1,14 @@
-// lathe: a surface of revolution, as triangles. `profile` lists points [r, z], distance from the z
-// axis and height; each pair of neighbors becomes a band of `segments` facets around the axis,
-// with corners on the exact circle. Listed from bottom to top, the outer side faces away from the
-// axis; in general it lies on the right of the way along the profile. A profile that starts and
-// ends on the axis, or returns to its first point (counter-clockwise, r to the right and z up),
-// encloses a solid without gaps.
+// lathe: a surface of revolution, made of triangles. `profile` lists points [r, z], distance from
+// the z axis and height. Each pair of neighbors becomes a band of `segments` facets around the
+// axis, with corners on the exact circle. If the points go from bottom to top, the outer side faces
+// away from the axis; in general it lies to the right of the direction along the profile. A profile
+// encloses a solid without gaps if it starts and ends on the axis, or if it returns to its first
+// point (counter-clockwise, r to the right and z up).
 //
-// With `interpolation: catmull_rom` a smooth curve runs through the points, cut into `subdivisions`
-// pieces between neighbors. `smooth` interpolates normals around the axis and along the profile,
-// but for corners sharper than `crease`. Texture coordinates are (azimuth / 2 pi, arc length along
-// the profile in [0, 1]).
+// With `interpolation: catmull_rom` a smooth curve runs through the points, with `subdivisions`
+// straight pieces between neighbors. `smooth` interpolates normals around the axis and along the
+// profile, except at corners sharper than `crease`. Texture coordinates are (azimuth / 2 pi, arc
+// length along the profile in [0, 1]).
 //
 //     type: lathe                       # a vase with a flat foot
 //     profile: [ [0, 0], [0.3, 0], [0.5, 0.5], [0.2, 1], [0.3, 1.2] ]
@@ -35,7 +35,7 @@ std::vector<ProfilePiece> pieces_of(const Lathe::Settings& settings) {
       settings.crease);
 }
 
-/// Turns pieces into bands.
+/// Turns the pieces of a profile into bands.
 class Turner {
  public:
   Turner(int segments, bool smooth) : segments_(segments), smooth_(smooth) {}
@@ -55,8 +55,8 @@ class Turner {
   TriangleMesh take() { return std::move(mesh_); }
 
  private:
-  /// Vertices of one end of a band, the last at the place of the first but with u = 1. On the axis
-  /// each serves one triangle and has its middle's azimuth.
+  /// Adds the vertices of one end of a band. The last vertex has the position of the first, but u =
+  /// 1. On the axis each vertex serves one triangle and has the azimuth of the triangle's middle.
   std::uint32_t add_ring(Vec2 point, Vec2 normal, float v) {
     const auto first = static_cast<std::uint32_t>(mesh_.positions.size());
     const double shift = point.x == 0 ? 0.5 : 0;
@@ -84,20 +84,24 @@ TriangleMesh turned(const Lathe::Settings& settings) {
 }  // namespace
 
 void Lathe::Settings::describe(Schema<Settings>& s) {
-  s.field("profile", &Settings::profile, "Points [r, z], outer side on the right")
+  s.field("profile", &Settings::profile,
+          "Points [r, z]; the outer side is on the right of the profile")
       .unit("scene units")
       .required();
-  s.field("segments", &Settings::segments, "Facets around the axis").at_least(3).at_most(65536);
+  s.field("segments", &Settings::segments, "Number of facets around the axis")
+      .at_least(3)
+      .at_most(65536);
   s.field("interpolation", &Settings::interpolation, "Straight lines or a spline between points");
-  s.field("subdivisions", &Settings::subdivisions, "Pieces of the spline between two points")
+  s.field("subdivisions", &Settings::subdivisions,
+          "Number of pieces of the spline between two points")
       .at_least(1)
       .at_most(65536);
-  s.field("smooth", &Settings::smooth, "Interpolate normals; else facets");
-  s.field("crease", &Settings::crease, "Corners of the profile sharper than this stay sharp")
+  s.field("smooth", &Settings::smooth, "Interpolate normals instead of showing facets");
+  s.field("crease", &Settings::crease, "Angle above which corners of the profile stay sharp")
       .unit("degrees")
       .at_least(0)
       .at_most(180);
-  s.field("to_world", &Settings::to_world, "From local to world space");
+  s.field("to_world", &Settings::to_world, "Transform from local to world space");
   s.field("flip_normals", &Settings::flip_normals, "Exchange the outer and the inner side");
   s.example("{ profile: [[0, -1], [1, 0], [0, 1]], segments: 5, smooth: false }");
   s.example("{ profile: [[0, 0], [0.5, 0.2], [0.2, 1], [0.4, 1.2]], interpolation: catmull_rom }");

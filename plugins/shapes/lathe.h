@@ -8,7 +8,7 @@
 
 namespace pharos {
 
-/// How the points of a lathe's profile are joined.
+/// The interpolation between the points of a lathe's profile.
 enum class ProfileInterpolation { linear, catmull_rom };
 template <>
 struct EnumNames<ProfileInterpolation> {
@@ -32,10 +32,11 @@ class Lathe : public TriangleShape {
     static void describe(Schema<Settings>& s);
   };
 
-  /// Throws InputError for profiles that enclose no surface.
+  /// Throws InputError if the profile encloses no surface.
   explicit Lathe(const Settings& settings);
 
-  /// Of smooth ones, du has the direction of the circle instead of the facet's, as normals do.
+  /// For smooth lathes, du has the direction of the circle instead of the facet, in accordance with
+  /// the normals.
   UvTangents uv_tangents(const SurfacePoint& point) const override;
 
  private:

@@ -19,17 +19,18 @@ bool is_closed(const std::vector<Vec2>& points) {
   return points.front() == points.back();
 }
 
-/// The same point of the profile's other side.
+/// Returns the mirror image of a point on the other side of the axis.
 Vec2 mirrored(Vec2 p) {
   return {-p.x, p.y};
 }
 
-/// What a profile goes on to beyond its end.
+/// Returns the point that continues a profile beyond its end.
 Vec2 reflected(Vec2 end, Vec2 neighbor) {
   return end.x == 0 ? mirrored(neighbor) : 2 * end - neighbor;
 }
 
-/// The points with one more on either side, which gives the first and last piece their bend.
+/// Adds one point before the first and one after the last, which define the curvature of the first
+/// and last piece.
 std::vector<Vec2> with_neighbors(const std::vector<Vec2>& points) {
   const std::size_t n = points.size();
   const bool closed = is_closed(points);
@@ -39,8 +40,8 @@ std::vector<Vec2> with_neighbors(const std::vector<Vec2>& points) {
   return all;
 }
 
-/// The spline between p[1] and p[2] at `s` in [0, 1], by Barry and Goldman's pyramid of linear
-/// interpolations with knots at distances to the power 1/2.
+/// Returns the point of the spline between p[1] and p[2] at `s` in [0, 1], by the pyramid of linear
+/// interpolations of Barry and Goldman. The knots are sums of distances to the power 1/2.
 Vec2 centripetal_point(const Vec2* p, float s) {
   float knots[4] = {};
   for (int i = 0; i < 3; ++i) knots[i + 1] = knots[i] + std::sqrt(length(p[i + 1] - p[i]));
@@ -56,15 +57,15 @@ Vec2 centripetal_point(const Vec2* p, float s) {
   return level[0];
 }
 
-/// The right-hand normal of a piece from a to b.
+/// Returns the normal to the right of a piece from a to b.
 Vec2 normal_of(Vec2 a, Vec2 b) {
   const Vec2 along = b - a;
   return 1 / length(along) * Vec2{along.y, -along.x};
 }
 
-/// The normal of the piece from a to b where it meets `neighbor`, the far end of the next piece or
-/// the one before. Both normals count by the inverse of the pieces' lengths, which is exact to
-/// second order for points on a smooth curve.
+/// Returns the normal of the piece from a to b at the end where it meets `neighbor`, the far end of
+/// the next or the previous piece. The weights of both normals are the inverse lengths of the
+/// pieces, which is exact to second order for points on a smooth curve.
 Vec2 joint_normal(Vec2 a, Vec2 b, Vec2 joint, Vec2 neighbor, float least_cosine) {
   const Vec2 own = normal_of(a, b);
   const Vec2 other = joint == b ? normal_of(b, neighbor) : normal_of(neighbor, a);
@@ -94,7 +95,7 @@ void check_profile(const std::vector<Vec2>& points) {
 std::vector<Vec2> catmull_rom(const std::vector<Vec2>& points, int subdivisions) {
   const std::vector<Vec2> all = with_neighbors(points);
   std::vector<Vec2> curve{points.front()};
-  const auto append = [&](Vec2 p) {  // but for what rounding makes equal
+  const auto append = [&](Vec2 p) {  // omits points that are equal after rounding
     if (p != curve.back()) curve.push_back(p);
   };
   for (std::size_t i = 0; i + 1 < points.size(); ++i) {

@@ -10,7 +10,7 @@
 
 namespace pharos {
 
-/// Where a mesh has its shading normals from.
+/// The source of a mesh's shading normals.
 enum class MeshNormals { file_or_flat, file_or_smooth, flat };
 template <>
 struct EnumNames<MeshNormals> {

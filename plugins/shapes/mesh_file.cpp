@@ -36,7 +36,7 @@ constexpr std::array<Format, 6> kFormats{
      {".obj", true, false, read_obj},
      {".ply", false, false, [](const MeshSource& source) { return read_ply(source.bytes); }},
      {".serialized", true, true, read_serialized},
-     // Whose triangles have vertices of their own.
+     // In STL files every triangle has its own vertices.
      {".stl", false, false, [](const MeshSource& source) { return welded(read_stl(source)); }}}};
 
 const Format& format_of(const std::filesystem::path& path) {
@@ -51,7 +51,7 @@ const Format& format_of(const std::filesystem::path& path) {
                                suggestion(extension, known), quoted_list(known)));
 }
 
-/// With the vertices that the triangles share in the file.
+/// Reads the mesh with the vertices that its triangles share in the file.
 TriangleMesh read_triangles(const Mesh::Settings& settings) {
   const std::filesystem::path& path = settings.file;
   const std::string& part = settings.part;
@@ -70,7 +70,7 @@ TriangleMesh read_triangles(const Mesh::Settings& settings) {
   return mesh;
 }
 
-/// In world space, where the angles are those of the surface that is seen.
+/// Transforms the mesh to world space. Angles are measured there, on the visible surface.
 TriangleMesh placed(TriangleMesh local, const Mesh::Settings& settings) {
   if (settings.normals == MeshNormals::flat) local.normals.clear();
   TriangleMesh mesh = transformed(std::move(local), settings.to_world, settings.flip_normals);

@@ -6,15 +6,16 @@
 
 namespace pharos {
 
-/// The triangles that a mesh's settings ask for, in world space, with the normals they ask for. The
-/// file's meshes are joined, with the transforms of its nodes applied: all of them or, unless
-/// `part` is empty, those of that name and all that lies at or below the nodes of that name, or the
-/// one of number `shape_index`. Meshes without normals or texture coordinates, where others have
-/// them, get zeros. Texture coordinates have their origin at the picture's lower left. Throws
-/// InputError with the path when the format is unknown (with the known ones), when the file is
-/// missing, not a regular file, unreadable, cut off, or without triangles, when it has no such part
-/// (with the nearest name), when both `part` and `shape_index` are given or its format counts no
-/// meshes, and when it names a vertex that is missing or not finite.
+/// Reads the triangles that the settings of a mesh select, in world space, with the requested
+/// normals. The meshes of the file are joined, with the transforms of its nodes applied. By default
+/// all meshes are read. If `part` is not empty, the meshes of that name and everything at or below
+/// the nodes of that name are read; if `shape_index` is set, the mesh of that number. If only some
+/// meshes have normals or texture coordinates, the others get zeros. Texture coordinates have their
+/// origin at the lower left of the image. Throws InputError with the path in these cases: the
+/// format is unknown (the message lists the known formats); the file is missing, not a regular
+/// file, unreadable, truncated, or without triangles; it has no such part (the message names the
+/// nearest name); both `part` and `shape_index` are given; the format does not number its meshes; a
+/// used vertex is missing or not finite.
 TriangleMesh read_mesh_file(const Mesh::Settings& settings);
 
 }  // namespace pharos

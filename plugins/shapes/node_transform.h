@@ -4,13 +4,13 @@
 
 namespace pharos {
 
-/// The map from a node's space to another, in double: what points, normals and orientation need. It
-/// need not be invertible.
+/// An affine map from a node's space to another space, in double precision, for points, normals and
+/// orientation. It need not be invertible.
 class NodeTransform {
  public:
   /// The identity.
   NodeTransform() : NodeTransform({1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {}) {}
-  /// Where the axes, as vectors, and the origin go.
+  /// Maps the axes, as vectors, and the origin to the given images.
   NodeTransform(Double3 x, Double3 y, Double3 z, Double3 origin)
       : x_(x),
         y_(y),
@@ -21,10 +21,11 @@ class NodeTransform {
         xy_(cross(x, y)),
         mirrors_(dot(x, yz_) < 0) {}
 
-  /// Rounded once.
+  /// Maps a point and rounds it once.
   Point3 point(Point3 p) const { return Point3(apply(Double3(p)) + origin_); }
-  /// Unit length; zero where the map leaves nothing of it. By the cofactors, which are the inverse
-  /// transpose times the determinant and exist for maps that flatten space too.
+  /// Maps a normal to unit length, or to zero if the map makes it vanish. It uses the cofactors,
+  /// which equal the inverse transpose times the determinant and also exist for maps that flatten
+  /// space.
   Vec3 normal(Vec3 n) const {
     const Double3 v = n.x * yz_ + n.y * zx_ + n.z * xy_;
     const double size = length(v);

@@ -21,18 +21,19 @@ namespace {
 
 constexpr std::uint32_t kAbsent = ~std::uint32_t{0};
 
-/// What a corner of a face names: a position, texture coordinates and a normal, or kAbsent.
+/// The indices of a face corner: a position, texture coordinates and a normal, or kAbsent.
 using Corner = std::array<std::uint32_t, 3>;
 enum CornerPart : std::size_t { kPosition, kUv, kNormal };
 constexpr std::array<std::string_view, 3> kPartNames{"vertex", "texture coordinate", "normal"};
 
-/// Statements that do not say where a surface is.
+/// Statements that do not define a surface.
 constexpr std::array<std::string_view, 13> kPassedOver{
     "l",      "p",   "s",     "mg",       "usemtl",   "mtllib",     "usemap",
     "maplib", "lod", "bevel", "c_interp", "d_interp", "shadow_obj",
 };
 
-/// Positions, texture coordinates and normals are counted through the file, whatever the part.
+/// Reads the file. Positions, texture coordinates and normals are numbered through the whole file,
+/// in all parts.
 class ObjReader {
  public:
   explicit ObjReader(const MeshSource& source)
@@ -116,14 +117,14 @@ class ObjReader {
     }
   }
 
-  /// Only parts with triangles have names.
+  /// Records the names of the current part. Only parts with triangles have names.
   void name_part() {
     named_ = true;
     if (!object_.empty()) names_.insert(object_);
     names_.insert(groups_.begin(), groups_.end());
   }
 
-  /// "5", "5/6", "5//7" or "5/6/7"
+  /// Reads "5", "5/6", "5//7" or "5/6/7".
   Corner read_corner(std::string_view word) {
     Corner corner{kAbsent, kAbsent, kAbsent};
     const std::array<std::size_t, 3> counts{positions_.size(), uvs_.size(), normals_.size()};
@@ -139,7 +140,7 @@ class ObjReader {
     return corner;
   }
 
-  /// Counts from 1, negative numbers from the last one back.
+  /// Reads an index. Indices begin at 1; negative ones count back from the last entry.
   std::uint32_t read_index(std::string_view number, std::size_t count, std::string_view kind) {
     std::int64_t index = 0;
     const char* const end = number.data() + number.size();
@@ -164,7 +165,7 @@ class ObjReader {
     return mesh;
   }
 
-  /// A vertex for every combination that corners name.
+  /// Builds the mesh with one vertex for every combination of indices in the corners.
   TriangleMesh with_combined_vertices() const {
     TriangleMesh mesh;
     mesh.triangles.reserve(triangles_.size());
@@ -190,10 +191,10 @@ class ObjReader {
   std::vector<Point3> positions_;
   std::vector<Vec2> uvs_;
   std::vector<Vec3> normals_;
-  std::string object_;               ///< that faces belong to now
+  std::string object_;               ///< to which the current faces belong
   std::vector<std::string> groups_;  ///< likewise
-  bool wanted_ = true;               ///< whether those are the part
-  bool named_ = false;               ///< whether those are in `names_`
+  bool wanted_ = true;               ///< whether they belong to the part
+  bool named_ = false;               ///< whether they are in `names_`
   std::set<std::string> names_;
   std::vector<std::array<Corner, 3>> triangles_;
   bool has_uvs_ = false, has_normals_ = false;

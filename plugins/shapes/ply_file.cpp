@@ -20,16 +20,16 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little);
 
-/// Hands out the numbers that follow the header, one after the other.
+/// Returns the numbers after the header one by one.
 class Numbers {
  public:
   Numbers(std::string_view data, PlyFormat format)
       : at_(data.data()), end_(data.data() + data.size()), format_(format) {}
 
-  /// [bytes]; every number takes at least one.
+  /// [bytes]; every number takes at least one byte.
   std::size_t left() const { return static_cast<std::size_t>(end_ - at_); }
 
-  /// False where the data ends or holds no number.
+  /// Returns false if the data ends or does not contain a number.
   bool next(PlyType type, double& value) {
     return format_ == PlyFormat::ascii ? next_word(value) : next_binary(type, value);
   }
@@ -85,7 +85,7 @@ class Numbers {
   PlyFormat format_;
 };
 
-/// What a property of a vertex says.
+/// The columns of vertex data that are used.
 enum Column { kX, kNormalX = 3, kU = 6, kColumns = 8, kOther = kColumns };
 
 int column_of(std::string name) {
@@ -112,7 +112,8 @@ class PlyReader {
   }
 
  private:
-  /// Every property takes at least a byte.
+  /// Throws InputError if the rest of the data is too short. Every property takes at least one
+  /// byte.
   void check_room(const PlyElement& element) const {
     const std::uint64_t properties = element.properties.size();
     if (properties == 0 || element.count <= numbers_.left() / properties) return;
@@ -122,7 +123,7 @@ class PlyReader {
 
   void read_rows(const PlyElement& element) {
     if (element.name == "vertex") find_columns(element);
-    if (element.properties.empty()) return;  // its rows take no bytes, however many there are
+    if (element.properties.empty()) return;  // its rows take no bytes, for any count
     for (row_ = 0; row_ < element.count; ++row_) {
       if (element.name == "vertex") {
         read_vertex(element);
@@ -219,7 +220,7 @@ class PlyReader {
     }
   }
 
-  /// Once all vertices are known: faces may come first.
+  /// Runs after all vertices are known, because faces may come first.
   void check_indices() const {
     for (const auto& triangle : mesh_.triangles) {
       const std::uint32_t largest = *std::max_element(triangle.begin(), triangle.end());
@@ -233,7 +234,7 @@ class PlyReader {
   TriangleMesh mesh_;
   std::vector<int> columns_;  ///< by property of a vertex
   bool has_normals_ = false, has_uvs_ = false;
-  std::uint64_t row_ = 0;  ///< of the element that is being read
+  std::uint64_t row_ = 0;  ///< of the element being read
 };
 
 }  // namespace

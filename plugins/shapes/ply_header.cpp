@@ -27,7 +27,7 @@ constexpr std::array<TypeName, 8> kTypes{{{"char", "int8", PlyType::int8, 1},
                                           {"float", "float32", PlyType::float32, 4},
                                           {"double", "float64", PlyType::float64, 8}}};
 
-/// Goes through the header's lines.
+/// Parses the header line by line.
 class HeaderParser {
  public:
   explicit HeaderParser(std::string_view text) : text_(text) {}
@@ -118,7 +118,7 @@ class HeaderParser {
   std::string line_;
   int line_number_ = 0;
   PlyHeader header_;
-  std::set<std::string> names_;  ///< of the elements so far
+  std::set<std::string> names_;  ///< names of the elements so far
 };
 
 }  // namespace

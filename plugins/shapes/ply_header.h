@@ -7,17 +7,17 @@
 #include <string_view>
 #include <vector>
 
-/// What a PLY file says of itself (Turk 1994, "The PLY Polygon File Format").
+/// The header of a PLY file (Turk 1994, "The PLY Polygon File Format").
 namespace pharos {
 
 enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
-/// [bytes]
+/// Returns the size of a number [bytes].
 std::size_t size_of(PlyType type);
 
 struct PlyProperty {
   std::string name;
   PlyType type = PlyType::float32;
-  std::optional<PlyType> count_type;  ///< lists only: of the number that goes before the items
+  std::optional<PlyType> count_type;  ///< lists only: the type of the number before the items
 };
 
 struct PlyElement {
@@ -34,8 +34,8 @@ struct PlyHeader {
   std::size_t size = 0;  ///< [bytes] from the file's beginning to the data
 };
 
-/// Reads the header that `text`, a whole file, begins with. Throws InputError, without the file's
-/// name, for what is no header.
+/// Reads the header at the beginning of `text`, a whole file. Throws InputError, without the file's
+/// name, if there is no valid header.
 PlyHeader read_ply_header(std::string_view text);
 
 }  // namespace pharos

@@ -1,5 +1,5 @@
-// quad: the square [-1,1]^2 of the xy plane, taken to world space by any affine map. It faces local
-// +z, mirrored or not, and texture coordinates run over [0,1]^2 with local x and y.
+// quad: the square [-1,1]^2 of the xy plane, transformed to world space by any affine map. It faces
+// local +z, even under maps that mirror. Texture coordinates cover [0,1]^2 with local x and y.
 //
 //     type: quad
 //     to_world: [ { scale: 0.5 }, { rotate: { axis: [1, 0, 0], degrees: 180 } },
@@ -22,8 +22,8 @@ TriangleMesh unit_square() {
 }  // namespace
 
 void Quad::Settings::describe(Schema<Settings>& s) {
-  s.field("to_world", &Settings::to_world, "From the square to world space");
-  s.field("flip_normals", &Settings::flip_normals, "Face -z instead of +z");
+  s.field("to_world", &Settings::to_world, "Transform from the square to world space");
+  s.field("flip_normals", &Settings::flip_normals, "Make the quad face -z instead of +z");
   s.example("{ to_world: { matrix: [1.5, 0.4, 0.2, 0.3, 0, 0.8, -0.3, 1, 0.1, 0.2, 1.1, -2] } }");
 }
 

@@ -17,13 +17,13 @@ class Quad : public TriangleShape {
 
   explicit Quad(const Settings& settings);
 
-  /// Affine in `u`: the point has texture coordinates u.
+  /// Affine in `u`: the sampled point has the texture coordinates u.
   ShapeSample sample(Vec2 u) const override;
 
  private:
-  Point3 corner_;  ///< where u = (0, 0)
+  Point3 corner_;  ///< the point with u = (0, 0)
   Vec3 edge_u_, edge_v_;
-  SurfacePoint common_;  ///< what all points share
+  SurfacePoint common_;  ///< the data that all points share
 };
 
 }  // namespace pharos

@@ -7,8 +7,8 @@
 namespace pharos {
 namespace {
 
-/// How far apart the scales along the three axes, or the cosines between them, may be in a map that
-/// counts as even: products of rotations in float stay well below.
+/// The largest difference of the scales along the three axes, and the largest cosine between the
+/// axes, of a map that counts as uniform. Products of rotations in float remain far below it.
 constexpr float kSimilarityTolerance = 1e-4f;
 
 }  // namespace
@@ -27,8 +27,9 @@ std::optional<std::array<double, 2>> distance_roots(Double3 origin, Double3 dire
                                                     double radius) {
   const double a = dot(direction, direction), b = dot(origin, direction);
   if (a == 0) return std::nullopt;
-  // The discriminant from the distance between line and center: b^2 - a c would cancel far away
-  // (Haines et al. 2019, "Precision Improvements for Ray/Sphere Intersection").
+  // Computes the discriminant from the distance between the line and the center, because b^2 - a c
+  // would cancel far away (Haines et al. 2019, "Precision Improvements for Ray/Sphere
+  // Intersection").
   const Double3 closest = origin + (-b / a) * direction;
   const double discriminant = radius * radius - dot(closest, closest);
   if (discriminant < 0) return std::nullopt;
@@ -53,9 +54,9 @@ Bounds3 bounds_around(Point3 center, Vec3 reach) {
 }
 
 float exact_shape_error(float coordinate) {
-  // Position and ray origin are each rounded once, by at most half an epsilon of a coordinate: in
-  // three directions sqrt(3) epsilons together. Four leave no ray on the wrong side, because the
-  // intersection itself is exact by comparison.
+  // The position and the ray origin are each rounded once, by at most half an epsilon of a
+  // coordinate. Together this is sqrt(3) epsilons in three dimensions. With four epsilons no ray is
+  // on the wrong side, because the error of the intersection itself is negligible in comparison.
   return 4 * std::numeric_limits<float>::epsilon() * coordinate;
 }
 

@@ -15,17 +15,17 @@
 #include "inflater.h"
 #include "triangle_shape.h"
 
-// A file is a row of meshes and then a list: where each mesh begins [bytes from the file's start],
-// in 64 bits (version 3: 32), and at the very end how many there are, in 32 bits. A mesh is the two
-// 16-bit numbers 0x041c and the version, and a zlib stream of
+// A file consists of its meshes and a list of the places where each mesh begins [bytes from the
+// start of the file], in 64 bits (version 3: 32). The number of meshes follows at the very end, in
+// 32 bits. A mesh consists of two 16-bit numbers, 0x041c and the version, and a zlib stream of
 //
 //     flags                                     32 bits
-//     name                                      version 4: up to a byte 0
+//     name                                      version 4: up to a zero byte
 //     numbers of vertices and triangles         64 bits each
-//     positions, normals, uvs, colors          of all vertices, the last three as the flags say
+//     positions, normals, uvs, colors           of all vertices, the last three if flagged
 //     three vertices of every triangle          32 bits each
 //
-// all little-endian, as the manual of Mitsuba 0.6 describes it under `serialized`.
+// All numbers are little-endian. The manual of Mitsuba 0.6 describes the format under `serialized`.
 namespace pharos {
 namespace {
 
@@ -34,7 +34,7 @@ static_assert(std::endian::native == std::endian::little);
 constexpr std::uint16_t kMagic = 0x041c;
 constexpr std::size_t kHeaderSize = 2 * sizeof(std::uint16_t);
 constexpr std::size_t kLongestName = 4096;
-/// Three a triangle, of as many triangles as a shape may have.
+/// Three vertices per triangle, for the largest number of triangles of a shape.
 constexpr std::uint64_t kMostVertices = 600'000'000;
 
 enum Flag : std::uint32_t {
@@ -52,7 +52,8 @@ T number_at(std::string_view bytes, std::size_t at) {
   return value;
 }
 
-/// The same triangles without normals. They share no vertices, so that nobody smooths them.
+/// Returns the same triangles without normals. They share no vertices, so that no normals are
+/// smoothed across them.
 TriangleMesh faceted(const TriangleMesh& mesh) {
   TriangleMesh result;
   for (const std::array<std::uint32_t, 3>& triangle : mesh.triangles) {
@@ -66,10 +67,10 @@ TriangleMesh faceted(const TriangleMesh& mesh) {
   return result;
 }
 
-/// Reads the fields of one mesh in their order.
+/// Reads the fields of one mesh in order.
 class MeshReader {
  public:
-  /// Of the mesh that `bytes` begin with; reads up to its name.
+  /// Starts with the mesh at the front of `bytes` and reads up to its name.
   explicit MeshReader(std::string_view bytes) : stream_(bytes.substr(kHeaderSize)) {
     flags_ = number<std::uint32_t>("flags");
     if (number_at<std::uint16_t>(bytes, sizeof(kMagic)) > 3) read_name();
@@ -77,7 +78,7 @@ class MeshReader {
 
   const std::string& name() const { return name_; }
 
-  /// The rest, once.
+  /// Reads the rest. May be called once.
   TriangleMesh read() {
     const auto vertices = number<std::uint64_t>("number of vertices");
     const auto triangles = number<std::uint64_t>("number of triangles");
@@ -93,7 +94,7 @@ class MeshReader {
     if (has(kHasColors)) read_floats<3>(vertices, "color", [](const auto&) {});
     read_triangles(mesh, triangles);
     char beyond;
-    stream_.read(&beyond, 1);  // so that the stream's end is reached, where its checksum is
+    stream_.read(&beyond, 1);  // reaches the end of the stream, which holds the checksum
     return has(kFaceNormals) ? faceted(mesh) : mesh;
   }
 
@@ -116,8 +117,8 @@ class MeshReader {
     }
   }
 
-  /// Hands each of `count` items of `n` numbers to `take`, with its index. `what`, for messages, is
-  /// an item.
+  /// Passes each of `count` items of `n` numbers to `take`, together with its index. `what` is the
+  /// name of an item in messages.
   template <class T, std::size_t n, class Take>
   void read_items(std::uint64_t count, const char* what, const Take& take) {
     constexpr std::uint64_t kBlock = 1024;
@@ -131,7 +132,7 @@ class MeshReader {
     }
   }
 
-  /// The same for numbers of the file's precision, as floats that are finite.
+  /// The same for numbers in the file's precision, converted to finite floats.
   template <std::size_t n, class Take>
   void read_floats(std::uint64_t count, const char* what, const Take& take) {
     const auto narrowed = [&](std::uint64_t index, const auto& item) {
@@ -151,7 +152,7 @@ class MeshReader {
   }
 
   void read_uvs(std::vector<Vec2>& to, std::uint64_t count) {
-    // Mitsuba's v runs from the top of the picture.
+    // In Mitsuba v runs from the top of the image.
     read_floats<2>(count, "texture coordinate", [&](const auto& uv) {
       to.push_back({uv[0], 1 - uv[1]});
     });
@@ -173,7 +174,7 @@ class MeshReader {
   std::string name_;
 };
 
-/// Throws InputError unless the file goes on with a mesh; returns its version.
+/// Returns the version of the mesh at the front of `bytes`. Throws InputError if there is none.
 std::uint16_t version_of(std::string_view bytes) {
   if (bytes.size() < kHeaderSize || number_at<std::uint16_t>(bytes, 0) != kMagic) {
     throw InputError("it does not begin like a 'serialized' file of Mitsuba");
@@ -185,7 +186,7 @@ std::uint16_t version_of(std::string_view bytes) {
   return version;
 }
 
-/// The meshes of a file, one string of bytes each, that begin at the places the file lists.
+/// Returns the bytes of each mesh of a file, which begin at the places that the file lists.
 std::vector<std::string_view> meshes_of(std::string_view bytes, std::uint16_t version) {
   const std::size_t entry = version == 3 ? sizeof(std::uint32_t) : sizeof(std::uint64_t);
   const std::size_t most = (bytes.size() - sizeof(std::uint32_t)) / entry;
@@ -202,7 +203,7 @@ std::vector<std::string_view> meshes_of(std::string_view bytes, std::uint16_t ve
   std::vector<std::string_view> meshes;
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint64_t from = begin(i), to = begin(i + 1);
-    // Increasing, so that no byte is unpacked twice.
+    // The places must increase, so that no byte is unpacked twice.
     if (from >= to || to > list) {
       throw InputError(fmt::format("mesh {} lies from byte {} to {} of {}", i, from, to, list));
     }
@@ -211,7 +212,8 @@ std::vector<std::string_view> meshes_of(std::string_view bytes, std::uint16_t ve
   return meshes;
 }
 
-/// Adds `more` to `mesh`; normals and texture coordinates that only one of them has are zeros.
+/// Adds `more` to `mesh`. If only one of them has normals or texture coordinates, the other gets
+/// zeros.
 void append(TriangleMesh& mesh, const TriangleMesh& more) {
   const std::size_t before = mesh.positions.size(), after = before + more.positions.size();
   check_triangle_count(static_cast<double>(mesh.triangles.size() + more.triangles.size()), "it");
@@ -231,7 +233,7 @@ void append(TriangleMesh& mesh, const TriangleMesh& more) {
   }
 }
 
-/// Calls `read` with the number of every mesh that is wanted; what it throws gets that number.
+/// Calls `read` with the number of every requested mesh, and adds this number to its exceptions.
 template <class Read>
 void for_each_mesh(std::size_t count, std::optional<int> only, const Read& read) {
   for (std::size_t i = 0; i < count; ++i) {

@@ -1,6 +1,6 @@
 // sphere: an exact sphere, intersected in double precision. `to_world` may rotate, translate,
-// mirror and scale evenly. Texture coordinates are (azimuth / 2 pi, angle from +z / pi) in local
-// space. Seen from outside, it is sampled uniformly over the directions that meet it (Shirley, Wang
+// mirror and scale uniformly. Texture coordinates are (azimuth / 2 pi, angle from +z / pi) in local
+// space. From outside, samples are uniform over the directions that meet the sphere (Shirley, Wang
 // and Zimmerman 1996, "Monte Carlo Techniques for Direct Lighting Calculations").
 //
 //     type: sphere
@@ -31,8 +31,9 @@ float world_radius(const Sphere::Settings& settings) {
 void Sphere::Settings::describe(Schema<Settings>& s) {
   s.field("center", &Settings::center, "Center, before to_world").unit("scene units");
   s.field("radius", &Settings::radius, "Radius, before to_world").unit("scene units").above(0);
-  s.field("to_world", &Settings::to_world, "From local to world space; no shear, even scale");
-  s.field("flip_normals", &Settings::flip_normals, "Normals point inwards");
+  s.field("to_world", &Settings::to_world,
+          "Transform from local to world space; no shear, uniform scale");
+  s.field("flip_normals", &Settings::flip_normals, "Make normals point inwards");
   s.example("{ center: [1, 2, 3], radius: 0.5 }");
   s.example(
       "{ to_world: [{ scale: 3 }, { rotate: { axis: [1, 2, 3], degrees: 40 } }], "
@@ -70,7 +71,7 @@ bool Sphere::intersect(const Ray& ray, std::uint32_t, PrimitiveHit& hit) const {
 }
 
 SurfacePoint Sphere::surface_point(const Ray& ray, const PrimitiveHit& hit) const {
-  // As a float, `hit.t` would misplace the hit on a sphere that is small and far away.
+  // As a float, `hit.t` would displace the hit on a sphere that is small and far away.
   double t = hit.t;
   if (const auto both = roots(ray)) {
     t = std::abs((*both)[0] - t) <= std::abs((*both)[1] - t) ? (*both)[0] : (*both)[1];
@@ -110,7 +111,8 @@ ShapeSample Sphere::sample(Vec2 u) const {
 }
 
 std::optional<float> Sphere::cone_from(Point3 from) const {
-  // Rounding puts points of the sphere itself on either side; those of a room see its inside.
+  // Rounding puts points of the sphere itself on either side. Points of a flipped sphere (a room)
+  // see its inside.
   if (flip_normals_) return std::nullopt;
   const Double3 axis = from_center(from);
   const double sin_squared = double{radius_} * radius_ / dot(axis, axis);
@@ -126,8 +128,9 @@ ShapeSample Sphere::sample_from(Point3 from, Vec2 u) const {
   const double distance = length(away);
   const Frame frame = Frame::from_normal(Vec3((-1 / distance) * away));
   const Vec3 local = warp::cone_from_square(u, *one_minus_cos);
-  // The hit lies in the plane of the direction and the center: at angle theta from the axis, the
-  // ray enters after `along`, whence the hit's components along the axis and beside it.
+  // The hit lies in the plane of the direction and the center. At angle theta from the axis the ray
+  // enters after `along`, which gives the components of the hit along the axis and perpendicular to
+  // it.
   const double sin2 = double{local.x} * local.x + double{local.y} * local.y;
   const double cosine = std::sqrt(1 - sin2);
   const double half_chord =
@@ -143,7 +146,7 @@ ShapeSample Sphere::sample_from(Point3 from, Vec2 u) const {
 float Sphere::pdf_from(Point3 from, const SurfacePoint& point) const {
   const std::optional<float> one_minus_cos = cone_from(from);
   if (!one_minus_cos) return Shape::pdf_from(from, point);
-  // Only the cap up to the tangent points is seen; its rim gets the benefit of rounding.
+  // Only the cap up to the tangent points is visible. Tolerates rounding at its rim.
   const Double3 to_point = from_center(point.position), away = from_center(from);
   const double slack = point.error * length(away);
   const bool seen = dot(to_point, away) >= double{radius_} * radius_ - slack;

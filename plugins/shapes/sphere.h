@@ -22,7 +22,7 @@ class Sphere : public Shape {
     static void describe(Schema<Settings>& s);
   };
 
-  /// Throws InputError when `to_world` does not keep spheres spheres.
+  /// Throws InputError if `to_world` does not keep spheres spheres.
   explicit Sphere(const Settings& settings);
 
   Bounds3 bounds() const override;
@@ -31,19 +31,19 @@ class Sphere : public Shape {
   SurfacePoint surface_point(const Ray& ray, const PrimitiveHit& hit) const override;
   UvTangents uv_tangents(const SurfacePoint& point) const override;
   ShapeSample sample(Vec2 u) const override;
-  /// From outside uniform over the cone of directions that meet the sphere; from inside as
-  /// sample().
+  /// From outside, samples uniformly over the cone of directions that meet the sphere. From inside,
+  /// samples in the same way as sample().
   ShapeSample sample_from(Point3 from, Vec2 u) const override;
   float pdf_from(Point3 from, const SurfacePoint& point) const override;
 
  private:
-  /// Both parameters at which the ray's line meets the sphere, ascending.
+  /// Returns both parameters at which the line of the ray intersects the sphere, ascending.
   std::optional<std::array<double, 2>> roots(const Ray& ray) const;
-  /// The surface in the direction `outward` (of any length) from the center.
+  /// Returns the surface point in the direction `outward` (of any length) from the center.
   SurfacePoint surface_towards(Double3 outward) const;
   Double3 from_center(Point3 p) const { return Double3(p) - Double3(center_); }
-  /// 1 - cos of the half-angle of the cone of directions that meet the sphere; empty from inside
-  /// and for flipped spheres, which are lit and seen from inside.
+  /// Returns 1 - cos of the half-angle of the cone of directions that meet the sphere. Empty from
+  /// inside, and for flipped spheres, which are lit and seen from inside.
   std::optional<float> cone_from(Point3 from) const;
 
   Point3 center_;

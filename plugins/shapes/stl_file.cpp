@@ -13,8 +13,8 @@
 namespace pharos {
 namespace {
 
-// A binary file: a free text, the count of triangles, and for each its normal, its vertices and two
-// bytes for whatever else.
+// A binary file consists of free text, the number of triangles, and for each triangle its normal,
+// its vertices and two bytes of arbitrary data.
 constexpr std::size_t kTextSize = 80;
 constexpr std::size_t kHeaderSize = kTextSize + sizeof(std::uint32_t);
 constexpr std::size_t kTriangleSize = 50;
@@ -26,8 +26,8 @@ std::uint32_t binary_count(std::string_view bytes) {
   return count;
 }
 
-/// Text begins with "solid"; so does what some programs write into binary files, which their size
-/// then tells apart.
+/// Returns whether the file is text. Text begins with "solid". Some programs begin binary files
+/// with the same word; the size of the file distinguishes them.
 bool is_text(std::string_view bytes) {
   const std::size_t first = bytes.find_first_not_of(" \t\r\n");
   if (first == std::string_view::npos || !bytes.substr(first).starts_with("solid")) return false;
@@ -35,7 +35,7 @@ bool is_text(std::string_view bytes) {
          bytes.size() != kHeaderSize + kTriangleSize * std::uint64_t{binary_count(bytes)};
 }
 
-/// Three vertices of its own for every triangle; those that agree are joined later.
+/// Adds a triangle with three new vertices. Equal vertices are joined later.
 void add_triangle(TriangleMesh& mesh, const std::array<Point3, 3>& corners) {
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
   mesh.positions.insert(mesh.positions.end(), corners.begin(), corners.end());
@@ -65,11 +65,11 @@ TriangleMesh read_binary(std::string_view bytes) {
   return mesh;
 }
 
-/// Any number of
+/// Reads any number of
 ///   solid NAME
 ///     facet normal X Y Z  outer loop  vertex X Y Z (three times)  endloop  endfacet
 ///   endsolid NAME
-/// where lines may break anywhere but within the names.
+/// Line breaks may occur anywhere except within the names.
 class TextReader {
  public:
   explicit TextReader(const MeshSource& source) : scanner_(source.bytes, source.path.string()) {}
@@ -125,7 +125,7 @@ class TextReader {
 
   void read_facet() {
     expect("normal");
-    for (int i = 0; i < 3; ++i) next();  // which may be NaN where the facet has no area
+    for (int i = 0; i < 3; ++i) next();  // the normal, which may be NaN if the facet has no area
     expect("outer");
     expect("loop");
     std::array<Point3, 3> corners;

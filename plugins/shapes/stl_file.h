@@ -6,9 +6,10 @@
 
 namespace pharos {
 
-/// The triangles of an STL file, text or binary. The order of the vertices says which side is the
-/// outer one; the normals in the file are passed over. Throws InputError for what is cut off, not
-/// finite or no STL: with the line in text, with the triangle in binary files.
+/// Reads the triangles of an STL file, text or binary. The order of the vertices determines the
+/// outer side; the normals in the file are ignored. Throws InputError if the file is truncated, not
+/// STL, or has numbers that are not finite. The message gives the line of a text file, or the
+/// triangle of a binary file.
 TriangleMesh read_stl(const MeshSource& source);
 
 }  // namespace pharos

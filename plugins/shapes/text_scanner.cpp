@@ -18,8 +18,8 @@ bool is_blank_or_break(char c) {
   return static_cast<unsigned char>(c) <= ' ';
 }
 
-/// The first character after the line break that a backslash before `at` would continue over; null
-/// when there is none.
+/// Returns the first character after a line break at `at`, across which a backslash before `at`
+/// would continue the line. Returns null if there is no line break.
 const char* after_break(const char* at, const char* end) {
   if (at != end && *at == '\r') ++at;
   return at != end && *at == '\n' ? at + 1 : nullptr;
@@ -38,7 +38,7 @@ TextScanner::TextScanner(std::string_view text, std::string file)
 }
 
 bool TextScanner::next_line() {
-  while (has_word()) word();  // goes on over continued lines
+  while (has_word()) word();  // continued lines included
   at_ = std::find(at_, end_, '\n');
   if (at_ == end_) return false;
   line_begin_ = word_ = ++at_;
@@ -69,7 +69,7 @@ std::string_view TextScanner::word() {
   word_ = at_;
   if (!exists) return {};
   at_ = std::find_if(at_, end_, is_blank_or_break);
-  if (at_[-1] == '\\' && after_break(at_, end_) != nullptr) --at_;  // the next call goes on there
+  if (at_[-1] == '\\' && after_break(at_, end_) != nullptr) --at_;  // the next call continues there
   return {word_, static_cast<std::size_t>(at_ - word_)};
 }
 

@@ -7,28 +7,29 @@
 
 namespace pharos {
 
-/// Goes through a text file line by line and word by word. A word that begins with '#' begins a
-/// comment, which ends the line; a backslash at the end of a line continues it.
+/// Scans a text file line by line and word by word. A word that begins with '#' begins a comment,
+/// which extends to the end of the line. A backslash at the end of a line continues the line.
 class TextScanner {
  public:
-  /// `file`: for messages.
+  /// `file` is the name used in messages.
   TextScanner(std::string_view text, std::string file);
 
-  /// Passes over the rest of the line and of those that continue it; false at the end of the text.
+  /// Skips the rest of the line and of its continuation lines. Returns false at the end of the
+  /// text.
   bool next_line();
-  /// Whether the line has another word.
+  /// Returns whether the line has another word.
   bool has_word();
-  /// The next word of the line; empty when there is none.
+  /// Returns the next word of the line, or an empty one at the end of the line.
   std::string_view word();
-  /// The rest of the line, without blanks around it.
+  /// Returns the rest of the line, without blanks around it.
   std::string_view rest();
-  /// The next word, which must be a number that is finite in float; 0 where it is too small for
-  /// one.
+  /// Returns the next word as a number, which must be finite as a float. A number too small for a
+  /// float becomes 0.
   float number();
-  /// The next three numbers.
+  /// Returns the next three numbers.
   Vec3 vec3();
 
-  /// Throws InputError, located at the last word, or at the line's end where a word was missing.
+  /// Throws InputError, located at the last word, or at the end of the line if a word was missing.
   [[noreturn]] void fail(const std::string& what) const;
 
  private:
@@ -38,7 +39,7 @@ class TextScanner {
   const char* at_;
   const char* end_;
   const char* line_begin_;
-  const char* word_;  ///< where the last word begins
+  const char* word_;  ///< begin of the last word
   int line_ = 1;
 };
 

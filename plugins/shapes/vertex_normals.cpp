@@ -11,8 +11,8 @@
 namespace pharos {
 namespace {
 
-/// What rounding to single precision may do to a triangle's height, relative to its coordinates,
-/// and to a sum of normals, relative to its terms: four of its steps.
+/// A bound on the effect of rounding to single precision: four rounding steps. For the height of a
+/// triangle it is relative to its coordinates, for a sum of normals relative to its terms.
 constexpr double kRounding = 0x1p-22;
 
 using Corners = std::array<Double3, 3>;
@@ -22,7 +22,7 @@ Corners corners_of(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>&
   return {Double3(mesh.positions[a]), Double3(mesh.positions[b]), Double3(mesh.positions[c])};
 }
 
-/// Of length 1; none without area.
+/// Returns the unit normal; empty for a triangle without area.
 std::optional<Double3> facet_normal(const Corners& p) {
   const Double3 doubled = cross(p[1] - p[0], p[2] - p[0]);
   if (!(length(doubled) > 0)) return std::nullopt;
@@ -37,7 +37,7 @@ double largest_coordinate(const Corners& p) {
   return largest;
 }
 
-/// The angles [rad] of a triangle; none where rounding alone decides on its normal.
+/// Returns the angles [rad] of a triangle; empty if its normal depends on rounding alone.
 std::optional<std::array<double, 3>> angles_of(const Corners& p) {
   const std::array<Double3, 3> edges{p[1] - p[0], p[2] - p[1], p[0] - p[2]};
   const double doubled_area = length(cross(edges[0], edges[1]));
@@ -50,7 +50,7 @@ std::optional<std::array<double, 3>> angles_of(const Corners& p) {
   return angles;
 }
 
-/// Of the triangles around a vertex.
+/// The weighted normals of the triangles around a vertex.
 struct WeightedNormals {
   Double3 sum;
   double weight = 0;
@@ -59,7 +59,7 @@ struct WeightedNormals {
     sum = sum + more * normal;
     weight += more;
   }
-  /// Zero when they cancel out, or there are none.
+  /// Returns zero if the normals cancel out or there are none.
   Vec3 mean() const { return length(sum) > kRounding * weight ? Vec3(normalize(sum)) : Vec3{}; }
 };
 
@@ -82,7 +82,7 @@ std::uint32_t add_copy(TriangleMesh& mesh, std::uint32_t vertex, Vec3 normal) {
   return static_cast<std::uint32_t>(mesh.positions.size() - 1);
 }
 
-/// Gives corners whose vertex has no normal a vertex of their own.
+/// Creates new vertices for the corners whose vertex has no normal.
 void add_facet_normals(TriangleMesh& mesh) {
   for (std::array<std::uint32_t, 3>& triangle : mesh.triangles) {
     const std::optional<Double3> normal = facet_normal(corners_of(mesh, triangle));

@@ -4,12 +4,12 @@
 
 namespace pharos {
 
-/// Gives every vertex without a normal (none in the mesh, or zero) one of length 1: the mean of the
-/// normals of the triangles that name it, each weighted by its angle there. So it does not depend
-/// on how polygons were cut into triangles. Triangles that are thin to within rounding do not
-/// count. Where no triangle counts, or those that do cancel out, each triangle gets a vertex of its
-/// own with its own normal; a normal stays zero only where the triangle has no area. The same bits
-/// for the same mesh.
+/// Gives every vertex without a normal (the mesh has none, or it is zero) a unit normal. The normal
+/// is the mean of the normals of the triangles at the vertex, weighted by their angles there, so it
+/// does not depend on the triangulation of polygons. Triangles whose thickness is within rounding
+/// do not count. If no triangle counts, or the sum cancels out, each triangle gets its own vertex
+/// with its own normal. A normal remains zero only if the triangle has no area. The result is
+/// deterministic: the same mesh gives the same bits.
 ///
 /// Source: Thuermer and Wuethrich, "Computing vertex normals from polygonal facets", Journal of
 /// Graphics Tools 3(1), 1998.

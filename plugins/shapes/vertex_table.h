@@ -8,17 +8,17 @@
 
 namespace pharos {
 
-/// Numbers distinct vertices in the order in which they are first met. A vertex is what `n` words
-/// of 32 bits say: indices, or the bits of its coordinates.
+/// Numbers distinct vertices in the order of their first occurrence. A vertex consists of `n` words
+/// of 32 bits: indices, or the bits of its coordinates.
 template <std::size_t n>
 class VertexTable {
  public:
   using Words = std::array<std::uint32_t, n>;
 
-  /// For at most `most` different vertices.
+  /// Makes a table for at most `most` different vertices.
   explicit VertexTable(std::size_t most) : slots_(std::bit_ceil(2 * most + 1), kNone) {}
 
-  /// The number of a vertex, which is entered if it is the first of its kind.
+  /// Returns the number of a vertex, and enters the vertex if it is new.
   std::uint32_t number_of(const Words& vertex) {
     // Linear probing; the table is at most half full.
     std::size_t slot = hash(vertex) & (slots_.size() - 1);
@@ -29,7 +29,7 @@ class VertexTable {
     return slots_[slot] = static_cast<std::uint32_t>(vertices_.size() - 1);
   }
 
-  /// By number.
+  /// Returns the vertices in the order of their numbers.
   const std::vector<Words>& vertices() const { return vertices_; }
 
  private:
@@ -44,7 +44,7 @@ class VertexTable {
     return h;
   }
 
-  std::vector<std::uint32_t> slots_;  ///< numbers
+  std::vector<std::uint32_t> slots_;  ///< numbers of the vertices
   std::vector<Words> vertices_;
 };
 

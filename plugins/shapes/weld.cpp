@@ -12,7 +12,7 @@
 namespace pharos {
 namespace {
 
-/// Position, normal and texture coordinates of a vertex; zeros where the mesh has none.
+/// The position, normal and texture coordinates of a vertex; zeros if the mesh has none.
 using Numbers = std::array<float, 8>;
 using Bits = VertexTable<8>::Words;
 
@@ -32,7 +32,7 @@ void check_sizes(const TriangleMesh& mesh) {
   }
 }
 
-/// A mesh of these vertices, with what `like` has of them.
+/// Returns a mesh of these vertices, with the attributes that `like` has.
 TriangleMesh mesh_of(const std::vector<Bits>& vertices, const TriangleMesh& like) {
   TriangleMesh mesh;
   for (const Bits& vertex : vertices) {

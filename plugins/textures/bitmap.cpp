@@ -1,7 +1,8 @@
-// bitmap: an image file stretched over the unit square of texture coordinates, (0, 0) at the lower
-// left corner of the picture and (1, 1) at the upper right. Texel centres lie half a texel inside.
-// The color is that of channels R, G, B or else Y, whatever their order; without such names that
-// of the first three channels, or of the first alone when there are fewer.
+// bitmap: an image file stretched over the unit square of texture coordinates, with (0, 0) at the
+// lower left corner of the picture and (1, 1) at the upper right. Texel centers lie half a texel
+// inside. The color comes from the channels R, G, B or else Y, in any order. If there are no
+// channels of these names, it comes from the first three channels, or from the first one alone if
+// there are fewer than three.
 //
 //     { type: bitmap, file: wood.png, filter: bilinear, wrap: repeat, uv_scale: [2, 2] }
 #include "bitmap.h"
@@ -13,8 +14,8 @@ namespace pharos {
 void Bitmap::Settings::describe(Schema<Settings>& s) {
   s.field("file", &Settings::file, "Image file").required();
   s.field("filter", &Settings::filter, "Interpolation between texels");
-  s.field("wrap", &Settings::wrap, "What lies outside the unit square");
-  s.field("color_space", &Settings::color_space, "How 8- and 16-bit images are encoded");
+  s.field("wrap", &Settings::wrap, "How the image continues outside the unit square");
+  s.field("color_space", &Settings::color_space, "Encoding of 8- and 16-bit images");
   s.field("uv_scale", &Settings::uv_scale, "Factors on the texture coordinates");
   s.example("{ file: example.png }");
   s.example("{ file: example.png, filter: nearest, wrap: mirror, uv_scale: [3, 0.5] }");
@@ -51,7 +52,7 @@ Rgb Bitmap::evaluate(const SurfacePoint& point) const {
   return settings_.filter == BitmapFilter::nearest ? nearest(x, y) : bilinear(x, y);
 }
 
-/// The place in [0, 1] whose color belongs to a coordinate anywhere.
+/// Maps any coordinate to the coordinate in [0, 1] whose color it has.
 float Bitmap::wrapped(float coordinate) const {
   switch (settings_.wrap) {
     case BitmapWrap::repeat:
@@ -66,7 +67,7 @@ float Bitmap::wrapped(float coordinate) const {
   return std::clamp(coordinate, 0.0f, 1.0f);
 }
 
-/// The texel at an index that is at most one outside.
+/// Maps an index that is at most one outside the image to a texel's index.
 int Bitmap::neighbor(int index, int size) const {
   if (settings_.wrap == BitmapWrap::repeat) return index < 0 ? size - 1 : index < size ? index : 0;
   return std::clamp(index, 0, size - 1);

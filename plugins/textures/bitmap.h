@@ -15,7 +15,7 @@ struct EnumNames<BitmapFilter> {
       {{"bilinear", BitmapFilter::bilinear}, {"nearest", BitmapFilter::nearest}}};
 };
 
-/// What lies outside the unit square of texture coordinates.
+/// How the image continues outside the unit square of texture coordinates.
 enum class BitmapWrap { repeat, clamp, mirror };
 template <>
 struct EnumNames<BitmapWrap> {

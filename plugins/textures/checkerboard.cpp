@@ -1,5 +1,5 @@
-// checkerboard: squares of two colors. One unit of texture coordinates, once scaled, holds two by
-// two of them: `color0` where u and v lie in the same half of their unit, `color1` elsewhere.
+// checkerboard: squares of two colors. One unit of scaled texture coordinates contains two by two
+// squares: `color0` where u and v lie in the same half of their unit, `color1` elsewhere.
 //
 //     { type: checkerboard, color0: 0.7, color1: [0.2, 0.1, 0.1], uv_scale: [8, 8] }
 #include "checkerboard.h"
@@ -15,7 +15,7 @@ bool in_upper_half(float x) {
 
 void Checkerboard::Settings::describe(Schema<Settings>& s) {
   s.field("color0", &Settings::color0, "Color of the square at the origin").at_least(0);
-  s.field("color1", &Settings::color1, "Color of its neighbors").at_least(0);
+  s.field("color1", &Settings::color1, "Color of the neighboring squares").at_least(0);
   s.field("uv_scale", &Settings::uv_scale, "Factors on the texture coordinates");
   s.example("{ color0: [0.9, 0.1, 0.3], color1: 0, uv_scale: [4, 2.5] }");
 }

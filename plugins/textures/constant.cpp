@@ -1,5 +1,5 @@
-// constant: the same color everywhere. What a bare number or list of three stands for wherever a
-// texture is expected.
+// constant: the same color everywhere. Wherever a texture is expected, a bare number or a list of
+// three numbers stands for this texture.
 //
 //     { type: constant, value: [0.2, 0.5, 0.8] }
 #include "constant.h"

@@ -1,6 +1,6 @@
-// grid: lines of `color1` on a ground of `color0`, wherever a texture coordinate, once scaled, is
-// within `line_width` of a whole number. A line is thus twice that wide, half on either side (as in
-// Mitsuba's gridtexture), and 0.5 leaves nothing of the ground.
+// grid: lines of `color1` on a ground of `color0`. Lines lie where a scaled texture coordinate is
+// within `line_width` of a whole number. A line is thus twice as wide as `line_width`, half on
+// either side (as in Mitsuba's gridtexture), and with 0.5 nothing of the ground is left.
 //
 //     { type: grid, color0: 0.8, color1: [0.1, 0.1, 0.3], line_width: 0.03, uv_scale: [10, 10] }
 #include "grid.h"
@@ -10,7 +10,8 @@ namespace pharos {
 void GridTexture::Settings::describe(Schema<Settings>& s) {
   s.field("color0", &Settings::color0, "Color of the ground").at_least(0);
   s.field("color1", &Settings::color1, "Color of the lines").at_least(0);
-  s.field("line_width", &Settings::line_width, "Reach of a line to either side, of a cell's width")
+  s.field("line_width", &Settings::line_width,
+          "Half the width of a line, relative to the width of a cell")
       .at_least(0)
       .at_most(0.5);
   s.field("uv_scale", &Settings::uv_scale, "Factors on the texture coordinates");

@@ -1,10 +1,10 @@
 // scale: the product of two textures, channel by channel. A number or a color as `factor` tints or
-// dims a texture; an image of shades darkens it in places.
+// dims a texture; an image as `factor` darkens it in places.
 //
-// What it tells about itself: its maximum is the product of both maxima, a bound that is reached
-// where both are at their highest in one channel and place. Its average is exact where one of the
-// two is constant; else their covariance over the unit square of texture coordinates is added, from
-// 64 x 64 points.
+// Its maximum is the product of both maxima. This is an upper bound, which is reached if both
+// textures have their maximum of a channel at the same place. Its average is exact if one of the
+// two is constant. Otherwise it includes their covariance over the unit square of texture
+// coordinates, estimated from 64 x 64 points.
 //
 //     { type: scale, texture: { type: bitmap, file: wood.png }, factor: [1, 0.8, 0.6] }
 #include "scale.h"
@@ -12,11 +12,11 @@
 namespace pharos {
 namespace {
 
-/// The mean of (a - its mean) (b - its mean); exactly 0 where either is constant.
+/// The mean of (a - mean of a) (b - mean of b); exactly 0 if either texture is constant.
 Rgb covariance(const Texture& a, const Texture& b) {
   constexpr int kSteps = 64;
   constexpr float kCell = 1.0f / kSteps, kShare = kCell * kCell;
-  Rgb mean_a, mean_b, mean_product;  // of what is left without the averages
+  Rgb mean_a, mean_b, mean_product;  // of the differences to the averages
   for (int y = 0; y < kSteps; ++y) {
     for (int x = 0; x < kSteps; ++x) {
       SurfacePoint point;
@@ -33,8 +33,9 @@ Rgb covariance(const Texture& a, const Texture& b) {
 }  // namespace
 
 void ScaleTexture::Settings::describe(Schema<Settings>& s) {
-  s.field("texture", &Settings::texture, "What is scaled").required();
-  s.field("factor", &Settings::factor, "What it is multiplied by").otherwise("1");
+  s.field("texture", &Settings::texture, "Texture that is scaled").required();
+  s.field("factor", &Settings::factor, "Number, color or texture that multiplies it")
+      .otherwise("1");
   s.example("{ texture: { type: checkerboard }, factor: [0.5, 2, 1] }");
   s.example("{ texture: { type: checkerboard }, factor: { type: grid, line_width: 0.2 } }");
 }

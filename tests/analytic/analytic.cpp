@@ -10,11 +10,12 @@
 namespace pharos::testing {
 namespace {
 
-/// The mean over the seeds with an error that is small enough.
+/// Returns the mean over the seeds, rendered with enough samples for a small standard error.
 Estimate precise_mean(const std::string& config, double expected) {
-  constexpr double kPower90 = 1.34;  // that share of t of 15 degrees of freedom lies below
+  constexpr double kPower90 = 1.34;  // 90 % quantile of t, 15 degrees of freedom
   const double wanted = kDetectableBias * expected / (kLimit + kPower90);
-  // Events that one path in 500 meets must have happened before a spread means anything.
+  // The first step has 16 samples per pixel: events with a probability of 1/500 per path must occur
+  // before the spread over seeds is meaningful.
   for (int spp = 16;; spp *= 4) {
     const Estimate found =
         mean_over_seeds(config + fmt::format("budget: {{ spp: {} }}\n", spp), kRuns);
@@ -27,7 +28,7 @@ Estimate precise_mean(const std::string& config, double expected) {
 
 void check_value(const std::string& config, double expected) {
   const Estimate found = precise_mean(config, expected);
-  // Without noise, what is left is the rounding of floats.
+  // If there is no noise, rounding errors of floats remain.
   const double error = std::max(found.standard_error, 1e-5 * expected);
   const auto t = [&](double value) { return (found.mean - value) / error; };
   CAPTURE(found.mean);
@@ -50,7 +51,7 @@ double polygon_irradiance(const Transform& quad) {
 }
 
 void Floor::check_irradiance(double expected, const std::vector<Strategy>& strategies) const {
-  // The seam between the floor's two triangles stays away from the origin.
+  // The origin is not on the seam between the floor's two triangles.
   const std::string scene = fmt::format(
       R"(scene:
   materials:

@@ -1,4 +1,4 @@
-// The irradiance under lights in closed form, by every strategy and sampler.
+// Irradiance under lights with known closed forms, for every strategy and sampler.
 
 #include <array>
 #include <cmath>
@@ -14,7 +14,7 @@ namespace {
 
 using std::numbers::pi;
 
-/// A shape that shines with radiance 3 and reflects nothing.
+/// Returns a shape that emits radiance 3 and reflects nothing.
 std::string lamp(const std::string& shape,
                  const std::string& emitter = "{ type: area, radiance: 3 }") {
   return fmt::format("    - {{ {}, material: black, emitter: {} }}\n", shape, emitter);
@@ -24,15 +24,15 @@ std::string placed(const std::string& type, const Transform& to_world) {
   return fmt::format("type: {}, to_world: {}", type, Value<Transform>::default_text(to_world));
 }
 
-/// Faces the floor from height `h`.
+/// Places a shape at height `h`, facing the floor.
 Transform overhead(float h, Vec3 scale) {
   return Transform::translate({0, 0, h}) * Transform::rotate({1, 0, 0}, 180) *
          Transform::scale(scale);
 }
 
-/// polygon_irradiance() of a rectangle of half-edges a and b parallel to the floor, centered at
-/// height h: pi times four times the view factor of a quarter (Howell, catalog of configuration
-/// factors, B-4).
+/// Returns polygon_irradiance() of a rectangle with the half-edges a and b, parallel to the floor
+/// and centered at height h: pi times four times the view factor of a quarter (Howell, catalog of
+/// configuration factors, B-4).
 double rectangle_irradiance(double a, double b, double h) {
   const double x = a / h, y = b / h;
   const double rx = std::sqrt(1 + x * x), ry = std::sqrt(1 + y * y);
@@ -53,7 +53,7 @@ TEST_CASE("a tilted rectangle") {
 }
 
 TEST_CASE("a sphere above the horizon") {
-  // pi L (r / d)^2 cos: as a disk of the sphere's solid angle.
+  // pi L (r / d)^2 cos: the same as for a disk with the solid angle of the sphere.
   const double d2 = 0.2 * 0.2 + 0.7 * 0.7;
   Floor(lamp("type: sphere, center: [0.2, 0, 0.7], radius: 0.6"), "")
       .check_irradiance(3 * pi * 0.36 / d2 * 0.7 / std::sqrt(d2), kStrategies);
@@ -69,7 +69,8 @@ TEST_CASE("a disk overhead") {
   const double sine_squared = r * r / (h * h + r * r);
   Floor(lamp(disk), "").check_irradiance(3 * pi * sine_squared, kStrategies);
 
-  // With radiance L c^n, c the cosine at both ends: the integral of 2 pi L c^(n+1) over c.
+  // With radiance L c^n, where c is the cosine at both ends, the irradiance is the integral of 2 pi
+  // L c^(n+1) over c.
   const double c = std::sqrt(1 - sine_squared);
   Floor(lamp(disk, "{ type: directional_area, radiance: 3, exponent: 1 }"), "")
       .check_irradiance(3 * 2 * pi * (1 - std::pow(c, 3)) / 3, kStrategies);

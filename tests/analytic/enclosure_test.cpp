@@ -1,5 +1,5 @@
-// A closed sphere whose wall emits 1 and reflects the share a of what it receives: light settles at
-// 1 + a + a^2 + … = 1 / (1 - a) everywhere, in every direction.
+// A closed sphere whose wall emits radiance 1 and reflects the share a of the light that it
+// receives. The radiance is 1 + a + a^2 + … = 1 / (1 - a) everywhere and in every direction.
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -31,7 +31,7 @@ void check_enclosure(double albedo, const std::string& integrator) {
 
 struct Wall {
   double albedo;
-  int bounces;  ///< after which 0.2 % of the light is still to come
+  int bounces;  ///< number of bounces after which 0.2 % of the light is missing
 };
 constexpr Wall kWalls[] = {{0.2, 4}, {0.5, 9}, {0.8, 28}, {0.95, 121}};
 
@@ -46,7 +46,8 @@ TEST_CASE("enclosure: paths end by roulette") {
 
 TEST_CASE("enclosure: paths end by length") {
   for (const auto& [albedo, bounces] : kWalls) {
-    // What is cut off is 4e-6 of the light, below the rounding that check_value() allows for.
+    // The cut-off part is 4e-6 of the light, less than the rounding error that check_value()
+    // allows.
     check_enclosure(albedo, fmt::format("max_depth: {}", 2 * bounces));
   }
 }

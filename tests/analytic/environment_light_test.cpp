@@ -1,4 +1,4 @@
-// The irradiance under environments in closed form, by every strategy and sampler.
+// Irradiance under environments with known closed forms, for every strategy and sampler.
 
 #include <cmath>
 #include <filesystem>
@@ -22,8 +22,9 @@ TEST_CASE("a constant sky") {
 }
 
 TEST_CASE("a band of an environment map") {
-  // A row of pixels is a hat of half-width w = pi / height in the angle from the pole. Times the
-  // cosine, over all azimuths, it integrates to pi sin(2 angle) w sinc^2(w).
+  // Along the angle from the pole, a row of pixels is a hat function of half-width w = pi / height.
+  // Multiplied by the cosine and integrated over all azimuths, it gives pi sin(2 angle) w
+  // sinc^2(w).
   constexpr int height = 8;
   constexpr double w = pi / height;
   Image image(16, height, {"R", "G", "B"});

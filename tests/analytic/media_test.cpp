@@ -1,5 +1,5 @@
-// Media whose light is known in closed form: what gets through, what is scattered once, and white
-// furnaces, in which fog that only scatters cannot be seen.
+// Media with known closed forms: transmitted light, light that is scattered once, and white
+// furnaces, in which purely scattering fog is invisible.
 
 #include <cmath>
 
@@ -19,13 +19,13 @@ double mean_of(double r, double g, double b) {
   return (r + g + b) / 3;
 }
 
-/// A camera at the origin that looks along +z through a needle's eye.
+/// A camera at the origin with a tiny field of view, which looks along +z.
 const std::string kNeedle =
     "  sensor: { type: perspective, fov: 0.01, to_world: { look_at: { origin: [0, 0, 0], target: "
     "[0, 0, 1], up: [0, 1, 0] } } }\n";
 
 TEST_CASE("media: what gets through two nested boxes of other media") {
-  // A slab from z = 1 to 2, and in it another one from 1.25 to 1.5.
+  // A slab from z = 1 to 2, which contains another slab from z = 1.25 to 1.5.
   const auto scene = [](const char* scattering, const char* absorption) {
     return fmt::format(
         R"(scene:
@@ -66,8 +66,7 @@ TEST_CASE("media: every channel has its own coefficients") {
   }
 }
 
-/// A spot of a floor, seen from above at the given height, and everything between in a box of a
-/// medium that only absorbs.
+/// A spot of a floor and a camera at height 0.8, both inside a ball of a medium that only absorbs.
 std::string spot_in_box(const std::string& lights) {
   return R"(scene:
   media:
@@ -83,7 +82,8 @@ std::string spot_in_box(const std::string& lights) {
 }
 
 TEST_CASE("media: lights are seen through boundaries, by samples and by chance alike") {
-  // From the floor's spot all ways out of the ball are 2 long, the one to the camera 1.
+  // From the spot on the floor, every way out of the ball has length 2. The way to the camera has
+  // length 1.
   const auto left = [](double sigma) { return std::exp(-3 * sigma); };
   const double share = 0.5 * mean_of(left(0.2), left(0.5), left(1));
   for (const Strategy& strategy : kStrategies) {
@@ -94,14 +94,14 @@ TEST_CASE("media: lights are seen through boundaries, by samples and by chance a
                                 strategy.settings),
                 share);
   }
-  // A lamp 3 above, beyond the boundary.
+  // A point light at height 3, outside the boundary.
   check_value(spot_in_box("  emitters: [ { type: point, intensity: 9, position: [0, 0, 3] } ]") +
                   kFilm + "integrator: { type: path, max_depth: 2 }\nsampler: independent\n",
               share / kPi64);
 }
 
 TEST_CASE("media: light that is scattered once") {
-  // A lamp 1 beside the middle of the line of sight, in fog that goes on for ever.
+  // A lamp at distance 1 from the middle of the line of sight, in infinite fog.
   struct Fog {
     const char* phase;
     double g;
@@ -113,7 +113,7 @@ TEST_CASE("media: light that is scattered once") {
     const auto seen = [g = g](double scattering, double absorption) {
       const auto at = [&](double t, double) {
         const double away = std::hypot(t - 1, 1.0), sigma = scattering + absorption;
-        // Light flies from the lamp to the line, then to the camera, along -z.
+        // Light travels from the lamp to the line and then to the camera, along -z.
         const double cosine = (t - 1) / away * -1;
         const double p = (1 - g * g) / (4 * kPi64 * std::pow(1 + g * g - 2 * g * cosine, 1.5));
         return scattering * p * std::exp(-sigma * (t + away)) / (away * away);

@@ -1,4 +1,4 @@
-// The irradiance of light that comes through a hole, by path tracing guided to it.
+// Irradiance of light that comes through a hole, rendered by guided path tracing.
 
 #include <tuple>
 
@@ -10,8 +10,8 @@
 namespace pharos::testing {
 namespace {
 
-/// A black wall at height `h` with a square hole of half-edge `r` about `x`, and a lamp of radiance
-/// 3 above that fills all that can be seen through the hole.
+/// Returns a black wall at height `h` with a square hole of half-edge `r` about `x`. A lamp of
+/// radiance 3 above the wall fills everything that is visible through the hole.
 std::string wall_with_hole(double h, double r, double x) {
   constexpr double kFar = 1;
   const auto plate = [&](double x0, double x1, double y0, double y1) {

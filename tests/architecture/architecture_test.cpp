@@ -1,4 +1,4 @@
-// Who may include whom (docs/architecture.md): arrows run one way.
+// Rules for includes (docs/architecture.md): every folder may include only certain other folders.
 
 #include <algorithm>
 #include <filesystem>
@@ -12,7 +12,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The framework's folders from bottom to top: each includes itself and those before it.
+/// The framework's folders from bottom to top. Each folder may include itself and the folders
+/// before it.
 const std::vector<std::string> kLayers{"core",       "statistics",  "config",    "scene",
                                        "sampling",   "guiding",     "rendering", "experiments",
                                        "laboratory", "conformance", "app"};
@@ -24,10 +25,11 @@ std::size_t layer(const std::string& folder) {
 
 struct Include {
   fs::path file;     ///< relative to the project's root
-  std::string name;  ///< what stands between the brackets or quotes
+  std::string name;  ///< text between the brackets or quotes
 };
 
-/// Every #include in the sources below a folder, out-of-tree projects left out.
+/// Returns every #include in the sources below a folder, except the sources of out-of-tree
+/// projects.
 std::vector<Include> includes_below(const std::string& folder) {
   std::vector<Include> all;
   const fs::path root = PHAROS_SOURCE;
@@ -49,7 +51,8 @@ bool starts_with(const std::string& text, const std::string& start) {
   return text.rfind(start, 0) == 0;
 }
 
-/// "scene" for <pharos/scene/shape.h>; empty for other includes.
+/// Returns the folder of an include, such as "scene" for <pharos/scene/shape.h>, and an empty
+/// string for includes of other libraries.
 std::string framework_folder(const std::string& include) {
   if (!starts_with(include, "pharos/")) return {};
   return include.substr(7, include.find('/', 7) - 7);

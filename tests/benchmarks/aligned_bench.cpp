@@ -1,12 +1,13 @@
-// What aligned sampling costs. `aligned.synthesis_s.N` is the time, on all cores, of a set of N
-// points with one direction beside the axes. `aligned.value_ns` is that of an aligned number, of
-// paths that ask for eleven, with its share of a path's beginning, and `sampler.aligned.*` is as in
-// sampler_costs.h: of eleven numbers two are aligned and nine the base's. `aligned.estimation_spp`
-// is the time that the sampler takes before rendering, less its base's, over that of a plain sample
-// of all pixels, of the Cornell box with direct light alone, whose samples cost little.
-// `aligned.slope.*` is how variance falls on one edge and on two, with points aligned with them,
-// over 2^8 to 2^12 points, and `aligned.variance_gain.4096` the least variance that another sampler
-// of configs/convergence/aligned.yaml has on the one edge over that of aligned points.
+// Costs of aligned sampling. `aligned.synthesis_s.N` is the time, on all cores, to synthesize a set
+// of N points with one direction in addition to the axes. `aligned.value_ns` is the time of an
+// aligned number, for paths that ask for eleven numbers, including its share of the beginning of a
+// path. `sampler.aligned.*` is defined as in sampler_costs.h: two of eleven numbers are aligned,
+// and nine come from the base sampler. `aligned.estimation_spp` is the time that the sampler takes
+// before rendering, minus the time of its base, in units of one plain sample of all pixels. It is
+// measured in the Cornell box with direct light alone, whose samples are cheap. `aligned.slope.*`
+// is the slope of the variance on one edge and on two edges, with points aligned with them, over
+// 2^8 to 2^12 points. `aligned.variance_gain.4096` is the smallest variance of the other samplers
+// in configs/convergence/aligned.yaml on one edge, divided by the variance of aligned points.
 
 #include <algorithm>
 #include <aligned/synthesis.h>
@@ -29,7 +30,7 @@ namespace {
 
 constexpr PixelGrid kFilm{256, 256};
 constexpr std::uint32_t kSamples = 64;
-constexpr std::uint16_t kLights = 9;  ///< that values are asked for: eleven numbers with others
+constexpr std::uint16_t kLights = 9;  ///< positions on lights; lens and BSDF make eleven numbers
 
 template <class Work>
 double seconds_of(Work&& work) {
@@ -49,7 +50,7 @@ Measurement synthesis(int repeats) {
   return seconds;
 }
 
-/// The numbers that the sampler is asked for here are all aligned.
+/// Asks for eleven numbers, which are all aligned.
 float aligned_values(const SampleStream& stream) {
   const Vec2 lens = stream.get_2d({Purpose::lens});
   const Vec2 bsdf = stream.get_2d({Purpose::bsdf_direction, 1});
@@ -100,7 +101,7 @@ Measurement estimation(int repeats) {
   const auto prepare = [&](const LoadedConfig& loaded) {
     return seconds_of([&] { loaded.config.sampler->prepare(kFilm, plan, probe.get()); });
   };
-  prepare(aligned);  // sets are read once
+  prepare(aligned);  // so that sets are read before timing
   RenderJob job(plain.config);
   Measurement spp{"aligned.estimation_spp", "samples", {}};
   for (int i = 0; i < repeats; ++i) {
@@ -116,7 +117,8 @@ std::size_t index_of(const std::vector<Named>& all, std::string_view name) {
   return static_cast<std::size_t>(std::ranges::find(all, name, &Named::name) - all.begin());
 }
 
-/// The variances on one edge at the largest number: the others' least over the aligned points'.
+/// Returns the gain on one edge at the largest number of points: the smallest variance of the other
+/// samplers divided by the variance of the aligned points.
 double variance_gain(const laboratory::LaboratoryResults& results, std::size_t edge,
                      std::size_t aligned) {
   double least = kInfinity;

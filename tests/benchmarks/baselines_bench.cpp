@@ -1,7 +1,7 @@
-// What the baselines of guiding cost: directional quadtrees (ppg) and von Mises-Fisher mixtures
-// (pavmm), learned from 200,000 steps of a synthetic light field in the Cornell box: sixteen spots
-// of light around it, seen from everywhere. Queries, directions and densities on one thread,
-// updates on two.
+// Costs of the baselines of guiding: directional quadtrees (ppg) and von Mises-Fisher mixtures
+// (pavmm). Both learn from 200,000 steps of a synthetic light field in the Cornell box, which
+// consists of sixteen spots of light, seen from random positions. Queries, directions and densities
+// are measured on one thread, updates on two.
 
 #include <chrono>
 
@@ -30,7 +30,8 @@ struct Spot {
   float radius, light;
 };
 
-/// Paths of one guidable step each: half of them at a spot, half at random.
+/// Returns paths with one guidable step each. Half of the steps hit a spot, and the others are
+/// random.
 PathLog light_field(const Bounds3& bounds, std::uint64_t seed) {
   RandomStream spots_random(1), random(seed, 2);
   const auto inside = [&](RandomStream& stream) {
@@ -72,7 +73,8 @@ Ref<Contract> build(const std::string& settings, const Registry& registry) {
   return registry.build<Contract>(parse_yaml(settings, "benchmark"), context, resolved);
 }
 
-/// What a learner makes of the light field, and how long its updates take on two threads [s].
+/// The result of learning the light field: the model, and the times of the updates on two threads
+/// [s].
 struct Learned {
   std::shared_ptr<const GuidingModel> model;
   std::vector<double> seconds;
@@ -100,7 +102,7 @@ class BaselineMeter {
   BaselineMeter(const Registry& registry, const Scene& scene, int repeats)
       : registry_(registry), scene_(scene), repeats_(repeats) {}
 
-  /// Times of a guider's answers, under these names (empty: not wanted).
+  /// Measures the answers of a guider under these names. An empty name omits the figure.
   void answers(const std::string& learner, const std::string& guider, const char* pdf,
                const char* sample, const char* query) {
     const Ref<Guider> technique = build<Guider>(guider, registry_);
@@ -120,7 +122,8 @@ class BaselineMeter {
     }
   }
 
-  /// Absorbing and learning from 200,000 steps: the first time, and later ones.
+  /// Measures the time to absorb and learn from 200,000 steps, for the first update and for later
+  /// ones.
   void updates(const std::string& name, const std::string& learner) {
     Measurement first{name + ".first_update_s.200k", "s", {}},
         later{name + ".update_s.200k", "s", {}};
@@ -173,7 +176,8 @@ std::vector<Measurement> bench_baselines(int repeats) {
   meter.answers(lobes(32), plain, "pavmm.pdf_ns.k32", "pavmm.sample_ns.k32", "pavmm.query_ns.k32");
   meter.updates("pavmm", "parallax_aware_mixtures");
   if (registry.find(Learner::contract_name, "open_pgl") != nullptr) {
-    // No look-ups of neighbors, as ours make none; its cells are not told.
+    // Look-ups of neighbors are off, as in the guides of Pharos. Open PGL does not report its
+    // cells.
     const std::string field = "{ type: open_pgl, neighbors: false }";
     meter.answers(field, "{ type: open_pgl, cosine: false }", "open_pgl.pdf_ns",
                   "open_pgl.sample_ns", "open_pgl.query_ns");

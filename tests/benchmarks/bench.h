@@ -6,7 +6,7 @@
 
 namespace pharos::bench {
 
-/// One figure, measured several times.
+/// One figure with the values of all its runs.
 struct Measurement {
   std::string name;  ///< such as "rays.cornell-box.mrays"
   std::string unit;
@@ -17,8 +17,8 @@ struct Measurement {
   double high() const;
 };
 
-/// A group of measurements that is run as one, interleaved where it compares. `repeats` is how
-/// often each figure is measured.
+/// A group of measurements that run together. Compared measurements are interleaved. `repeats` is
+/// the number of runs of each figure.
 using Benchmark = std::function<std::vector<Measurement>(int repeats)>;
 
 std::vector<Measurement> bench_rays(int repeats);

@@ -6,15 +6,16 @@
 
 namespace pharos::bench {
 
-/// `scene: FILE` for a scene that comes along, by the name of its folder.
+/// Returns the entry `scene: FILE` of a config, for a scene of the repository given by the name of
+/// its folder.
 std::string scene_entry(const std::string& name);
 
-/// 300,000 triangles: a field of spheres, lit by a lamp and a sky. Lives as long as its mesh is
-/// needed.
+/// A scene of 300,000 triangles: a field of spheres, lit by a lamp and a sky. The mesh file exists
+/// as long as this object.
 class SphereField {
  public:
   SphereField();
-  /// `scene: …` of a config.
+  /// Returns the entry `scene: …` of a config.
   std::string entry() const;
 
  private:

@@ -1,5 +1,6 @@
-// What the guiders of spatial Gaussians cost, by the number of components: a mixture of exactly so
-// many, around the Cornell box, of which each vertex sees the same ones. On one thread.
+// Costs of the guiders of spatial Gaussians, by the number of components. The mixture has exactly
+// this number of components, around the Cornell box, and every vertex sees all of them. All figures
+// are measured on one thread.
 
 #include <cmath>
 
@@ -19,7 +20,7 @@ namespace {
 
 constexpr std::size_t kVertices = 20'000;
 
-/// Needles, plates and balls between and behind the walls of a scene.
+/// Returns needles, plates and balls between and behind the walls of a scene.
 std::vector<SpatialGaussian> components_around(const Bounds3& bounds, std::size_t count) {
   RandomStream random(1);
   const auto number = [&](float low, float high) { return low + (high - low) * random.next_1d(); };
@@ -36,7 +37,7 @@ std::vector<SpatialGaussian> components_around(const Bounds3& bounds, std::size_
   return components;
 }
 
-/// A mixture that is the same everywhere.
+/// A model that returns the same mixture everywhere.
 class FixedMixture final : public GuidingModel, public SpatialMixture {
  public:
   explicit FixedMixture(std::vector<SpatialGaussian> components)
@@ -63,7 +64,8 @@ class GuiderMeter {
  public:
   GuiderMeter(const Registry& registry, const Scene& scene) : registry_(registry), scene_(scene) {}
 
-  /// Figures of one guider with `count` components; sample and query times only on request.
+  /// Returns the figures of one guider with `count` components. Times of samples and queries are
+  /// returned only if `all` is true.
   std::vector<Measurement> measure(const std::string& guider, std::size_t count, bool all,
                                    int repeats) const {
     const Ref<Guider> technique = build_guider(guider, registry_);

@@ -11,17 +11,18 @@
 namespace pharos::bench {
 namespace {
 
-/// Vertices that are asked together: so few that what queries make stays in the nearest cache.
+/// Number of vertices that are measured together. It is small enough that the results of queries
+/// stay in the nearest cache.
 constexpr std::size_t kBatch = 8;
 
-/// Processor time of this thread [ns]: what other programs take does not count.
+/// Returns the processor time of this thread [ns], which excludes the time of other programs.
 double thread_ns() {
   timespec now;
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
   return 1e9 * static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec);
 }
 
-/// What thread_ns() itself takes [ns].
+/// Returns the time of thread_ns() itself [ns].
 double clock_ns() {
   constexpr int kTimes = 10'000;
   const double start = thread_ns();
@@ -29,7 +30,7 @@ double clock_ns() {
   return (thread_ns() - start) / kTimes;
 }
 
-/// Keeps results from being optimized away.
+/// Prevents the compiler from optimizing results away.
 volatile float sink;
 
 class CostMeter {
@@ -39,7 +40,7 @@ class CostMeter {
     distributions_.reserve(kBatch);
   }
 
-  /// Adds a batch's times [ns].
+  /// Measures a batch and adds its times [ns].
   void add(std::span<const GuideQuery> batch, std::uint64_t first) {
     prepare(batch, first);
     float sum = 0;
@@ -67,7 +68,8 @@ class CostMeter {
   GuideCosts take() { return std::exchange(costs_, {}); }
 
  private:
-  /// Vertices and their surfaces are in the caches when a render asks: each is asked once before.
+  /// Queries each vertex once before measuring, because in a render the vertices and their surfaces
+  /// are already in the caches.
   void prepare(std::span<const GuideQuery> batch, std::uint64_t first) {
     distributions_.clear();
     streams_.clear();
@@ -98,7 +100,7 @@ GuideCosts measure_costs(const BoundGuider& guider, const std::vector<GuideQuery
       meter.add({queries.data() + i, n}, i);
     }
   };
-  ask_all();  // warms caches, and fills the arena with blocks
+  ask_all();  // warms the caches and allocates the arena's blocks
   meter.take();
   const std::uint64_t before = testing::allocation_count();
   ask_all();

@@ -7,16 +7,16 @@
 
 namespace pharos::bench {
 
-/// What a guide takes on one thread, in processor time.
+/// Costs of a guide on one thread, in processor time.
 struct GuideCosts {
   double query_ns = 0;            ///< BoundGuider::query()
-  double sample_ns = 0;           ///< GuidingDistribution::propose(), its random numbers included
+  double sample_ns = 0;           ///< GuidingDistribution::propose() with its random numbers
   double pdf_ns = 0;              ///< GuidingDistribution::density()
-  std::uint64_t allocations = 0;  ///< from the heap, in all of them together
+  std::uint64_t allocations = 0;  ///< heap allocations of all three together
 };
 
-/// Asks all queries once, a few vertices at a time, so that what a query has made is as near as it
-/// is in a render. The arena's own blocks are there beforehand.
+/// Measures all queries once, a few vertices at a time, so that the results of a query are as close
+/// in the caches as in a render. The arena's own blocks are allocated before.
 GuideCosts measure_costs(const BoundGuider& guider, const std::vector<GuideQuery>& queries);
 
 }  // namespace pharos::bench

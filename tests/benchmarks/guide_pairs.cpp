@@ -9,9 +9,9 @@ namespace {
 
 using conformance::Subject;
 
-template <class Contract>
-std::string model_of(const Subject& subject) {
-  return static_cast<const Contract&>(*subject.component).traits().model;
+bool suit(const Subject& guider, const Subject& learner) {
+  const auto model = static_cast<const Learner&>(*learner.component).empty_model();
+  return static_cast<const Guider&>(*guider.component).find(*model) != nullptr;
 }
 
 }  // namespace
@@ -25,7 +25,7 @@ std::vector<GuidePair> guide_pairs(const Registry& registry) {
   std::vector<GuidePair> pairs;
   for (const Subject& learner : subjects_of(Learner::contract_name)) {
     for (const Subject& guider : guiders) {
-      if (model_of<Learner>(learner) != model_of<Guider>(guider)) continue;
+      if (!suit(guider, learner)) continue;
       const std::string &a = learner.plugin->name, &b = guider.plugin->name;
       pairs.push_back(
           {a == b ? a : a + "+" + b, to_flow_yaml(learner.node), to_flow_yaml(guider.node)});

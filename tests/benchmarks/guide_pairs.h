@@ -7,14 +7,14 @@
 
 namespace pharos::bench {
 
-/// A learner and a guider of the same model, with their defaults or, where they have none, the
-/// first example they state.
+/// A learner and a guider with the same kind of model. They use their defaults or, if they have
+/// none, the first example that they declare.
 struct GuidePair {
-  std::string name;             ///< of both plugins, or "learner+guider" where names differ
-  std::string learner, guider;  ///< settings with `type` on one line
+  std::string name;             ///< of both plugins, or "learner+guider" if the names differ
+  std::string learner, guider;  ///< settings with `type`, on one line
 };
 
-/// Every pair of the registry.
+/// Returns every pair of the registry.
 std::vector<GuidePair> guide_pairs(const Registry& registry);
 
 }  // namespace pharos::bench

@@ -12,7 +12,7 @@ using conformance::StageVertex;
 constexpr int kFilm = 96;
 constexpr std::uint16_t kMostBounces = 8;
 
-/// The vertices of one path from the sensor.
+/// One path from the sensor.
 class CameraPath {
  public:
   CameraPath(const Scene& scene, const GuidingFrame& guiding, const PreparedSensor& sensor,
@@ -23,7 +23,7 @@ class CameraPath {
     previous_ = {.position = ray_.origin, .normal = lens.normal, .kind = VertexKind::sensor};
   }
 
-  /// Walks the path and adds the queries that it meets.
+  /// Follows the path and adds a query for each vertex where a guide can be asked.
   void add_queries(std::vector<GuideQuery>& queries) {
     for (std::uint16_t bounce = 1; bounce <= kMostBounces; ++bounce) {
       std::unique_ptr<const StageVertex> vertex = next_vertex(bounce);
@@ -50,7 +50,8 @@ class CameraPath {
                                                -ray_.direction, bounce);
   }
 
-  /// Draws from the BSDF: where the path goes on without a guide. Empty where it ends.
+  /// Samples the BSDF. Returns the direction in which the path continues without a guide, or
+  /// nothing if the path ends.
   std::optional<Vec3> scatter(GuideQuery& query) {
     const float u_choice = random_.next_1d();
     const auto s = query.vertex->scattering().sample(u_choice, random_.next_2d());
@@ -61,7 +62,7 @@ class CameraPath {
     return s->direction;
   }
 
-  /// Draws from the guide; whether there is something to ask.
+  /// Samples the guide. Returns whether the query is complete.
   bool is_whole(GuideQuery& query) {
     if (query.scattered.event == Event::none) return false;
     const Guided guide(guiding_, *query.vertex);

@@ -1,7 +1,7 @@
-// What guiding costs, for every pair of learner and guider that is registered: the time of a
-// guide's answers on one thread, and of two threads' rays a second the share that is left of an
-// unguided render's. Both take the model that 15 iterations of training have made, of 4 samples a
-// pixel each.
+// Costs of guiding, for every registered pair of learner and guider: the time of a guide's answers
+// on one thread, and the rays per second of a guided render relative to an unguided one, on two
+// threads. Both use the model that is learned in 15 training iterations with 4 samples per pixel
+// each.
 
 #include <cstdio>
 
@@ -22,7 +22,7 @@
 namespace pharos::bench {
 namespace {
 
-constexpr std::size_t kVertices = 50'000;  // of two densities each
+constexpr std::size_t kVertices = 50'000;  // two densities are measured at each vertex
 constexpr int kThreads = 2;
 constexpr const char* kGrowthScene = "camera-obscura";
 
@@ -40,7 +40,7 @@ integrator:
                      scene, pair.learner, pair.guider);
 }
 
-/// A pair that has learned a scene. Throws RunError when it knows nothing after training.
+/// A pair that has been trained on a scene. Throws RunError if it has learned nothing.
 class Trained {
  public:
   Trained(const GuidePair& pair, const std::string& scene, const Registry& registry)
@@ -123,7 +123,8 @@ std::vector<Measurement> measure_pair(const GuidePair& pair, const SphereField& 
   return all;
 }
 
-/// How the cost of focal guiding grows as its octrees become finer (Rath et al. 2023, fig. 7).
+/// Measures how the cost of focal guiding grows as its octrees become finer (Rath et al. 2023, fig.
+/// 7).
 std::vector<Measurement> measure_growth(const Registry& registry, int repeats) {
   std::vector<Measurement> all;
   for (const char* gamma : {"1e-1", "1e-2", "1e-3", "1e-4", "1e-5"}) {

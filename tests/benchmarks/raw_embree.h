@@ -6,8 +6,8 @@
 
 namespace pharos::bench {
 
-/// The triangles of a scene in an Embree scene of their own, built as Pharos builds its own and
-/// asked without anything around it.
+/// The triangles of a scene in a separate Embree scene. It is built in the same way as the Embree
+/// scenes of Pharos and queried without any additional code.
 class RawEmbree {
  public:
   explicit RawEmbree(const Scene& scene);
@@ -15,7 +15,7 @@ class RawEmbree {
   RawEmbree(const RawEmbree&) = delete;
   RawEmbree& operator=(const RawEmbree&) = delete;
 
-  /// Nearest hits of all rays; returns how many hit something.
+  /// Finds the nearest hits of all rays. Returns the number of rays that hit something.
   std::size_t intersect_all(std::span<const Ray> rays) const;
 
  private:

@@ -8,7 +8,7 @@
 namespace pharos::bench {
 namespace {
 
-/// Samples a pixel in all, and in a work unit.
+/// Samples per pixel in total, and in a work unit.
 constexpr std::uint32_t kSamples = 32, kUnitSamples = 2;
 
 }  // namespace
@@ -24,7 +24,7 @@ RenderRate::RenderRate(const RenderConfig& config, const Scene& scene)
 double RenderRate::mrays(const GuidingFrame* guiding) const {
   const Film film(config_.film.window(), config_.film.filter, config_.film.least_weight);
   std::atomic<std::uint64_t> rays = 0;
-  // Iterations of training come before this one and have other random numbers.
+  // The iteration after training, which has other random numbers than the training iterations.
   const std::uint32_t iteration = config_.integrator->guiding()->training.iterations;
   const auto start = std::chrono::steady_clock::now();
   parallel_for(kSamples / kUnitSamples, [&](std::size_t i) {

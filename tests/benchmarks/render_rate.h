@@ -7,13 +7,14 @@
 
 namespace pharos::bench {
 
-/// Renders the film of a config again and again, without training.
+/// Renders the film of a config repeatedly, without training.
 class RenderRate {
  public:
-  /// `scene` outlives the object.
+  /// `scene` must outlive this object.
   RenderRate(const RenderConfig& config, const Scene& scene);
 
-  /// Millions of rays a second of a final image, guided by `guiding`; null: unguided.
+  /// Returns millions of rays per second of a final image. `guiding` is the guide; null renders
+  /// unguided.
   double mrays(const GuidingFrame* guiding) const;
 
  private:

@@ -9,7 +9,7 @@ namespace {
 
 volatile float sink;
 
-constexpr std::uint16_t kVertices = 5;  // with a light and a BSDF each
+constexpr std::uint16_t kVertices = 5;  // each with a light and a BSDF
 constexpr int kValues = 1 + 2 * kVertices;
 
 float first_bits(const SampleStream& stream) {

@@ -10,18 +10,19 @@
 
 namespace pharos::bench {
 
-/// What is rendered where numbers are timed.
+/// The film and the plan for which numbers are timed.
 inline constexpr PixelGrid kTimedFilm{1280, 720};
 inline constexpr SamplePlan kTimedPlan{.seed = 1, .samples_per_pixel = 64};
 
-/// Processor time of this thread [ns]: what other programs take does not count.
+/// Returns the processor time of this thread [ns], which excludes the time of other programs.
 double thread_ns();
 
-/// Keeps a result from being optimized away.
+/// Prevents the compiler from optimizing a result away.
 void keep(float result);
 
-/// The mean time [ns] of paths, of which `use` makes a number from the path's stream. They run
-/// through a tile of the film as a render does: pixel by pixel, all samples of each.
+/// Returns the mean time [ns] of a path. For each path, `use` computes a number from the path's
+/// stream. The paths run through a tile of the film in the same order as in a render: pixel by
+/// pixel, all samples of each.
 template <class Use>
 double time_paths(const PreparedSampler& sampler, Use&& use) {
   constexpr int kTile = 64, kFirst = 320;
@@ -39,11 +40,11 @@ double time_paths(const PreparedSampler& sampler, Use&& use) {
   return (thread_ns() - start) / (kTile * kTile * kTimedPlan.samples_per_pixel);
 }
 
-/// What numbers of a sampler cost: `sampler.NAME.value_ns` is the time of a 2D number on one
-/// thread, of paths that ask for eleven: the pixel's, and those of a light and a BSDF at five
-/// vertices. A path's share of beginning its stream is in it; `begin_ns` is that beginning by
-/// itself. `allocations` counts blocks taken from the heap after prepare(). The sampler must not
-/// need a probe.
+/// Measures the costs of a sampler's numbers on one thread. `sampler.NAME.value_ns` is the time of
+/// a 2D number, for paths that ask for eleven: one for the pixel, and one each for a light and a
+/// BSDF at five vertices. This time includes a share of the beginning of the path's stream.
+/// `begin_ns` is the time of the beginning alone. `allocations` is the number of blocks taken from
+/// the heap after prepare(). The sampler must not need a probe.
 std::vector<Measurement> measure_sampler(const std::string& name, const Sampler& sampler,
                                          int repeats);
 

@@ -1,5 +1,5 @@
-// What numbers cost, for every sampler that is registered, with its defaults or its first example:
-// see sampler_costs.h.
+// Costs of random numbers, for every registered sampler with its defaults or its first example. See
+// sampler_costs.h.
 
 #include <cstdio>
 

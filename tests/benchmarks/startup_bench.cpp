@@ -1,5 +1,5 @@
-// How long the program takes from its start to the first value of a pixel: replaying one path does
-// everything that comes before, and writes nothing.
+// Time from the start of the program to the first value of a pixel. Replaying one path does
+// everything that comes before the first pixel, and writes nothing.
 
 #include <chrono>
 #include <cstdlib>

@@ -1,4 +1,4 @@
-// How much faster two threads are than one, interleaved.
+// Speedup of two threads over one, measured in turns.
 
 #include <fmt/format.h>
 

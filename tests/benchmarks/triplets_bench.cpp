@@ -1,7 +1,7 @@
-// What vertex triplets cost: a step of expectation-maximization on one thread, a guide's answers by
-// the number of components, and of renders of half a minute of the scenes that they are for the
-// share of learning in training, rays a second against an unguided render, and memory. On two
-// threads, but for the first two.
+// Costs of vertex triplets: the time of one step of expectation-maximization, and the time of a
+// guide's answers by the number of components, both on one thread. Renders of half a minute, on two
+// threads, give the share of learning in training, rays per second relative to an unguided render,
+// and memory, in scenes for which the method was made.
 
 #include <chrono>
 #include <vertex_triplets/expectation_maximization.h>
@@ -33,8 +33,8 @@ float between(float low, float high, RandomStream& random) {
   return low + (high - low) * random.next_1d();
 }
 
-/// Milliseconds of an E step and an M step of 4096 points and 128 components in 9 dimensions. The
-/// points come in the order of their clusters, as learning has them.
+/// Measures the milliseconds of an E step and an M step with 4096 points and 128 components in 9
+/// dimensions. The points are ordered by cluster, as they are in learning.
 Measurement em_step(int repeats) {
   constexpr int kPoints = 4096, kComponents = 128;
   RandomStream random(1);
@@ -67,7 +67,8 @@ Measurement em_step(int repeats) {
   return step;
 }
 
-/// A model of one cell whose components all have a part in every step through the scene.
+/// Returns a model with one cell in which all components contribute to every step through the
+/// scene.
 std::shared_ptr<const VertexTripletsModel> broad_model(const Bounds3& bounds, int count) {
   RandomStream random(2);
   CellKnowledge cell{.share = 1};
@@ -113,7 +114,7 @@ std::vector<Measurement> answers(const Registry& registry, int count, int repeat
   return {query, sample, pdf, allocations};
 }
 
-/// Shares and sizes of a render of half a minute.
+/// Measures shares and sizes of a render of half a minute.
 std::vector<Measurement> render(const std::string& scene, const Registry& registry, int repeats) {
   const std::string config = fmt::format(R"({}
 film: {{ width: 240, height: 160, filter: box }}

@@ -1,4 +1,4 @@
-// Command lines: subcommands, options, overrides, configs and outputs that cannot be.
+// Wrong command lines: subcommands, options, overrides, configs and outputs.
 
 #include <sys/stat.h>
 #include <unistd.h>
@@ -10,7 +10,7 @@
 namespace pharos::testing {
 namespace {
 
-/// Arguments in a folder that holds the sound config good.yaml.
+/// Arguments for a run in a folder that contains the valid config good.yaml.
 Mistake typed(const std::string& arguments) {
   return {.arguments = arguments,
           .prepare = [](const ScratchFolder& f) { f.write("good.yaml", config_with("")); }};

@@ -19,8 +19,8 @@ integrator: { type: path }
 budget: { spp: 1 }
 )";
 
-/// An experiment of eight lines that is fine, in place of line `line` the given text (0: all as
-/// they are), with `more` from line 9 on.
+/// A valid experiment of eight lines. Line `line` is replaced by the given text (0: no line is
+/// replaced), and `more` is added from line 9 on.
 Mistake experiment(int line, const std::string& text, const std::string& more = "") {
   std::vector<std::string> lines{"title: Wrong",
                                  "scenes:",

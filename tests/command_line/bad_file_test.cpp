@@ -1,4 +1,4 @@
-// Files that a config refers to: configs it extends, scenes, images.
+// Wrong files that a config refers to: configs that it extends, scenes, images.
 
 #include <fstream>
 #include <limits>
@@ -13,7 +13,7 @@
 namespace pharos::testing {
 namespace {
 
-/// `render bad.yaml` beside further files.
+/// `render bad.yaml` in a folder with further files.
 Mistake files(const std::string& config,
               const std::vector<std::pair<std::string, std::string>>& others) {
   return {.arguments = "render bad.yaml", .prepare = [=](const ScratchFolder& f) {
@@ -69,7 +69,7 @@ TEST_CASE("scene files") {
   check_refused(scene("bad.yaml"), {"bad.yaml:1:1: error: ", "unknown key 'scene'"});
 }
 
-/// Renders a quad with the image `name`, which `make` writes.
+/// Checks that a render of a quad with the image `name`, which `make` writes, is refused.
 void check_image_refused(const std::string& name,
                          const std::function<void(const std::filesystem::path&)>& make,
                          const std::vector<std::string>& says) {
@@ -91,7 +91,7 @@ std::function<void(const std::filesystem::path&)> bytes(std::string text) {
   };
 }
 
-/// A sound image that is cut to a share of its length.
+/// Writes a valid image that is cut to a share of its length.
 std::function<void(const std::filesystem::path&)> cut(bool exr, double share) {
   return [=](const std::filesystem::path& path) {
     Image image(64, 64, {"R", "G", "B"});
@@ -103,7 +103,7 @@ std::function<void(const std::filesystem::path&)> cut(bool exr, double share) {
   };
 }
 
-/// A PNG's header alone, with that size.
+/// Writes only the header of a PNG with this size.
 std::string png_header(const std::string& size) {
   return "\x89PNG\r\n\x1a\n" + std::string("\0\0\0\rIHDR", 8) + size +
          std::string("\x08\x02\0\0\0\0\0\0\0", 9);

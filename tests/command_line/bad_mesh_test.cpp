@@ -1,4 +1,4 @@
-// Mesh files that are damaged, lie about their size or hold no surface.
+// Mesh files that are damaged, state a wrong size, or contain no surface.
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
-// Model files that a config names: what is wrong is told of at the key, before anything is
-// rendered.
+// Wrong model files in configs. The program reports the mistake at the key of the config, before it
+// renders anything.
 
 #include <fstream>
 #include <iterator>
@@ -20,7 +20,7 @@ std::string bytes_of(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// A config that takes the model of stub `method` from `file`: line 9, from column 12 on.
+/// A config that takes the model of the stub `method` from `file`, in line 9 from column 12 on.
 std::string config_with_model(const std::string& file, const std::string& method) {
   return fmt::format(
       "scene: box.yaml\nfilm: {{ width: 24, height: 16 }}\nbudget: {{ spp: 4 }}\n"

@@ -1,4 +1,4 @@
-// Module folders and libraries that must be refused.
+// Module folders and libraries that the program must refuse.
 
 #include <doctest/doctest.h>
 

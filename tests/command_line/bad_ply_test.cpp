@@ -1,4 +1,4 @@
-// PLY files that are damaged, lie about their size or hold no surface.
+// PLY files that are damaged, state a wrong size, or contain no surface.
 
 #include <array>
 #include <cstring>

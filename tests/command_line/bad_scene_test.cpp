@@ -7,7 +7,7 @@
 namespace pharos::testing {
 namespace {
 
-/// A scene of these lines, which begin in line 2 with two spaces.
+/// A scene with these lines, which begin in line 2 and are indented by two spaces.
 std::string scene_of(const std::string& lines) {
   return "scene:\n" + lines + "budget: { spp: 1 }\n";
 }

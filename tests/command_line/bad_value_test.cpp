@@ -1,4 +1,4 @@
-// Keys and values of configs: names, types, ranges, lengths.
+// Wrong keys and values in configs: names, types, ranges, lengths.
 
 #include <doctest/doctest.h>
 

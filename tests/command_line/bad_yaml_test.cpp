@@ -1,4 +1,4 @@
-// Texts that are no config: broken YAML, wrong encodings, expansion bombs.
+// Texts that are not a config: broken YAML, wrong encodings, expansion bombs.
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-// Comparing images from the command line: exit codes, messages, files.
+// Comparison of images from the command line: exit codes, messages, files.
 
 #include <fstream>
 #include <iterator>
@@ -21,7 +21,8 @@ void write_constant(const ScratchFolder& folder, const std::string& name, float 
   write_exr(image, folder.path() / name, {{"pharos:samples_per_pixel", "16"}});
 }
 
-/// A reference of brightness 1, two images of relMSE 0.2475 and 0.0619, and one with a hole.
+/// Writes a reference of brightness 1, two images with relMSE 0.2475 and 0.0619, and one image with
+/// a hole.
 void write_images(const ScratchFolder& folder) {
   write_constant(folder, "ref.exr", 1);
   write_constant(folder, "far.exr", 1.5f);
@@ -131,7 +132,7 @@ TEST_CASE("compare: pixels without a value are told of, counted, and bad input")
       run_pharos("compare hole.exr --reference ref.exr --max-relmse 1000", folder.path());
   CHECK(checked.exit_code == 1);
   CHECK(contains(checked.err, "no pixel may be left out"));
-  // Nor where it is the reference that has them.
+  // The same if the reference contains them.
   CHECK(run_pharos("compare ref.exr --reference hole.exr --max-relmse 1000", folder.path())
             .exit_code == 1);
 }
@@ -191,7 +192,7 @@ TEST_CASE("compare: outputs that cannot be written are refused before the work")
                 {"./ref.exr: error: ", "would be lost"});
   check_refused(mistake("compare near.exr far.exr --reference ref.exr --json far.exr"),
                 {"far.exr: error: ", "would be lost"});
-  // Before a missing image is noticed.
+  // This mistake is reported before a missing image.
   check_refused(mistake("compare no.exr --reference ref.exr --json no/out.json"), {"no/out.json"});
 }
 

@@ -1,4 +1,4 @@
-// `pharos convergence` as people use it: files, refusals, stopping.
+// `pharos convergence` from the command line: files, refusals, stopping.
 
 #include <doctest/doctest.h>
 
@@ -7,7 +7,7 @@
 namespace pharos::testing {
 namespace {
 
-/// A file of seven lines that is fine, in place of line `line` the given text (0: all as they are).
+/// A valid file of seven lines. Line `line` is replaced by the given text (0: no line is replaced).
 std::string file(int line = 0, const std::string& text = "") {
   std::vector<std::string> lines{"title: Small",
                                  "integrands:",
@@ -47,7 +47,7 @@ TEST_CASE("convergence: every registered sampler by default") {
   const ScratchFolder folder;
   folder.write("all.yaml",
                "integrands:\n  - { name: edge, integrand: edge }\n"
-               "samples: { from: 4, to: 6 }\nrealisations: 16\n");
+               "samples: { from: 4, to: 6 }\nrealizations: 16\n");
   const Outcome outcome = run_pharos("convergence all.yaml", folder.path());
   REQUIRE_MESSAGE(outcome.exit_code == 0, outcome.err);
   for (const char* sampler : {"\nindependent ", "\nsobol "}) {

@@ -1,4 +1,4 @@
-// `pharos directions` as people use it.
+// `pharos directions` from the command line.
 
 #include <string>
 
@@ -11,7 +11,7 @@
 namespace pharos::testing {
 namespace {
 
-/// A floor under a light that a slanted board covers in part.
+/// A floor under a light that is partly covered by a slanted board.
 constexpr const char* kBoard = R"(
 scene:
   shapes:

@@ -1,4 +1,4 @@
-// `pharos experiment` as people use it: files, stopping and going on.
+// `pharos experiment` from the command line: files, stopping and resuming.
 
 #include <chrono>
 #include <fstream>
@@ -24,7 +24,7 @@ std::string read_text(const fs::path& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// Two scenes, two methods and `seeds` seeds; a run takes some 20 ms.
+/// Writes an experiment with two scenes, two methods and `seeds` seeds. One run takes some 20 ms.
 void write_experiment(const ScratchFolder& folder, const std::string& budget, int seeds,
                       int edge = 24) {
   folder.write("render.yaml", fmt::format(R"(scene: '{}/cornell-box/scene.yaml'
@@ -48,8 +48,8 @@ cache: cache
                                         budget, seeds));
 }
 
-/// runs.csv without what depends on the clock and the machine: up to and with the samples, errors,
-/// counts and sizes of models.
+/// Returns runs.csv without the columns that depend on the clock and the machine. The remaining
+/// columns end with the samples, errors, counts and sizes of models.
 std::string table_of(const fs::path& folder) {
   constexpr int kTimeless = 16;
   std::istringstream in(read_text(folder / "test" / "runs.csv"));
@@ -63,7 +63,7 @@ std::string table_of(const fs::path& folder) {
   return table;
 }
 
-/// The lines that tell of finished runs.
+/// Returns the number of lines that report a finished run.
 std::size_t rendered_runs(const Outcome& outcome) {
   std::size_t count = 0;
   std::istringstream in(outcome.err);
@@ -71,7 +71,7 @@ std::size_t rendered_runs(const Outcome& outcome) {
   return count;
 }
 
-/// The table of an experiment that is left alone.
+/// Returns the table of an experiment that runs without interruption.
 std::string undisturbed_table(int seeds) {
   const ScratchFolder folder;
   write_experiment(folder, "spp: 16", seeds);
@@ -80,8 +80,8 @@ std::string undisturbed_table(int seeds) {
   return table_of(folder.path());
 }
 
-/// Starts an experiment, kills it after `seconds`, and so on with `more` seconds each time until it
-/// ends by itself; the number of kills.
+/// Starts an experiment and kills it after `seconds`. Repeats this with `more` additional seconds
+/// each time, until the experiment ends by itself. Returns the number of kills.
 int run_with_kills(const ScratchFolder& folder, double seconds, double more) {
   for (int kills = 0;; ++kills) {
     const Outcome outcome =
@@ -155,7 +155,7 @@ TEST_CASE("an experiment leaves tables, images, records and a report") {
   }
 }
 
-/// How many parts of references were rendered.
+/// Returns the number of rendered parts of references.
 std::size_t rendered_parts(const Outcome& outcome) {
   std::size_t count = 0;
   for (std::size_t at = 0; (at = outcome.err.find("reference, part", at)) != std::string::npos;
@@ -211,7 +211,7 @@ TEST_CASE("nothing of an earlier config stays") {
   CHECK(rendered_runs(plain) == 4);
   CHECK_FALSE(folder.has("test/runs/deep/sobol/seed-1.slice-x.exr"));
 
-  // A first seed that has no image yet is made again; so is one whose image is gone.
+  // The first seed is rendered again if it has no image yet, or if its image has been deleted.
   const Outcome later =
       run_pharos("experiment test.yaml --set first_seed=2 --set seeds=1", folder.path());
   CHECK(rendered_runs(later) == 4);
@@ -273,7 +273,7 @@ TEST_CASE("a method that learns: checkpoints after training, sizes, pictures of 
     CHECK(folder.has(fmt::format("test/runs/deep/sobol/seed-1.{}.exr", picture)));
     CHECK_FALSE(folder.has(fmt::format("test/runs/deep/independent/seed-1.{}.exr", picture)));
   }
-  // 16 samples of training, then 1, 2, 4, 8 and 16 more.
+  // 16 samples of training, then 1, 2, 4, 8 and 16 further samples.
   std::istringstream in(read_text(folder.path() / "test" / "convergence.csv"));
   std::string samples;
   for (std::string line; std::getline(in, line);) {
@@ -297,7 +297,7 @@ TEST_CASE("Ctrl-C keeps finished runs and reports them; the same command goes on
   CHECK(rest.exit_code == 0);
   CHECK(table_of(folder.path()) == undisturbed_table(2));
 
-  // What is known of methods that did not change is kept, however early the next run is stopped.
+  // Results of methods that did not change are kept, even if the next run is stopped early.
   interrupt_pharos(
       "experiment test.yaml --set seeds=2 --set methods.1.settings={} --set "
       "budget.spp=16 --set scenes.1.reference.spp=1000000",

@@ -1,4 +1,4 @@
-// Scenes of other programs, as people use them.
+// Import of scenes of other programs from the command line.
 
 #include <fstream>
 #include <iterator>
@@ -27,7 +27,7 @@ std::string example() {
 
 constexpr const char* kSmall = "--set film.width=48 --set film.height=30 --set budget.spp=2";
 
-/// A small scene in the words of either dialect.
+/// A small scene in either dialect.
 std::string scene_xml(bool old) {
   const char* max_depth = old ? "maxDepth" : "max_depth";
   const char* to_world = old ? "toWorld" : "to_world";
@@ -72,7 +72,7 @@ TEST_CASE("a scene of Mitsuba renders as it stands, and within a config") {
   const Outcome within = run_pharos("validate config.yaml", folder.path());
   REQUIRE_MESSAGE(within.exit_code == 0, within.err);
   CHECK(within.out.find("max_depth: 2") != std::string::npos);
-  CHECK(within.out.find("type: gaussian") != std::string::npos);  // the file's, not stated here
+  CHECK(within.out.find("type: gaussian") != std::string::npos);  // from the scene file
 }
 
 TEST_CASE("both dialects of a scene give the same bits") {
@@ -128,7 +128,7 @@ TEST_CASE("import reports what stands for every object, and how it approximates"
   CHECK(run_pharos("render scene.xml --strict", folder.path()).exit_code == 2);
 }
 
-/// `render bad.xml` with `wrong` in place of `right` in the scene.
+/// `render bad.xml`, where `wrong` replaces `right` in the scene.
 Mistake scene_with(const std::string& right, const std::string& wrong) {
   return {.arguments = "render bad.xml", .prepare = [right, wrong](const ScratchFolder& folder) {
             write_scene(folder);

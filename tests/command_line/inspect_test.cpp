@@ -1,4 +1,4 @@
-// Looking into learned models from the command line: facts, pictures, mistakes.
+// Inspection of learned models from the command line: facts, pictures, mistakes.
 
 #include <cmath>
 
@@ -27,7 +27,8 @@ Mistake mistake(const std::string& arguments) {
           .environment = kStandIns};
 }
 
-/// A picture that `inspect box.model ARGUMENTS -o FILE` makes, which writes nothing else.
+/// Returns the picture that `inspect box.model ARGUMENTS -o FILE` makes. Checks that no other file
+/// is written.
 Image picture(const ScratchFolder& folder, const std::string& arguments, const std::string& file) {
   const std::size_t before = folder.file_count();
   const Outcome outcome = inspect(folder, fmt::format("box.model {} -o {}", arguments, file));
@@ -43,7 +44,7 @@ bool is_white(const Image& image, int x, int y) {
   return image.rgb(x, y) == Rgb(1);
 }
 
-/// Columns of a row that are as good as white.
+/// Returns the white columns of a row.
 std::vector<int> white_columns(const Image& image, int y) {
   std::vector<int> columns;
   for (int x = 0; x < image.width(); ++x) {
@@ -84,7 +85,7 @@ TEST_CASE("inspect --slice: pictures and numbers") {
   CHECK(numbers.channels() == std::vector<std::string>{"Y"});
   CHECK(read_metadata(folder.path() / "y.exr").at("pharos:caption") ==
         "density at y = 0, x to the right, z down");
-  // A grid of five voxels an edge, which sum to one: each is a share.
+  // A grid with five voxels per edge. Their values sum to one.
   CHECK(*numbers.pixel(3, 3) == *numbers.pixel(12, 5));
   CHECK(*numbers.pixel(3, 3) != *numbers.pixel(20, 5));
   CHECK(*numbers.pixel(40, 20) > 0);
@@ -99,13 +100,14 @@ TEST_CASE("inspect --range: the colors' scale is said, and may be stated") {
       inspect(folder, "box.model --slice z=0 --size 32 --range 1e-9,1e-8 -o stated.png");
   CHECK(contains(stated.err, "from 1e-09 to 1e-08, logarithmic\n"));
   const Image bright = read_image(folder.path() / "stated.png");
-  CHECK(bright.rgb(3, 3) == bright.rgb(20, 10));  // all beyond the scale
+  CHECK(bright.rgb(3, 3) == bright.rgb(20, 10));  // all values exceed the scale
 }
 
 TEST_CASE("inspect --scene: white lines where the slice cuts the scene") {
   const ScratchFolder folder;
   write_learned_model(folder);
-  // 20 pixels a unit: the ball's edge crosses the middle row at 2 +- 0.5, the walls are at 0 and 4.
+  // 20 pixels per unit: the ball's edge crosses the middle row at 2 +- 0.5, and the walls are at 0
+  // and 4.
   const Image cut = picture(folder, "--slice z=0 --size 80 --scene box.yaml", "cut.png");
   for (const int x : white_columns(cut, 20)) {
     CAPTURE(x);
@@ -118,7 +120,8 @@ TEST_CASE("inspect --scene: white lines where the slice cuts the scene") {
   CHECK((is_white(cut, 49, 20) || is_white(cut, 50, 20)));
   CHECK(white_columns(cut, 0).size() == 80);  // the ceiling
   CHECK(white_columns(cut, 5).size() == 2);   // above the ball
-  // Where the ball is not cut there is no circle; a config will do as well as its scene.
+  // There is no circle if the slice misses the ball. `--scene` also accepts a config instead of a
+  // scene.
   const Image off = picture(folder, "--slice z=0.7 --size 80 --scene train.yaml", "off.png");
   CHECK(white_columns(off, 20).size() == 2);
 }
@@ -145,7 +148,7 @@ TEST_CASE("inspect --cloud: a view of its own, or the camera's") {
   CHECK(square.height() == 48);
 }
 
-/// Puts box.yaml, train.yaml and a box.model of spatial Gaussians into `folder`.
+/// Writes box.yaml, train.yaml and a box.model with spatial Gaussians into `folder`.
 void write_gaussians(const ScratchFolder& folder) {
   folder.write("box.yaml", box_scene());
   std::string config = training_config("spatial_gaussians");

@@ -27,7 +27,7 @@ std::string training_config(const std::string& learner) {
 void write_learned_model(const ScratchFolder& folder) {
   folder.write("box.yaml", box_scene());
   folder.write("train.yaml", training_config("stub_segments"));
-  // Learned once; what is learned does not depend on when.
+  // The model is learned only once, because the result does not depend on when it is learned.
   static const ScratchFolder once;
   static std::once_flag learned;
   std::call_once(learned, [] {

@@ -6,17 +6,17 @@
 
 namespace pharos::testing {
 
-/// The stand-ins for methods, which the program does not load by itself.
+/// The environment that makes the program load the stand-ins, which it does not load by itself.
 inline const std::string kStandIns = std::string("PHAROS_MODULE_PATH=") + PHAROS_TEST_PLUGINS;
 
-/// A closed box from (-2, -1, -1) to (2, 1, 1) with a ball of radius 0.5 in the middle, as a scene
-/// file, and a camera in it.
+/// A scene file with a closed box from (-2, -1, -1) to (2, 1, 1), a ball of radius 0.5 in its
+/// center, and a camera in the box.
 std::string box_scene();
 
-/// A config of `box.yaml` that the stand-in `learner` guides and that writes `box.model`.
+/// A config for `box.yaml` that is guided by the stand-in `learner` and writes `box.model`.
 std::string training_config(const std::string& learner);
 
-/// Puts box.yaml, train.yaml and the box.model that stub_segments learns there into `folder`.
+/// Writes box.yaml, train.yaml and the box.model that stub_segments learns there into `folder`.
 void write_learned_model(const ScratchFolder& folder);
 
 }  // namespace pharos::testing

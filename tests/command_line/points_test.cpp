@@ -1,4 +1,4 @@
-// Pictures of samplers' points from the command line, and mistakes.
+// Pictures of the points of samplers from the command line, and mistakes.
 
 #include <algorithm>
 
@@ -14,13 +14,13 @@ namespace {
 
 constexpr const char* kSmall = "--size 40 --frequency 3 --realizations 2 -n 16";
 
-/// A picture and what was said of it.
+/// A picture and the message of the program about it.
 struct Drawn {
   Image image;
   std::string message;
 };
 
-/// What `points ARGUMENTS -o points.png` makes.
+/// Returns the result of `points ARGUMENTS -o points.png`.
 Drawn drawn(const std::string& arguments, const std::string& says) {
   const ScratchFolder folder;
   const Outcome outcome =
@@ -36,7 +36,7 @@ Image picture(const std::string& arguments, const std::string& says = "") {
   return drawn(arguments, says).image;
 }
 
-/// How many samplers a message names, `points.png: a, b, c; …`.
+/// Returns the number of samplers that a message names: `points.png: a, b, c; …`.
 int count_of_samplers(const std::string& message) {
   return 1 + static_cast<int>(std::count(
                  message.begin(), message.begin() + static_cast<long>(message.find(';')), ','));
@@ -56,7 +56,8 @@ TEST_CASE("points: one sampler beside its spectrum, several as columns") {
       picture("--sampler independent --sampler '{ type: sobol }'", "independent, { type: sobol };");
   CHECK(two.width() == one.width());
   CHECK(two.height() > 80);
-  // Five columns side by side, each of two squares; the gaps are those of the picture of two.
+  // Five columns side by side, with two squares each. The gaps are the same as in the picture of
+  // two columns.
   const Drawn all = drawn("", "");
   const int gap = two.height() - 2 * 40, rows = 2 * ((count_of_samplers(all.message) + 4) / 5);
   CHECK(count_of_samplers(all.message) >= 10);

@@ -1,4 +1,4 @@
-// `pharos render --preview`: the same image whatever the viewer does.
+// `pharos render --preview`: the image is the same, whatever the viewer does.
 
 #include <chrono>
 
@@ -13,7 +13,8 @@
 namespace pharos::testing {
 namespace {
 
-/// Fills the buffers on the way to a viewer that takes no data: 9.6 MB of colors.
+/// A config whose image fills the buffers of the connection if the viewer reads nothing: 9.6 MB of
+/// colors.
 std::string large_render() {
   return "scene: { sensor: perspective, shapes: [sphere], emitters: [constant] }\n"
          "film: { width: 1000, height: 800 }\nbudget: { spp: 2 }\noutput: { png: false }\n";
@@ -25,7 +26,7 @@ struct Timed {
   double seconds = 0;
 };
 
-/// Renders image.exr from large_render(), with more options.
+/// Renders image.exr from large_render() with further options.
 Timed render_timed(const std::string& options) {
   const ScratchFolder folder;
   folder.write("image.yaml", large_render());
@@ -39,7 +40,8 @@ std::string preview_at(std::uint16_t port) {
   return fmt::format("--preview 127.0.0.1:{}", port);
 }
 
-/// A viewer that holds a render up would do so for ever; less than this is the machine [s].
+/// Time limit for a render with a viewer [s]. If a viewer could block a render, it would block it
+/// forever. Shorter delays come from a busy machine.
 constexpr double kPatience = 15;
 
 TEST_CASE("--preview changes no bit and holds nothing up") {

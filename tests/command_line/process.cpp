@@ -28,7 +28,7 @@ std::string read_and_remove(const std::filesystem::path& path) {
   _exit(127);
 }
 
-/// Waits for the shell; `out` and `err` are still to be filled in.
+/// Waits for the shell. The caller fills in `out` and `err`.
 Outcome outcome_of(pid_t shell) {
   int status = -1;
   rusage usage{};
@@ -90,7 +90,7 @@ Outcome run_pharos_on_terminal(const std::string& arguments, const std::filesyst
   if (shell == 0) become_shell(line);
   std::string received;
   char buffer[4096];
-  // Reading fails once the other side has been closed.
+  // Reading fails when the other side has been closed.
   for (ssize_t count; (count = read(terminal, buffer, sizeof buffer)) > 0;) {
     received.append(buffer, static_cast<std::size_t>(count));
   }

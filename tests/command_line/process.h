@@ -8,41 +8,43 @@
 
 namespace pharos::testing {
 
-/// What a run of the program left behind.
+/// The result of a run of the program.
 struct Outcome {
-  /// As the shell tells it: 124 after kTimeoutSeconds, over 128 for a signal; sanitizers exit
+  /// Exit code of the shell: 124 after kTimeoutSeconds, more than 128 for a signal. Sanitizers exit
   /// with 1.
   int exit_code = 0;
   std::string out, err;
   double peak_megabytes = 0;  ///< largest resident memory
 };
 
-/// A program that takes longer hangs.
+/// A program that takes longer is considered to hang.
 inline constexpr int kTimeoutSeconds = 30;
 
-/// Runs `pharos ARGUMENTS` through a shell in `folder`; `environment` is such as "NAME=value".
+/// Runs `pharos ARGUMENTS` through a shell in `folder`. `environment` may be, for example,
+/// "NAME=value".
 Outcome run_pharos(const std::string& arguments, const std::filesystem::path& folder,
                    const std::string& environment = "");
-/// As above, with `signal` ("INT", "TERM") after `seconds`.
+/// Runs the program as above and sends `signal` ("INT", "TERM") after `seconds`.
 Outcome interrupt_pharos(const std::string& arguments, const std::filesystem::path& folder,
                          double seconds, const char* signal);
-/// As above, with `signal` once `file` is in `folder`, however long that takes on a busy machine
-/// (at most two minutes).
+/// Runs the program as above and sends `signal` as soon as `file` is in `folder`. On a busy machine
+/// this may take long; the limit is two minutes.
 Outcome interrupt_pharos_once(const std::string& file, const std::string& arguments,
                               const std::filesystem::path& folder, const char* signal);
-/// Waits for a file for at most two minutes; whether it is there.
+/// Waits for a file for at most two minutes. Returns whether the file exists.
 bool appears(const std::filesystem::path& file);
 
-/// Runs `pharos ARGUMENTS` on a terminal of its own, which takes output and messages alike: `out`
-/// is all that it received, `err` is empty.
+/// Runs `pharos ARGUMENTS` on a separate terminal, which receives both output and messages: `out`
+/// is everything that it received, and `err` is empty.
 Outcome run_pharos_on_terminal(const std::string& arguments, const std::filesystem::path& folder);
 
-/// An empty folder that goes away again, and what a run of the program left there.
+/// An empty folder that is deleted by the destructor, with the files that a run of the program left
+/// there.
 class ScratchFolder : public test::TemporaryFolder {
  public:
   bool has(const std::string& name) const { return std::filesystem::exists(*this / name); }
   std::size_t file_count() const;
-  /// Every file and folder below it, with sizes, sorted.
+  /// Returns every file and folder below this one, with sizes, sorted.
   std::vector<std::string> listing() const;
 };
 

@@ -1,4 +1,4 @@
-// The bar that follows a render on a terminal.
+// The progress bar of a render on a terminal.
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -8,7 +8,7 @@
 namespace pharos::testing {
 namespace {
 
-/// Takes as long as it says, so that each iteration lasts longer than the bar takes to redraw.
+/// A config with a time budget, so that each iteration lasts longer than the bar's redraw interval.
 std::string timed_render(const std::string& integrator) {
   return fmt::format(
       "scene: {}/cornell-box/scene.yaml\nfilm: {{ width: 40, height: 30 }}\n"
@@ -29,7 +29,7 @@ TEST_CASE("the bar names the iteration of training, and then the final one") {
   REQUIRE(last != std::string::npos);
   CHECK(first < second);
   CHECK(second < last);
-  // An iteration does not come back once it is over.
+  // An iteration is not shown again after its end.
   CHECK(outcome.out.rfind("training 1/3") < second);
   CHECK(outcome.out.rfind("training 2/3") < last);
 }

@@ -6,7 +6,7 @@
 namespace pharos::testing {
 namespace {
 
-/// More than any refusal needs, sanitizers included.
+/// More memory than any refusal needs, including sanitizers.
 constexpr double kMostMegabytes = 1024;
 
 }  // namespace

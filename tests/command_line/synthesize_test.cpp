@@ -1,5 +1,5 @@
-// `pharos synthesize` as people use it, and with it what commands of modules share: options from
-// their parameters, files of settings, mistakes, stopping.
+// `pharos synthesize` from the command line. The test also covers the common properties of commands
+// of modules: options from parameters, settings files, mistakes, stopping.
 
 #include <algorithm>
 #include <filesystem>
@@ -32,7 +32,7 @@ std::string content_of(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// What `synthesize ARGUMENTS -o points.txt` writes.
+/// Returns the points that `synthesize ARGUMENTS -o points.txt` writes.
 std::string points_of(const std::string& arguments, const std::string& config = "") {
   const ScratchFolder folder;
   if (!config.empty()) folder.write("points.yaml", config);

@@ -1,6 +1,6 @@
 // Learned mixing follows a guide that refines its regions.
 
-#include <pharos/guiding/pipeline/guiding.h>
+#include <pharos/guiding/pipeline/guiding_state.h>
 
 #include "furnace.h"
 

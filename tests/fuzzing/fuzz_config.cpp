@@ -1,8 +1,9 @@
-// Bytes are a config with its scene in place. It is parsed, every component is built, and the scene
-// is made ready to render. Wrong input may end in an InputError alone; what is accepted must come
-// back from its own text of all values in force.
+// The bytes are a config that contains its scene. The fuzzer parses the config, builds every
+// component and prepares the scene for rendering. Wrong input may only end in an InputError. If a
+// config is accepted, the text of its resolved config must read back as the same config.
 //
-// No path leads out of a folder of fixtures: names of files lose all up to their last slash.
+// No path leads out of a folder of fixtures, because everything up to the last slash of a file name
+// is removed.
 
 #include <cstdint>
 #include <cstdlib>
@@ -19,7 +20,7 @@ namespace {
 
 using namespace pharos;
 
-/// What configs may refer to: files that are fine, one of each kind.
+/// The files to which configs may refer: one valid file of each kind.
 const test::TemporaryFolder& fixtures() {
   static const test::TemporaryFolder folder;
   static const bool filled = [] {
@@ -50,9 +51,9 @@ void keep_in_folder(ConfigNode& node) {
   for (ConfigNode::Entry& entry : node.entries()) keep_in_folder(entry.value);
 }
 
-/// Everything that comes before the first sample.
+/// Does everything that comes before the first sample.
 void prepare(const RenderConfig& config) {
-  constexpr int edge = 16;  // the film's own size costs time and finds nothing
+  constexpr int edge = 16;  // the film's own size would only cost time
   SceneParts parts = config.scene;
   if (config.sensor != nullptr) parts.sensor = config.sensor;
   const Scene scene(parts);

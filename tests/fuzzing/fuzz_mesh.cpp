@@ -1,8 +1,8 @@
-// The first byte chooses a format, the others are a mesh file of it. Wrong input may end in an
-// InputError alone.
+// The first byte chooses a format, and the other bytes are a mesh file in this format. Wrong input
+// may only end in an InputError.
 //
-// No path leads out of the folder that holds the file: where a format can name other files, what a
-// path would need is taken from it.
+// No path leads out of the folder of the file: if a format can name other files, characters that a
+// path needs are replaced.
 
 #include <algorithm>
 #include <array>
@@ -22,7 +22,8 @@ using namespace pharos;
 constexpr std::array<std::string_view, 6> kFormats{"ply",  "obj", "stl",
                                                    "gltf", "glb", "serialized"};
 
-/// Faces, lines and points of OBJ files need slashes and name no files.
+/// Returns whether an OBJ line names no file. Faces, lines and points may need slashes, but they
+/// name no files.
 bool names_no_file(std::string_view line) {
   const std::size_t first = line.find_first_not_of(" \t");
   return first == std::string_view::npos || line[first] == 'f' || line[first] == 'l' ||

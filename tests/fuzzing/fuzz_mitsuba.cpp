@@ -1,8 +1,8 @@
-// Bytes are a scene file of Mitsuba. Wrong input may end in an InputError of one line alone, which
-// says in which file; what is accepted must be a tree that can be walked to its end.
+// The bytes are a scene file of Mitsuba. Wrong input may only end in an InputError of one line,
+// which names the file. If a file is accepted, it must be possible to walk its whole tree.
 //
-// No path leads out of a folder of fixtures: slashes in the values of attributes become blanks, and
-// so does what begins a character by its number.
+// No path leads out of a folder of fixtures: slashes in attribute values become blanks, and so do
+// characters that begin a numeric character reference.
 
 #include <cmath>
 #include <cstdint>
@@ -19,7 +19,7 @@ namespace {
 
 using namespace pharos;
 
-/// What scenes may name: files that are fine, one that includes itself, one of a spectrum.
+/// The files that scenes may name: valid files, one that includes itself, and one spectrum.
 const test::TemporaryFolder& fixtures() {
   static const test::TemporaryFolder folder;
   static const bool filled = [] {
@@ -35,7 +35,8 @@ const test::TemporaryFolder& fixtures() {
   return folder;
 }
 
-/// Slashes that a tag needs stand next to a bracket.
+/// Replaces slashes and beginnings of numeric character references by blanks. Slashes of tags,
+/// which are next to a bracket, are kept.
 std::string keep_in_folder(std::string_view bytes) {
   std::string kept(bytes);
   for (std::size_t i = 0; i < kept.size(); ++i) {

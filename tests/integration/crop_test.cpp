@@ -1,4 +1,4 @@
-// A window of the film: film.crop.
+// Renders of a window of the film (film.crop).
 
 #include <bit>
 
@@ -23,8 +23,8 @@ std::string crop(const PixelRect& window) {
                      window.width(), window.height());
 }
 
-/// How many values of `part` differ in any bit from those of `whole` at the window's place, a
-/// border of `border` pixels left out.
+/// Returns the number of values of `part` that differ in any bit from the values of `whole` at the
+/// position of the window. A border of `border` pixels is left out.
 int differences(const Image& part, const Image& whole, int border) {
   int count = 0;
   for (int y = border; y < part.height() - border; ++y) {

@@ -1,4 +1,4 @@
-// Budgets, schedules, early ends and replay.
+// Budgets, schedules, interruption and replay.
 
 #include <algorithm>
 #include <atomic>
@@ -17,7 +17,8 @@
 namespace pharos::testing {
 namespace {
 
-/// Equal to the bit, infinities of the variance layer included.
+/// Returns whether two values have the same bits. This also works for infinities in the variance
+/// layer.
 bool same_bits(float a, float b) {
   return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
 }
@@ -41,7 +42,7 @@ TEST_CASE("a sample budget is kept exactly") {
   }
 }
 
-/// Seconds that a render says it has spent on its budget.
+/// Returns the seconds that a render charges to its budget.
 double charged(const RenderTimes& times) {
   return times.training + times.update + times.rendering;
 }
@@ -87,7 +88,7 @@ TEST_CASE("a time budget is kept roughly, alone and with training") {
     const RenderResult result =
         render_watched(cornell(rest + "budget: { seconds: 2 }\n"),
                        [&](const RenderSnapshot& snapshot) { last = snapshot.progress.seconds; });
-    // A pass takes less than 1/64 of its iteration; a busy machine may stretch the last one.
+    // A pass takes less than 1/64 of its iteration. A busy machine may extend the last pass.
     CHECK(charged(result.times) > 1.8);
     CHECK(charged(result.times) < 2.4);
     CHECK(std::abs(charged(result.times) - last) < 0.1);
@@ -96,7 +97,7 @@ TEST_CASE("a time budget is kept roughly, alone and with training") {
 }
 
 TEST_CASE("what watching takes is not charged to a time budget") {
-  // Pauses that add up to more than the whole budget.
+  // The pauses add up to more than the whole budget.
   int passes = 0;
   double last = 0;
   const RenderResult result =
@@ -119,7 +120,7 @@ TEST_CASE("training counts within the budget") {
   CHECK(result.image.pixel(0, 0)[result.image.channel_index("samples.N")] == 32);
 }
 
-/// Another sampler, after a while.
+/// A sampler that waits before it prepares another one.
 class SlowToPrepare final : public Sampler {
  public:
   explicit SlowToPrepare(Ref<Sampler> other) : other_(std::move(other)) {}
@@ -144,7 +145,7 @@ TEST_CASE("what the sampler takes to prepare itself counts within a time budget"
   CHECK(told >= 0.2);
   CHECK(late.times.sampler >= 0.2);
   CHECK(late.times.budgeted() >= 0.2);
-  // No time is left, and still every pixel gets a sample.
+  // No time is left, but every pixel still gets a sample.
   CHECK(late.samples_per_pixel == 1);
 }
 
@@ -209,7 +210,7 @@ TEST_CASE("a stopped render keeps what it has") {
 }
 
 TEST_CASE("replay runs the very path") {
-  // One sample a pixel and a box filter: the pixel is the path.
+  // With one sample per pixel and a box filter, the value of the pixel is the value of the path.
   const std::string config = cornell("budget: { spp: 1 }\n");
   const RenderResult result = render(config);
   const LoadedConfig loaded = config_from(config);

@@ -1,4 +1,4 @@
-// Renders that are watched: what arrives at a viewer, and that no viewer can hold up a render.
+// Renders with a preview: what arrives at a viewer, and that no viewer can block a render.
 
 #include <chrono>
 #include <cstring>
@@ -17,13 +17,14 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// A preview to 127.0.0.1 that keeps what it is warned of.
+/// A preview to 127.0.0.1 that stores its warnings.
 struct Watched {
   explicit Watched(std::uint16_t port)
       : preview({"127.0.0.1", port}, "folder/image.exr",
                 [this](const std::string& message) { warnings.push_back(message); }) {}
 
-  /// Shows an image as that of a render that is halfway, a second after the last.
+  /// Shows an image as the image of a render that is half done, one second after the previous
+  /// image.
   void show(const Image& image) {
     seconds += 1;
     preview.show({.progress = {.fraction = 0.5, .seconds = seconds}, .image = [&] {
@@ -42,7 +43,7 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Calls `step` until `done` is true; false when it is not within ten seconds.
+/// Calls `step` until `done` is true. Returns false if this takes more than ten seconds.
 template <class Done, class Step>
 bool repeat_until(Done&& done, Step&& step) {
   for (const auto start = Clock::now(); seconds_since(start) < 10;) {
@@ -65,7 +66,7 @@ bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
 }
 
-/// Checks that the packets of a connection end with the colors of `image`.
+/// Checks that the packets of a connection result in the colors of `image`.
 void check_shown(const std::string& bytes, const Image& image) {
   const ShownImage shown = show_packets(bytes);
   CHECK(shown.name == "folder/image.exr");
@@ -147,7 +148,8 @@ TEST_CASE("a viewer that is started late gets the image") {
   CHECK(watched.warnings.size() == 1);
 }
 
-/// Shows an image to a viewer that hangs up on it, and once more when that is known.
+/// Shows an image to a viewer that closes the connection, and shows it again after the viewer is
+/// back.
 void check_shown_again(const Image& image, bool before_the_end) {
   TevListener viewer(Manner::hangs_up_at_first);
   Watched watched(viewer.port());
@@ -162,7 +164,8 @@ void check_shown_again(const Image& image, bool before_the_end) {
 }
 
 TEST_CASE("a viewer that hangs up gets the whole image when it is back") {
-  // The small image has left when the viewer hangs up, the large one is being sent.
+  // When the viewer closes the connection, the small image has been sent completely, and the large
+  // one has not.
   for (const int width : {20, 6000}) {
     CAPTURE(width);
     check_shown_again(some_image(width, 400), true);
@@ -173,7 +176,7 @@ TEST_CASE("a viewer that hangs up gets the whole image when it is back") {
 TEST_CASE("a viewer that takes no data holds nothing up") {
   TevListener viewer(Manner::never_reads);
   Watched watched(viewer.port());
-  const Image image = some_image(2048, 1024);  // 24 MiB: more than the buffers on the way hold
+  const Image image = some_image(2048, 1024);  // 24 MiB, more than the buffers hold
   REQUIRE(repeat_until([&] { return watched.images_made > 0; }, [&] { watched.show(image); }));
   const auto start = Clock::now();
   watched.show(image);

@@ -1,4 +1,4 @@
-// The same config and seed give the same bits for any number of threads, learned models included.
+// The same config and seed give the same bits for any number of threads, including learned models.
 
 #include <filesystem>
 #include <sstream>

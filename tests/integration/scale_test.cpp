@@ -1,4 +1,5 @@
-// Nothing depends on the scale of a scene: doubling every length leaves the image as it is.
+// Nothing depends on the scale of a scene: multiplying every length by a power of two does not
+// change the image.
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -8,7 +9,7 @@
 namespace pharos::testing {
 namespace {
 
-/// Two walls, a ball and a light, `s` times as large.
+/// Returns a scene with two walls, a ball and a light, scaled by `s`.
 std::string room(double s) {
   return fmt::format(
       R"(

@@ -1,4 +1,4 @@
-// The scenes and configs that come with the program.
+// The scenes and configs of the repository.
 
 #include <filesystem>
 
@@ -19,8 +19,8 @@ RenderResult render_config(const std::filesystem::path& path,
   return RenderJob(load_render_config(path, overrides, registry()).config).run();
 }
 
-/// Renders a small image, in which 4 samples a pixel must find light, or 64 where it comes through
-/// a pinhole and the like.
+/// Renders a small image. It must contain light with 4 samples per pixel or, in scenes where light
+/// is hard to find (such as a pinhole), with 64.
 void check_finds_light(const std::filesystem::path& path) {
   double found = 0;
   for (const int samples : {4, 64}) {
@@ -39,7 +39,7 @@ TEST_CASE("every config loads and renders something") {
   for (const auto& entry : std::filesystem::recursive_directory_iterator(kConfigs)) {
     const std::filesystem::path& path = entry.path();
     if (entry.is_directory()) continue;
-    if (read_config(path).find("scene") == nullptr) continue;  // a base of others, an experiment
+    if (read_config(path).find("scene") == nullptr) continue;  // a base or an experiment
     CAPTURE(path.string());
     check_finds_light(path);
     ++configs;
@@ -79,7 +79,7 @@ TEST_CASE("furnace: nothing can be seen, anywhere in the image") {
   for (const auto& row : blocks) {
     for (const std::vector<double>& block : row) {
       const Estimate value = estimate(block);
-      CHECK(value.standard_error < 0.003);  // sees a bias of 1.5 %
+      CHECK(value.standard_error < 0.003);  // a bias of 1.5 % is detectable
       CHECK(std::abs(value.mean - 1) < 5 * value.standard_error);
     }
   }

@@ -1,7 +1,7 @@
-// Whole images against those of an independent renderer, by the protocol of
-// statistics/image_agreement.h: every region of every image must agree, by a test that would have
-// seen a bias of 2 % of the image or 10 % of a region, and an image that is 3 % too bright must not
-// pass. Prints one line a scene.
+// Whole images compared with images of an independent renderer, by the protocol of
+// statistics/image_agreement.h. Every region of every image must agree, in a test that would detect
+// a bias of 2 % of the image or 10 % of a region. An image that is 3 % too bright must be rejected.
+// Prints one line per scene.
 
 #include <filesystem>
 #include <optional>
@@ -15,12 +15,13 @@ namespace {
 
 constexpr int kRenders = 32;
 
-/// A comparison in fewer regions says little about where light goes.
+/// With fewer regions, a comparison says little about the distribution of light in the image.
 constexpr std::size_t kFewestRegions = 50;
 
-/// The references add up to 16,384 samples a pixel in single precision: where all of them are the
-/// same, as in a constant background, each addition is rounded alike. A sky of 0.2 stands at
-/// 0.199983 in them, one of 0.3 at 0.300025: relative errors of 1e-4 that are no noise.
+/// The references sum up to 16,384 samples per pixel in single precision. If all samples of a pixel
+/// are equal, as in a constant background, each addition is rounded in the same way. For example, a
+/// sky of 0.2 has the value 0.199983 in the references, and a sky of 0.3 has the value 0.300025.
+/// These are relative errors of 1e-4 that are not noise.
 constexpr double kReferenceRounding = 1e-4;
 
 Renders render_scene(const std::string& name, const std::vector<std::string>& overrides) {
@@ -28,7 +29,7 @@ Renders render_scene(const std::string& name, const std::vector<std::string>& ov
   return render_seeds(load_render_config(path, overrides, registry()), kRenders);
 }
 
-/// The reference of a scene; empty, with a message, where there is none.
+/// Returns the reference of a scene. Prints a message and returns nothing if there is no reference.
 std::optional<statistics::ImageSide> reference_of(const std::string& name) {
   const auto file = std::filesystem::path(PHAROS_REFERENCES) / (name + "-halves.exr");
   if (std::filesystem::exists(file)) return statistics::ImageSide::of_halves(read_image(file));
@@ -36,8 +37,8 @@ std::optional<statistics::ImageSide> reference_of(const std::string& name) {
   return std::nullopt;
 }
 
-/// Compares the renders of a scene with its reference; a region must be tested well enough to see
-/// a bias of `region_bias`, relative to its mean.
+/// Compares the renders of a scene with its reference. The test must be able to detect a bias of
+/// `region_bias` in each region, relative to its mean.
 void compare(const std::string& name, const std::vector<std::string>& overrides = {},
              double region_bias = statistics::AgreementOptions{}.region_bias) {
   const auto reference = reference_of(name);
@@ -78,9 +79,9 @@ TEST_CASE("reference: point-spot-directional") {
 }
 
 TEST_CASE("reference: thin-lens") {
-  // Two blocks hold three lit pixels each, 1e-4 of the image's light. What the reference's halves
-  // tell of its error there has less than five degrees of freedom, so that no number of samples
-  // here shows a bias of 10 %; 12.8 % is what these do.
+  // Each of two blocks contains three lit pixels, with 1e-4 of the image's light. There, the error
+  // estimate from the two halves of the reference has less than five degrees of freedom. Hence no
+  // number of samples here makes a bias of 10 % detectable. This number makes 12.8 % detectable.
   compare("thin-lens", {}, 0.15);
 }
 
@@ -88,9 +89,10 @@ TEST_CASE("reference: environment-map") {
   compare("environment-map", {"scene.emitters.0.file=" PHAROS_REFERENCES "/environment.exr"});
 }
 
-// In this image steps that meet the lamp are weighted against light samples as if they had begun at
-// the boundary of the fog that they passed last, which is nearer to the lamp, so that it is too
-// bright. With the same fault planted the images agree, without it ours is darker, by 1.5 %.
+// In this reference image, the MIS weight of a step that hits the lamp treats the last boundary of
+// fog as the start of the step. This boundary is closer to the lamp, so that the image is too
+// bright. If the same fault is planted, the images agree. Without the fault, the image of Pharos is
+// 1.5 % darker.
 TEST_CASE("reference: fog, with the fault that it has") {
   const std::string settings = "max_depth: 16, mis: power";
   const auto theirs = reference_of("fog");

@@ -1,6 +1,6 @@
-// Renders with any sampler show the image of independent numbers, by the protocol of
-// statistics/image_agreement.h: seeds are independent observations, however the numbers of one
-// image depend on each other. Prints one line a comparison.
+// Renders with any sampler have the same mean as renders with independent random numbers, by the
+// protocol of statistics/image_agreement.h. Different seeds are independent observations, even if
+// the random numbers of one image depend on each other. Prints one line per comparison.
 
 #include "agreement.h"
 
@@ -15,19 +15,19 @@ namespace {
 
 constexpr int kRenders = 32;
 
-/// What is rendered: a scene that some thousand samples show well.
+/// A scene that needs only some thousand samples.
 struct View {
   std::string name;
   std::string scene;
-  int samples;  ///< a pixel
+  int samples;  ///< per pixel
 };
 
-/// Diffuse light that goes to and fro.
+/// Diffuse interreflection.
 View cornell_box() {
   return {"cornell-box", fmt::format("{}/cornell-box/scene.yaml", PHAROS_SCENES), 64};
 }
 
-/// Lamps of all sizes, and lobes that are wide and narrow.
+/// Lamps of all sizes, and wide and narrow lobes.
 View lamps() {
   return {"lamps", R"(
   shapes:
@@ -42,7 +42,7 @@ View lamps() {
           32};
 }
 
-/// A wide lens before a chequered floor under the sky.
+/// A wide lens in front of a checkered floor under the sky.
 View lens() {
   return {"lens", R"(
   shapes:
@@ -61,15 +61,16 @@ LoadedConfig config_of(const View& view, const std::string& sampler) {
       view.scene, view.samples, sampler));
 }
 
-/// For each comparison of a run that makes `count`: their levels add up to that of one family.
-/// Regions are larger than a t-test needs, so that the strict level leaves power.
+/// Returns the options of one comparison in a run with `count` comparisons. The significance levels
+/// add up to the level of one family. The regions are larger than a t-test needs, so that the test
+/// has enough power at the strict level.
 statistics::AgreementOptions options_for(std::size_t count) {
   statistics::AgreementOptions options{.effective_contributions = 400};
   options.family_level /= static_cast<double>(count);
   return options;
 }
 
-/// Compares samplers with independent numbers; each sampler has seeds of its own.
+/// Compares samplers with independent random numbers. Each sampler uses other seeds.
 void compare(const View& view, const std::vector<SamplerSubject>& samplers,
              const statistics::AgreementOptions& options) {
   const auto reference = render_seeds(config_of(view, "independent"), kRenders).side();

@@ -1,6 +1,5 @@
-// The sampler `aligned` in renders: numbers that are aligned with what it finds show the image of
-// independent numbers, with the same bits for any number of threads, and with less variance where
-// there are edges.
+// Renders with the sampler `aligned`: they have the same mean as renders with independent random
+// numbers, the same bits for any number of threads, and less variance if the integrand has edges.
 
 #include <cstdint>
 #include <string>
@@ -17,7 +16,7 @@
 namespace pharos::testing {
 namespace {
 
-/// Two square lights, before one of them a slanted board, seen through a wide lens.
+/// Two square lights with a slanted board in front of one of them, seen through a wide lens.
 constexpr const char* kBoard = R"(
 scene:
   shapes:
@@ -29,8 +28,8 @@ scene:
 integrator: { type: path, max_depth: 3, light_selection: all }
 )";
 
-/// Nothing but a floor in the penumbra of a slanted edge, before a light so small that directions
-/// of the BSDF seldom find it: the light's edge is what makes the noise.
+/// A floor in the penumbra of a slanted edge. The light is so small that BSDF samples seldom find
+/// it, so that the light's edge causes the noise.
 constexpr const char* kPenumbra = R"(
 scene:
   shapes:
@@ -48,12 +47,12 @@ std::string config(const std::string& scene, const std::string& sampler, int spp
                      sampler, spp);
 }
 
-/// All that can be aligned, in regions of a surface each.
+/// All random numbers that can be aligned, with one region per surface.
 constexpr const char* kEverything =
     "{ type: aligned, purposes: [light_position, bsdf_direction, lens], "
     "estimation: { grid: { cells: 48 }, surfaces: {} } }";
 
-/// The variance of a pixel in the penumbra over seeds, mean of all pixels.
+/// Returns the variance of a pixel over seeds, averaged over all pixels of the penumbra.
 double penumbra_variance(const std::string& sampler, int spp, int seeds) {
   const Renders renders = render_seeds(config_from(config(kPenumbra, sampler, spp)), seeds);
   const Image& first = renders.images.front();
@@ -84,7 +83,8 @@ TEST_CASE("aligned: the image of independent numbers, whatever is aligned with")
 }
 
 TEST_CASE("aligned: the same image with the light samples that were looked at") {
-  // Of so few samples and so small blocks that a good part of all is left over from estimation.
+  // The numbers of samples and the blocks are so small that a large part of the samples comes from
+  // the estimation.
   constexpr int kRenders = 64, kSamples = 4;
   const std::string sampler =
       "{{ type: aligned, samples: 64, estimation: {{ block: 4, grid: {{ "
@@ -100,7 +100,7 @@ TEST_CASE("aligned: the same image with the light samples that were looked at") 
   print_agreement("board, aligned, looks count", reused.samples_per_pixel, result);
   check_agreement(result);
   check_bias_is_seen(reused, independent.side(), options);
-  // They do count, in some pixels.
+  // The reused samples count in some pixels.
   const Image plain = render(with(false), 2).image, image = render(with(true), 2).image;
   int changed = 0;
   for (int y = 0; y < image.height(); ++y) {

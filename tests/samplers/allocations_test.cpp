@@ -1,4 +1,4 @@
-// Numbers take nothing from the heap: all that a sampler needs is made by prepare().
+// Random numbers need no heap memory: prepare() allocates everything that a sampler needs.
 
 #include <cstdint>
 #include <new>
@@ -14,8 +14,8 @@
 namespace pharos::testing {
 namespace {
 
-/// Blocks taken by the streams of several sets of samples of some pixels, and all that is asked of
-/// them.
+/// Returns the number of blocks that streams and their numbers allocate, for several sample numbers
+/// of some pixels.
 std::uint64_t allocations_of(const PreparedSampler& sampler) {
   const std::uint64_t before = allocation_count();
   float sum = 0;

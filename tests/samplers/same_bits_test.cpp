@@ -1,4 +1,4 @@
-// A render has the same bits for any number of threads, whatever the sampler.
+// A render has the same bits for any number of threads, for every sampler.
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -9,7 +9,7 @@
 namespace pharos::testing {
 namespace {
 
-/// The Cornell box; the number of samples is no power of two and no multiple of a pass.
+/// The Cornell box. The number of samples is neither a power of two nor a multiple of a pass.
 std::vector<float> pixels(const std::string& sampler, int threads) {
   return render(fmt::format("scene: {}/cornell-box/scene.yaml\n"
                             "film: {{ width: 40, height: 36, filter: gaussian }}\n"

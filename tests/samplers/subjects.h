@@ -5,13 +5,14 @@
 
 namespace pharos::testing {
 
-/// A sampler to render with: its defaults or, where it has none, the first example it states.
+/// A sampler to be tested, with its defaults or, if it has none, with the first example that it
+/// declares.
 struct SamplerSubject {
   std::string name;
   std::string settings;  ///< with `type`, as YAML on one line
 };
 
-/// Every sampler of the build's modules; stand-ins of tests are left out.
+/// Returns every sampler of the build's modules, except stand-ins of tests.
 std::vector<SamplerSubject> sampler_subjects();
 
 }  // namespace pharos::testing

@@ -25,7 +25,7 @@ Ratio ratio_of(const statistics::Estimate& a, const statistics::Estimate& b) {
   const double relative_a = a.squared_error / (a.mean * a.mean);
   const double relative_b = b.squared_error / (b.mean * b.mean);
   const double both = relative_a + relative_b;
-  // Welch and Satterthwaite for the sum of both relative errors.
+  // Welch-Satterthwaite degrees of freedom for the sum of both relative errors.
   const double freedom = both * both /
                          (relative_a * relative_a / a.degrees_of_freedom +
                           relative_b * relative_b / b.degrees_of_freedom);

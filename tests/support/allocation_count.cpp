@@ -1,5 +1,5 @@
-// The replaced global `operator new`. Modules are loaded after the program and so use it as well;
-// the array and nothrow forms of the standard library end up in these two.
+// Replaces the global `operator new`. Modules are loaded after the program and therefore use this
+// version, too. The array and nothrow forms of the standard library call these two functions.
 
 #include "allocation_count.h"
 

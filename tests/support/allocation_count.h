@@ -4,8 +4,8 @@
 
 namespace pharos::testing {
 
-/// Blocks that the calling thread has taken from the heap by `operator new` so far, modules
-/// included: the program replaces it.
+/// Returns the number of blocks that the calling thread has taken from the heap by `operator new`.
+/// Allocations of modules count, too, because the program replaces the operator.
 std::uint64_t allocation_count();
 
 }  // namespace pharos::testing

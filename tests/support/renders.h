@@ -8,26 +8,27 @@
 
 namespace pharos::testing {
 
-/// All plugins of the build, test-only and deliberately faulty ones included.
+/// Returns all plugins of the build, including test-only and deliberately faulty ones.
 const Registry& registry();
 
-/// A config given as text.
+/// Returns a config that is given as text.
 LoadedConfig config_from(const std::string& yaml);
 
-/// Renders a config given as text; `threads` 0: all cores.
+/// Renders a config that is given as text. `threads` 0 uses all cores.
 RenderResult render(const std::string& yaml, int threads = 0);
 
-/// Mean of all pixels and channels.
+/// Returns the mean of all pixels and channels.
 double image_mean(const Image& image);
 
-/// Mean of several independent numbers and its standard error.
+/// The mean of several independent numbers and its standard error.
 struct Estimate {
   double mean = 0;
   double standard_error = 0;
 };
 Estimate estimate(const std::vector<double>& values);
 
-/// Image means of a config rendered with seeds 1 … `runs`; the text must not state a seed.
+/// Returns the image means of a config rendered with the seeds 1 … `runs`. The text must not state
+/// a seed.
 Estimate mean_over_seeds(const std::string& yaml, int runs);
 
 }  // namespace pharos::testing

@@ -19,7 +19,7 @@ bool readable(int socket) {
   return poll(&state, 1, kSliceMs) > 0;
 }
 
-/// Reads the contents of a packet one after the other.
+/// Reads the contents of a packet one after another.
 class PacketReader {
  public:
   explicit PacketReader(std::string bytes) : bytes_(std::move(bytes)) {}
@@ -28,7 +28,7 @@ class PacketReader {
   T number() {
     if (left() < sizeof(T)) throw std::runtime_error("packet ends within a number");
     T value;
-    std::memcpy(&value, bytes_.data() + at_, sizeof(T));  // tests run on little-endian machines
+    std::memcpy(&value, bytes_.data() + at_, sizeof(T));  // the tests run on little-endian machines
     at_ += sizeof(T);
     return value;
   }

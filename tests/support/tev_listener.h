@@ -12,30 +12,30 @@
 
 namespace pharos::testing {
 
-/// How a TevListener treats its clients.
+/// The behavior of a TevListener towards its clients.
 enum class Manner {
-  reads,             ///< everything
-  never_reads,       ///< accepts connections and lets them be
-  hangs_up_at_first  ///< closes the first connection within the first image, then reads
+  reads,             ///< reads everything
+  never_reads,       ///< accepts connections but reads nothing
+  hangs_up_at_first  ///< closes the first connection during the first image, then reads
 };
 
-/// A stand-in for the image viewer tev on 127.0.0.1: takes one connection after the other and keeps
-/// what it is sent.
+/// A stand-in for the image viewer tev on 127.0.0.1. It accepts one connection after the other and
+/// stores the bytes that it receives.
 class TevListener {
  public:
-  /// Port 0: any that is free.
+  /// Listens on `port`; 0 chooses any free port.
   explicit TevListener(Manner manner, std::uint16_t port = 0);
   ~TevListener();
   TevListener(const TevListener&) = delete;
   TevListener& operator=(const TevListener&) = delete;
 
   std::uint16_t port() const { return port_; }
-  /// Connections taken so far.
+  /// Returns the number of connections accepted so far.
   int connections() const;
-  /// Bytes received so far, over all connections.
+  /// Returns the number of bytes received so far, over all connections.
   std::size_t byte_count() const;
-  /// All bytes of a connection, counted from 0, once the client has closed it; "" when that does
-  /// not happen within `seconds`.
+  /// Returns all bytes of a connection, counted from 0, after the client has closed it. Returns ""
+  /// if this does not happen within `seconds`.
   std::string received(std::size_t connection, double seconds = 10);
 
  private:
@@ -45,14 +45,15 @@ class TevListener {
   Manner manner_;
   std::uint16_t port_ = 0;
   int socket_ = -1;
-  mutable std::mutex mutex_;  ///< guards what follows
+  mutable std::mutex mutex_;  ///< guards the following members
   std::condition_variable changed_;
   std::vector<std::string> received_;
-  std::size_t ended_ = 0;  ///< connections
+  std::size_t ended_ = 0;  ///< closed connections
   std::jthread thread_;
 };
 
-/// What a viewer shows after a stream of packets, read by code that shares nothing with the sender.
+/// The image that a viewer shows after a stream of packets. The code that reads the packets shares
+/// nothing with the sender.
 struct ShownImage {
   std::string name;
   bool focus = false;
@@ -63,11 +64,12 @@ struct ShownImage {
   std::size_t largest_packet = 0;
 };
 
-/// Plays the packets of one connection. Throws std::runtime_error when they are not whole and
-/// sound: unknown types, updates of what was not created or beside it, values left over.
+/// Executes the packets of one connection. Throws std::runtime_error if they are incomplete or
+/// invalid: unknown types, updates of images that were not created or of pixels outside of them, or
+/// remaining bytes.
 ShownImage show_packets(const std::string& bytes);
 
-/// A port that was free a moment ago, where nobody listens.
+/// Returns a port that was free a moment ago and on which no program listens.
 std::uint16_t silent_port();
 
 }  // namespace pharos::testing

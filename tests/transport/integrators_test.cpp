@@ -1,7 +1,7 @@
-// Path tracing against light tracing, and against both together, in one room: matt and glossy
-// surfaces, smooth shading normals, rough or clear glass, in empty space and in fog, under every
-// kind of light and through every kind of sensor, in pairs. By the protocol of
-// statistics/image_agreement.h.
+// Path tracing compared with light tracing and with bidirectional path tracing in one room: matt
+// and glossy surfaces, interpolated shading normals, rough or clear glass, in empty space and in
+// fog, under every kind of light and through every kind of sensor, in pairs. Images are compared by
+// the protocol of statistics/image_agreement.h.
 
 #include <map>
 #include <string>
@@ -16,7 +16,7 @@
 namespace pharos::testing {
 namespace {
 
-/// A light: a shape that shines, or an emitter that stands alone.
+/// A light: an emitting shape, or an emitter without a shape.
 struct LightParts {
   std::string shape, emitter;
 };
@@ -26,7 +26,7 @@ const std::map<std::string, LightParts> kLights{
      {.shape = "{ type: quad, material: black, emitter: { type: area, radiance: [6, 5, 4] }, "
                "to_world: [ { scale: 0.4 }, { rotate: { axis: [1, 0, 0], degrees: 90 } }, "
                "{ translate: [0.3, 1.9, 0.4] } ] }"}},
-    {"lamp",  // inside the box of fog
+    {"lamp",  // in the box of fog
      {.shape =
           "{ type: sphere, center: [0, 1.1, 0.3], radius: 0.25, material: black, exterior: fog, "
           "emitter: { type: area, radiance: [7, 6, 5] } }"}},
@@ -69,18 +69,18 @@ const std::map<std::string, std::string> kSensors{
 
 enum class Fog { none, box, everywhere };
 
-/// What a comparison is about.
+/// The setup of a comparison.
 struct Case {
   const char *light, *sensor;
   Fog fog = Fog::none;
   int spp = 64;
   const char* crop = "";
   const char* glass = "rough_dielectric, alpha: 0.4";
-  const char* settings = "";  ///< of the other integrator
-  const char* more = "";      ///< shapes
+  const char* settings = "";  ///< settings of the other integrator
+  const char* more = "";      ///< further shapes
 };
 
-/// A vase and a ball of glass on a floor before a wall, in fog or without.
+/// A vase and a ball of glass on a floor in front of a wall, with or without fog.
 std::string scene(const Case& c) {
   const bool foggy = c.fog != Fog::none;
   const auto& [shape, emitter] = kLights.at(c.light);
@@ -137,8 +137,8 @@ void check(const Case& c, const std::string& integrator) {
 
 constexpr const char* kCrop = ", crop: { x: 4, y: 8, width: 16, height: 16 }";
 
-/// Light that scatters close to the lens comes to light tracing in rare bright splats, too few for
-/// a test: no sensor in fog.
+/// No sensor is in fog: in light tracing, light that scatters close to the lens causes rare bright
+/// splats, which are too few for a test.
 TEST_CASE("path tracing and light tracing show the same") {
   for (const Case& c : {Case{"area", "perspective"},
                         {"area", "orthographic", Fog::box},
@@ -164,7 +164,7 @@ TEST_CASE("path tracing and bidirectional path tracing show the same") {
   constexpr const char* kClear = "dielectric";
   constexpr const char* kGuided =
       ", guiding: { learner: stub_vertices, guider: stub_vertices, training: { iterations: 2 } }";
-  // A half open mask, a smooth coat over a matt wall, and a sheet of glass.
+  // A half-transparent mask, a smooth coat over a matt wall, and a sheet of glass.
   constexpr const char* kScreens =
       "    - { type: quad, material: { type: mask, opacity: 0.5, bsdf: wall }, to_world: [ { "
       "scale: "

@@ -1,6 +1,6 @@
-// Guided and unguided renders of a scene show the same image, by the protocol of
-// statistics/image_agreement.h. The scenes are variants of hard ones, with features large enough
-// for unguided renders to converge. Prints one line a comparison.
+// Guided and unguided renders of a scene have the same mean, by the protocol of
+// statistics/image_agreement.h. The scenes are variants of hard scenes, with features large enough
+// that unguided renders converge. Prints one line per comparison.
 
 #include <algorithm>
 #include <array>
@@ -17,7 +17,8 @@ namespace {
 
 constexpr int kRenders = 32;
 
-/// A way to guide, as settings of the integrator's `guiding`, and of the integrator beside it.
+/// A guiding method: settings of the integrator's `guiding`, and further settings of the
+/// integrator.
 struct Method {
   std::string name;
   std::vector<std::string> settings;
@@ -35,8 +36,8 @@ Method focal(float unguided_fraction, const char* extent, const char* images) {
            fmt::format("training={{ images: {} }}", images)}};
 }
 
-/// A pairwise covering array of unguided fractions, extents of splats and uses of training images,
-/// and fractions that are learned.
+/// Returns a pairwise covering array of unguided fractions, extents of splats and uses of training
+/// images, and in addition learned fractions.
 std::vector<Method> focal_methods() {
   return {focal(0.1f, "line", "discard"),
           focal(0.5f, "roughness_gated", "discard"),
@@ -62,7 +63,8 @@ Method gaussians_learned() {
            "training={ schedule: geometric }"}};
 }
 
-/// The same of guiders, unguided fractions, trees or single mixtures, and uses of training images.
+/// Returns a covering array of guiders, unguided fractions, trees or single mixtures, and uses of
+/// training images.
 std::vector<Method> gaussian_methods() {
   return {gaussians("p0", 0.1f, "kdtree", "discard"),
           gaussians("p0", 0.5f, "single", "combine"),
@@ -87,7 +89,7 @@ Method practical_path_guiding(const char* target, const char* mixing, const char
        fmt::format("training={{ schedule: geometric, images: {} }}", images)}};
 }
 
-/// The same of targets, ways to mix, filters, and uses of training images.
+/// Returns a covering array of targets, mixing policies, filters, and uses of training images.
 std::vector<Method> sd_tree_methods() {
   const char* nearest = "spatial_filter: nearest, directional_filter: nearest";
   const char* smooth = "spatial_filter: stochastic, directional_filter: box";
@@ -111,7 +113,7 @@ Method lobes(const char* learner, const char* product, const char* mixing, const
            fmt::format("training={{ schedule: uniform, iterations: 8, images: {} }}", images)}};
 }
 
-/// The same of mixtures, products, ways to mix, and uses of training images.
+/// Returns a covering array of mixtures, products, mixing policies, and uses of training images.
 std::vector<Method> lobe_methods() {
   const char *tree = "spatial: kdtree, cell_samples: 8192", *single = "spatial: single",
              *plain = "parallax: false";
@@ -123,7 +125,8 @@ std::vector<Method> lobe_methods() {
           lobes(single, "cosine", few, "combine")};
 }
 
-/// Pairs, triplets, triplets that learn from light paths, and those that render with them.
+/// Variants: pairs, triplets, triplets that learn from light paths, and triplets that also render
+/// with light paths.
 enum class Triplets { pairs, plain, light_training, light_always };
 
 Method triplets(Triplets variant, const char* surfaces, float unguided_fraction, bool guide_camera,
@@ -150,8 +153,8 @@ Method triplets(Triplets variant, const char* surfaces, float unguided_fraction,
   return method;
 }
 
-/// A pairwise covering array of variants, surface techniques, unguided fractions, guides of first
-/// vertices, and uses of training images, in two halves.
+/// Returns one half of a pairwise covering array of variants, surface techniques, unguided
+/// fractions, guides of first vertices, and uses of training images.
 std::vector<Method> triplet_methods(int half) {
   using enum Triplets;
   if (half == 0) {
@@ -170,7 +173,7 @@ std::vector<Method> triplet_methods(int half) {
           triplets(light_always, "p0", 0.25f, true, "combine")};
 }
 
-/// Every kind of guide, which in media leaves distances to these.
+/// Returns every kind of guide that leaves distances to the media.
 std::vector<Method> media_methods() {
   return {focal(0.5f, "line", "discard"),
           focal(0.5f, "roughness_gated", "combine"),
@@ -191,11 +194,11 @@ LoadedConfig load(const std::filesystem::path& config, const std::vector<std::st
   return load_render_config(config, overrides, registry());
 }
 
-/// Larger regions than needed for a t-test: unguided renders are so noisy here that a bias of 10 %
-/// could not be seen in smaller ones.
+/// The regions are larger than a t-test needs. Unguided renders are so noisy here that smaller
+/// regions could not detect a bias of 10 %.
 constexpr statistics::AgreementOptions kOptions{.effective_contributions = 500};
 
-/// Compares `methods` with unguided renders of the same number of samples.
+/// Compares `methods` with unguided renders with the same number of samples.
 void compare(const std::filesystem::path& config, std::span<const Method> methods,
              const std::vector<std::string>& overrides) {
   const std::string scene = config.stem().string();
@@ -215,13 +218,14 @@ void compare(const std::filesystem::path& config, std::span<const Method> method
   }
 }
 
-/// Compares methods on a proof variant, with what is changed of its config.
+/// Compares methods on a proof variant with the given changes of its config.
 void compare_proof(const std::string& scene, const std::vector<Method>& methods,
                    const std::vector<std::string>& overrides = {}) {
   compare(std::filesystem::path(PHAROS_PROOF_CONFIGS) / (scene + ".yaml"), methods, overrides);
 }
 
-/// Compares two shares of unguided samples where unguided renders alone would never converge.
+/// Compares two shares of unguided samples, for scenes in which unguided renders alone would never
+/// converge.
 void compare_shares(const std::string& scene, int samples) {
   const auto config = std::filesystem::path(PHAROS_CONFIGS) / (scene + ".yaml");
   const auto render = [&](float unguided_fraction, std::uint64_t first_seed) {
@@ -306,7 +310,8 @@ TEST_CASE("long: spatial Gaussians are unbiased in the proof variant strip-light
 }
 
 TEST_CASE("long: SD-trees are unbiased in the proof variant camera-obscura") {
-  // Twice the samples: cells and leaves that have not found the pinhole make bright outliers.
+  // Twice the samples are necessary, because cells and leaves that have not found the pinhole cause
+  // bright outliers.
   compare_proof("camera-obscura", sd_tree_methods(), {"budget={ spp: 128 }"});
 }
 TEST_CASE("long: SD-trees are unbiased in the proof variant hall") {
@@ -361,7 +366,7 @@ TEST_CASE("long: vertex triplets are unbiased in the proof variant volume-causti
   compare_proof("volume-caustics", triplet_methods(1));
 }
 
-// (Not the smallest pinhole: with so few samples most renders have yet to find it.)
+// The smallest pinhole is left out, because with so few samples most renders do not find it.
 TEST_CASE("long: unbiased with any share of guiding in camera-obscura") {
   compare_shares("camera-obscura", 512);
 }

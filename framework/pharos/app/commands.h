@@ -6,11 +6,12 @@ class App;
 
 namespace pharos {
 
-/// What the program returns to the shell. kTooDifferent: an image is further from the reference
-/// than was allowed.
+/// The exit codes of the program. kTooDifferent means that an image is further from the reference
+/// than allowed.
 enum ExitCode { kDone = 0, kTooDifferent = 1, kBadInput = 2, kFailed = 3, kInterrupted = 130 };
 
-/// Each adds one subcommand to the program; its callback stores the exit code in `exit_code`.
+/// Each function adds one subcommand to the program. Its callback stores the exit code in
+/// `exit_code`.
 void add_render_command(CLI::App& app, int& exit_code);
 void add_plugins_command(CLI::App& app, int& exit_code);
 void add_validate_command(CLI::App& app, int& exit_code);

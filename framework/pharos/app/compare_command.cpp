@@ -43,7 +43,7 @@ Metric metric_named(const std::string& name) {
                                quoted_list(keys), name, suggestion(name, keys)));
 }
 
-/// Refuses a file that cannot be written, and one that would be overwritten although it is read.
+/// Refuses a file that cannot be written, and an input file that would be overwritten.
 void check_output(const std::filesystem::path& file, const CompareOptions& options) {
   check_writable(file);
   const auto is_read = [&](const std::filesystem::path& input) {
@@ -56,7 +56,7 @@ void check_output(const std::filesystem::path& file, const CompareOptions& optio
   }
 }
 
-/// Fails before the work where its results could not be written.
+/// Fails before the work starts if its results could not be written.
 void check_options(const CompareOptions& options) {
   if (options.max_relmse && !(*options.max_relmse >= 0)) {
     throw InputError(fmt::format("--max-relmse: error: expected a number of 0 or more, found {}",
@@ -77,7 +77,7 @@ void check_options(const CompareOptions& options) {
   }
 }
 
-/// Whether an image has pixels without a value; tells of each that has.
+/// Whether an image has pixels without a value. Warns of each such image.
 bool has_invalid_pixels(const Comparison& comparison) {
   bool found = false;
   for (const MeasuredImage& image : comparison.images) {
@@ -108,8 +108,8 @@ void write_outputs(const Comparison& comparison, const CompareOptions& options) 
                        scale.logarithmic ? ", logarithmic" : ""));
 }
 
-/// Whether an image is too far from the reference. One with pixels that were left out is: nothing
-/// is known of these.
+/// Whether an image is too far from the reference. An image with pixels that were left out counts
+/// as too far, because nothing is known of these pixels.
 bool too_different(const Comparison& comparison, double max_relmse) {
   bool found = false;
   for (const MeasuredImage& image : comparison.images) {
@@ -129,7 +129,7 @@ int compare(const CompareOptions& options) {
   const bool is_bad = has_invalid_pixels(comparison);
   write_outputs(comparison, options);
   if (options.max_relmse && too_different(comparison, *options.max_relmse)) return kTooDifferent;
-  // What is known of the other pixels has been told; the input is wrong all the same.
+  // The results for the other pixels have been reported, but the input is still wrong.
   return is_bad ? kBadInput : kDone;
 }
 

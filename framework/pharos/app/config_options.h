@@ -7,7 +7,7 @@
 
 namespace pharos {
 
-/// The options that name a config: shared by all subcommands that read one.
+/// The options that name a config, shared by all subcommands that read one.
 struct ConfigOptions {
   std::string path;
   std::vector<std::string> overrides;

@@ -24,7 +24,7 @@ struct ConformanceOptions {
   bool all = false;
 };
 
-/// What the checks of one plugin add up to.
+/// The totals of the checks of one plugin.
 struct Tally {
   std::size_t checks = 0, failed = 0, not_applicable = 0;
   double smallest_p = 1;

@@ -29,7 +29,7 @@ struct ConvergenceOptions {
   bool quiet = false;
 };
 
-/// Ends before the work where its results could not be written.
+/// Fails before the work starts if its results could not be written.
 void check_outputs(const LaboratoryConfig& config) {
   if (!std::filesystem::exists(config.output)) return;
   for (const char* file : {"results.json", "report.html", "variances.csv"}) {

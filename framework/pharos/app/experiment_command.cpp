@@ -26,7 +26,7 @@ struct ExperimentOptions {
   bool quiet = false;
 };
 
-/// Ends before the work where its results could not be written.
+/// Fails before the work starts if its results could not be written.
 void check_outputs(const ExperimentConfig& config) {
   if (!std::filesystem::exists(config.output)) return;
   for (const char* file : {"results.json", "report.html", "runs.csv", "convergence.csv"}) {
@@ -69,7 +69,8 @@ int run(const ExperimentOptions& options) {
     };
     return run_experiment(config, std::move(plan), registry, control);
   }();
-  // A reference that was not finished tells nothing; what was known before stays.
+  // An unfinished reference measures nothing, so there are no records. Earlier results are then
+  // kept.
   if (!results.records.empty()) write_results(results);
   report(results);
   return results.stopped ? kInterrupted : kDone;

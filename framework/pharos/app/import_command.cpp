@@ -25,7 +25,7 @@ struct ImportOptions {
   bool report = false, strict = false, quiet = false;
 };
 
-/// The files that a scene names, each with a name of its own within the folder that is written.
+/// The files that a scene names. Each gets a unique name within the output folder.
 class CopiedFiles {
  public:
   CopiedFiles(const std::vector<fs::path>& files, const fs::path& source) {
@@ -33,7 +33,7 @@ class CopiedFiles {
     for (const fs::path& file : files) {
       if (names_.contains(file.string())) continue;
       fs::path name = file.lexically_relative(source);
-      // What lies elsewhere comes into a folder of its own.
+      // Files outside the source folder go to a separate folder.
       if (name.empty() || *name.begin() == "..") name = fs::path("files") / file.filename();
       for (int i = 2; !taken.insert(name).second; ++i) {
         name.replace_filename(
@@ -66,7 +66,7 @@ class CopiedFiles {
   std::map<std::string, fs::path> names_;
 };
 
-/// A folder that is filled under another name and takes its own when all is written.
+/// A folder that is filled under a temporary name and renamed when it is complete.
 class NewFolder {
  public:
   explicit NewFolder(const fs::path& path) : path_(path), temporary_(path.string() + ".partial") {
@@ -98,14 +98,14 @@ class NewFolder {
   fs::path path_, temporary_;
 };
 
-/// Says how every object of the file was mapped.
+/// Prints how every object of the file was mapped.
 void print_report(const Import& import) {
   for (const ImportedObject& object : import.objects) {
     fmt::print("{}: {} -> {}\n", object.where.to_string(), object.what, object.stands);
   }
 }
 
-/// Writes `scene.yaml`, what it names, and `render.yaml`.
+/// Writes `scene.yaml`, the files that it names, and `render.yaml`.
 void write_scene(ConfigNode config, const LoadedConfig& loaded, const ImportOptions& options) {
   // A trailing slash means the same folder.
   const fs::path output = (fs::path(options.output) / "").parent_path();

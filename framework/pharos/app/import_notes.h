@@ -6,7 +6,8 @@
 
 namespace pharos {
 
-/// Warns of what was approximated, a line each; when `strict`, throws InputError for the first.
+/// Warns of each approximation on a line of its own. If `strict`, throws InputError for the first
+/// one.
 void tell_notes(const std::vector<ImportNote>& notes, bool strict);
 
 }  // namespace pharos

@@ -26,7 +26,7 @@
 namespace pharos {
 namespace {
 
-/// A model and what its file says of it.
+/// A model and the header of its file.
 struct InspectedModel {
   ModelHeader header;
   std::shared_ptr<const GuidingModel> model;
@@ -57,29 +57,30 @@ std::string point_text(Point3 p) {
 
 void print_facts(const InspectedModel& inspected) {
   const GuidingModel& model = *inspected.model;
-  const Bounds3 bounds = model.bounds();
+  ModelInfo info = model.info();
+  const Bounds3 bounds = info.bounds;
   std::vector<ModelFact> facts = {
       {"model", fmt::format("{}, version {}", inspected.header.model, inspected.header.version)},
       {"learner", inspected.header.learner},
       {"saved", fmt::format("{} bytes", inspected.header.bytes)},
-      {"memory", fmt::format("{} bytes", model.size_bytes())},
+      {"memory", fmt::format("{} bytes", info.bytes)},
       {"bounds", bounds.empty()
                      ? "none"
                      : fmt::format("{} to {}", point_text(bounds.low), point_text(bounds.high))},
-      {"regions", std::to_string(model.region_count())}};
-  for (ModelFact& fact : model.facts()) facts.push_back(std::move(fact));
+      {"regions", std::to_string(info.regions)}};
+  for (ModelFact& fact : info.facts) facts.push_back(std::move(fact));
   std::size_t width = 0;
   for (const ModelFact& fact : facts) width = std::max(width, fact.name.size());
   for (const ModelFact& fact : facts) fmt::print("{:<{}}  {}\n", fact.name, width, fact.value);
 }
 
-/// A scene and the shape of the film that its camera looks at.
+/// A scene and the size of its camera's film.
 struct InspectedScene {
   Scene scene;
   int film_width, film_height;
 };
 
-/// What a config renders; a scene may stand for a config.
+/// Reads the scene that a config renders. A scene file may be given instead of a config.
 std::unique_ptr<const InspectedScene> read_scene(const std::filesystem::path& path,
                                                  const Registry& registry) {
   if (path.empty()) return nullptr;
@@ -96,15 +97,15 @@ std::unique_ptr<const InspectedScene> read_scene(const std::filesystem::path& pa
       new InspectedScene{Scene(std::move(config.scene)), config.film.width, config.film.height});
 }
 
-/// A picture that is still numbers, with what is drawn over or under it.
+/// A picture of densities, with the images to draw over or behind it.
 struct Picture {
   std::string caption;
   Image density;                            ///< one channel, "Y"
-  std::function<void(Image&)> draw_over{};  ///< over its colors; may be empty
-  Image backdrop{};                         ///< shines through where the density is low; or empty
+  std::function<void(Image&)> draw_over{};  ///< draws over the colors; may be empty
+  Image backdrop{};                         ///< visible where the density is low; may be empty
 };
 
-/// Makes the picture that the options ask for.
+/// Makes the picture that the options request.
 class Inspection {
  public:
   Inspection(const InspectOptions& options, const GuidingModel& model, const InspectedScene* scene)
@@ -115,20 +116,19 @@ class Inspection {
     return options_.cloud ? cloud() : directions();
   }
 
-  /// The Gaussians around a point, in colors.
+  /// Returns a picture of the Gaussians around a point.
   Image ellipsoids() const {
-    const auto* mixture = dynamic_cast<const SpatialMixture*>(&model_);
-    if (mixture == nullptr) {
+    if (dynamic_cast<const SpatialMixture*>(&model_) == nullptr) {
       throw InputError(
           fmt::format("pharos inspect: error: the model '{}' has no spatial Gaussians: "
                       "expected --slice, --direction or --cloud",
-                      model_.name()));
+                      model_.info().name));
     }
     const Point3 point = parse_point("--ellipsoids", options_.ellipsoids);
     Arena arena;
     const CloudView view = view_of(bounds());
     const Point3 from = view.ray(0.5f, 0.5f).origin;
-    const auto components = mixture_for_picture(*mixture, point, from, arena).components;
+    const auto components = mixture_for_picture(model_, point, from, arena);
     if (components.empty()) {
       throw InputError(fmt::format("--ellipsoids {}: error: the model knows nothing there",
                                    options_.ellipsoids));
@@ -139,15 +139,15 @@ class Inspection {
   }
 
  private:
-  /// Where there is something to see.
+  /// Returns the bounds of the picture: the model's or else the scene's.
   Bounds3 bounds() const {
-    const Bounds3 own = model_.bounds();
+    const Bounds3 own = model_.info().bounds;
     if (!own.empty()) return own;
     if (scene_ != nullptr) return scene_->scene.bounds();
     throw InputError(
         fmt::format("pharos inspect: error: the model '{}' does not say where it is: expected "
                     "--scene, whose bounds then count",
-                    model_.name()));
+                    model_.info().name));
   }
 
   Picture slice() const {
@@ -185,7 +185,7 @@ class Inspection {
             backdrop(box, view)};
   }
 
-  /// What the scene's camera sees, or all of the box.
+  /// Returns the view of the scene's camera, or a view of the whole box if there is no scene.
   CloudView view_of(const Bounds3& box) const {
     if (scene_ == nullptr) return oblique_view(box, options_.size);
     return camera_view(scene_->scene, scene_->film_width, scene_->film_height, options_.size);

@@ -14,7 +14,7 @@
 namespace pharos {
 namespace {
 
-/// `count` numbers with commas between them.
+/// Parses `count` numbers separated by commas.
 std::vector<float> numbers(const char* option, const std::string& text, std::size_t count,
                            const std::string& expected) {
   const Location where{fmt::format("{} {}", option, text)};
@@ -43,7 +43,7 @@ void check_picture_file(const InspectOptions& options) {
   }
 }
 
-/// Options that say how a picture looks mean nothing without one.
+/// Refuses options that describe a picture if no picture was requested.
 void refuse_without_picture(const InspectOptions& options) {
   const std::pair<const char*, bool> given[] = {{"--output", !options.output.empty()},
                                                 {"--scene", !options.scene.empty()},

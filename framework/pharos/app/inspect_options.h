@@ -12,21 +12,21 @@ class App;
 
 namespace pharos {
 
-/// Where a slice lies: coordinate `axis` is `value` [scene units].
+/// The position of a slice: coordinate `axis` is `value` [scene units].
 struct SliceOption {
   int axis;
   float value;
 };
 
-/// What a picture's colors mean.
+/// The range of densities that a picture's colors represent.
 struct RangeOption {
   float low, high;
 };
 
-/// What is typed after `pharos inspect`.
+/// The arguments of `pharos inspect`.
 struct InspectOptions {
   std::filesystem::path model;
-  std::string slice, direction, ellipsoids, range;  ///< as typed; empty: not given
+  std::string slice, direction, ellipsoids, range;  ///< as typed; empty if not given
   bool cloud = false;
   std::filesystem::path output, scene;
   int size = 1024;  ///< longer edge of the picture [pixels]
@@ -39,16 +39,16 @@ struct InspectOptions {
   bool wants_exr() const { return output.extension() == ".exr"; }
 };
 
-/// Throws InputError naming the option when options do not fit together, or when the picture cannot
-/// be written.
+/// Throws InputError with the name of the option if options contradict each other or the picture
+/// cannot be written.
 void check_options(const InspectOptions& options);
 
-/// AXIS=VALUE. Throws InputError naming the option.
+/// Parses AXIS=VALUE. Throws InputError with the name of the option.
 SliceOption parse_slice(const std::string& text);
-/// X,Y,Z as typed after `option`. Throws InputError naming it.
+/// Parses X,Y,Z as typed after `option`. Throws InputError with the name of the option.
 Point3 parse_point(const char* option, const std::string& text);
-/// LOW,HIGH; empty when it was not given. Throws InputError naming the option unless
-/// 0 < LOW < HIGH.
+/// Parses LOW,HIGH. Returns nothing if the option was not given. Throws InputError with the name of
+/// the option unless 0 < LOW < HIGH.
 std::optional<RangeOption> parse_range(const std::string& text);
 
 }  // namespace pharos

@@ -9,8 +9,8 @@ namespace {
 std::atomic<bool> interrupted{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "set from a signal handler");
 
-/// Signals of one cause may come in pairs (to the process and to its group, as timeout(1) sends
-/// them): only one that comes later than this counts as a second.
+/// The same cause may send two signals, one to the process and one to its group, as timeout(1)
+/// does. A signal counts as a second one only if it comes more than this later.
 constexpr std::time_t kSecondSignalSeconds = 1;
 volatile std::sig_atomic_t first_signal_at = 0;
 

@@ -4,7 +4,7 @@
 
 namespace pharos {
 
-/// While it lives, the first SIGINT or SIGTERM sets a flag; another one, a second or more later,
+/// While it exists, the first SIGINT or SIGTERM sets a flag. Another one, more than a second later,
 /// ends the program at once.
 class InterruptGuard {
  public:

@@ -16,14 +16,15 @@
 
 namespace {
 
-/// Whether the first argument asks for what only modules can tell: anything but a subcommand of the
-/// program itself and the version.
+/// Whether the modules are needed to parse the command line. They are, unless the first argument is
+/// --version or a subcommand of the program itself.
 bool needs_modules(const CLI::App& app, int argc, char** argv) {
   const std::string first = argc > 1 ? argv[1] : "";
   return first != "--version" && !pharos::has_command(app, first);
 }
 
-/// The first argument is a subcommand or an option; CLI11 would not tell what is wrong with it.
+/// Checks that the first argument is a subcommand or an option, because the message of CLI11 would
+/// not name the mistake.
 void check_command(const CLI::App& app, int argc, char** argv) {
   std::vector<std::string> known;
   for (const CLI::App* command : app.get_subcommands({})) known.push_back(command->get_name());

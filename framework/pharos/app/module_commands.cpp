@@ -20,13 +20,13 @@
 namespace pharos {
 namespace {
 
-/// What is typed after a command's name.
+/// The arguments after a command's name.
 struct Typed {
   const PluginInfo& plugin;
   std::string config;
   std::vector<std::string> overrides;
-  std::vector<std::string> texts;     ///< by parameter
-  std::vector<CLI::Option*> options;  ///< by parameter: whether it was stated
+  std::vector<std::string> texts;     ///< indexed by parameter
+  std::vector<CLI::Option*> options;  ///< indexed by parameter; tell whether each was given
   int threads = 0;
   bool quiet = false;
 };
@@ -45,8 +45,8 @@ std::string help_of(const ParameterInfo& parameter) {
   return text;
 }
 
-/// The value that an option gives: YAML, but for texts, and for lists whose brackets may be left
-/// out.
+/// Returns the value of an option. It is YAML, except that texts are taken literally and lists need
+/// no brackets.
 ConfigNode value_of(const ParameterInfo& parameter, const std::string& text) {
   const Location where{fmt::format("--{} {}", option_name(parameter), one_line(text, 60))};
   if (parameter.type == "boolean") return ConfigNode::scalar("true", where);
@@ -57,7 +57,7 @@ ConfigNode value_of(const ParameterInfo& parameter, const std::string& text) {
   return parse_yaml_at(is_bare ? "[" + text + "]" : text, where);
 }
 
-/// The settings: those of the file, changed by what was typed.
+/// Returns the settings of the file, overridden by the options.
 ConfigNode settings_of(const Typed& typed) {
   const Location where{"pharos " + typed.plugin.name};
   ConfigNode node = typed.config.empty() ? ConfigNode::mapping(where) : read_config(typed.config);

@@ -18,7 +18,7 @@
 namespace pharos {
 namespace {
 
-/// What is typed after `pharos points`.
+/// The arguments of `pharos points`.
 struct PointsOptions {
   std::vector<std::string> samplers;  ///< names or YAML mappings; none: all
   std::string dimension = "light_position";
@@ -26,8 +26,8 @@ struct PointsOptions {
   std::filesystem::path output;
 };
 
-/// The dimension of a 2D purpose at the first vertex that has it. Throws InputError naming the
-/// option.
+/// Returns the dimension of a 2D purpose at the first vertex that has it. Throws InputError with
+/// the name of the option.
 Dimension parse_dimension(const std::string& text) {
   std::vector<std::string> names;
   for (const auto& [name, purpose] : EnumNames<Purpose>::names) {

@@ -15,8 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What is shown of a plugin: what `chosen` says, else its first example, else its defaults. Paths
-/// are those of `files`.
+/// Returns the settings with which a plugin is shown: those in `chosen`, else its first example,
+/// else its defaults. Paths are relative to `files`.
 ConfigNode plugin_node(const PluginInfo& plugin, const ConfigNode& chosen, const fs::path& files) {
   const Location where{(files / "example.yaml").string(), 1, 1};
   ConfigNode settings = ConfigNode::mapping(where);
@@ -31,7 +31,7 @@ ConfigNode plugin_node(const PluginInfo& plugin, const ConfigNode& chosen, const
   return settings;
 }
 
-/// Puts `plugin` in the place of every mapping with the key `preview`.
+/// Replaces every mapping with the key `preview` by `plugin`.
 void substitute(ConfigNode& node, const ConfigNode& plugin) {
   for (ConfigNode& item : node.items()) substitute(item, plugin);
   for (ConfigNode::Entry& entry : node.entries()) substitute(entry.value, plugin);
@@ -58,7 +58,7 @@ void render_preview(const PluginInfo& plugin, const ConfigNode& node, const Regi
             loaded.config.output.filmic);
 }
 
-/// The points of each sampler beside their spectrum.
+/// Draws the points of each sampler beside their spectrum.
 void draw_samplers(const Registry& registry, const fs::path& folder) {
   for (const NamedSampler& s : pictured_samplers(registry)) {
     log_info(fmt::format("preview of the sampler '{}'", s.name));

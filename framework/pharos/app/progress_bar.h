@@ -6,8 +6,8 @@
 
 namespace pharos {
 
-/// A line on the terminal that follows a render (iteration, bar, samples, rays a second and time
-/// left) or other work. Silent where standard error is no terminal.
+/// A line on the terminal that shows the progress of a render (iteration, bar, samples, rays per
+/// second and time left) or of other work. Silent if standard error is not a terminal.
 class ProgressBar {
  public:
   ProgressBar();
@@ -16,11 +16,12 @@ class ProgressBar {
   ProgressBar& operator=(const ProgressBar&) = delete;
 
   void show(const Progress& progress);
-  /// The same for other work, of which `fraction` in [0, 1] is done after `seconds`: bar and time
-  /// left, with texts before and after the bar.
+  /// Shows the progress of other work: the bar and the time left, with texts before and after the
+  /// bar. A `fraction` in [0, 1] of the work is done after `seconds`.
   void show(double fraction, double seconds, const std::string& before = {},
             const std::string& after = {});
-  /// Takes the line away, for other messages, until the next show(), of this render or another.
+  /// Removes the line to make room for other messages, until the next show() of this render or
+  /// another.
   void clear();
 
  private:

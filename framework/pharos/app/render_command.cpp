@@ -80,7 +80,7 @@ void report(const RenderResult& result, const RenderConfig& config) {
   }
 }
 
-/// Runs the job and writes its outputs, with a preview in `viewer` where there is one.
+/// Runs the job and writes its outputs, with a preview in `viewer` if one is given.
 RenderResult render_and_write(RenderJob& job, const LoadedConfig& loaded,
                               const std::optional<HostPort>& viewer, const RenderOptions& options,
                               const std::atomic<bool>& stop) {

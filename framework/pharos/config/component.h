@@ -5,17 +5,17 @@
 
 namespace pharos {
 
-/// Base of every object that a plugin makes. A component is immutable once built: it holds its
-/// settings and what follows from them. State that belongs to one render lives in the separate
-/// objects that components make for it (Prepared…: constant during a render; …State: changes
-/// between iterations). Each contract names itself with a static `contract_name`.
+/// The base class of every object that a plugin makes. A component is immutable once built: it
+/// holds its settings and values that follow from them. State that belongs to one render lives in
+/// separate objects that components make for it (Prepared…: constant during a render; …State:
+/// changes between iterations). Each contract has a static member `contract_name` with its name.
 class Component {
  public:
   virtual ~Component() = default;
   Component(const Component&) = delete;
   Component& operator=(const Component&) = delete;
 
-  /// The name it was registered and built under; empty when it was not made by a Registry.
+  /// The name under which the component was registered and built. Empty if no Registry made it.
   const std::string& plugin_name() const { return plugin_name_; }
 
  protected:
@@ -26,7 +26,7 @@ class Component {
   std::string plugin_name_;
 };
 
-/// How components are held: shared and immutable. Null only where a docstring says so.
+/// A shared pointer to an immutable component. It is null only if a docstring says so.
 template <class Contract>
 using Ref = std::shared_ptr<const Contract>;
 

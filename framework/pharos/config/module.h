@@ -5,12 +5,13 @@
 
 namespace pharos {
 
-/// Changes whenever a contract's binary interface does; modules built for another one are refused.
+/// The version of the binary interface. It changes with the binary interface of any contract.
+/// Modules built for another version are refused.
 inline constexpr int kAbiVersion = 15;
 
 }  // namespace pharos
 
-/// Opens the one registration function of a module's shared library:
+/// Begins the only registration function of a module's shared library:
 ///
 ///     PHAROS_MODULE(registry) { registry.add<MySampler>("mine", "What it does in one line"); }
 #define PHAROS_MODULE(registry)                              \

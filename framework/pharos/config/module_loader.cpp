@@ -22,7 +22,7 @@ std::string dl_reason() {
   return one_line(text == nullptr ? "unknown reason" : text);
 }
 
-/// The function `name` of an opened library.
+/// Returns the function `name` of an opened library. Throws InputError at `where` if there is none.
 template <class Function>
 Function* entry_point(void* library, const char* name, const Location& where) {
   void* symbol = dlsym(library, name);
@@ -32,7 +32,7 @@ Function* entry_point(void* library, const char* name, const Location& where) {
   return reinterpret_cast<Function*>(symbol);
 }
 
-/// Names its registrations for as long as it lives.
+/// Attributes registrations to the module `name` as long as the object lives.
 class CurrentModule {
  public:
   CurrentModule(Registry& registry, std::string name) : registry_(registry) {
@@ -74,7 +74,7 @@ bool is_module(const fs::path& path) {
          std::string_view(name).substr(name.size() - kSuffix.size()) == kSuffix;
 }
 
-/// Where the running program lies: build tree or prefix.
+/// Returns the plugin folders of the running program, for the build tree and for an install prefix.
 std::vector<fs::path> program_folders() {
   std::error_code failed;
   const fs::path program = fs::read_symlink("/proc/self/exe", failed);
@@ -83,7 +83,7 @@ std::vector<fs::path> program_folders() {
   return {folder / "plugins", folder.parent_path() / PHAROS_PLUGIN_FOLDER};
 }
 
-/// The entries of PHAROS_MODULE_PATH that are not empty.
+/// Returns the entries of PHAROS_MODULE_PATH that are not empty.
 std::vector<fs::path> asked_folders() {
   const char* variable = std::getenv("PHAROS_MODULE_PATH");
   const std::string_view all = variable == nullptr ? "" : variable;

@@ -7,19 +7,19 @@
 
 namespace pharos {
 
-/// Loads every module library (`*.pharos.so`) of `folder` in order of file name. Libraries stay
-/// loaded until the program ends. Throws InputError with the path when a library cannot be opened,
-/// lacks the entry point, was built for another ABI version or brings a name that is taken.
-/// A folder that does not exist is an error only if `required`.
+/// Loads all module libraries (`*.pharos.so`) of `folder` in the order of their file names.
+/// Libraries stay loaded until the program ends. Throws InputError with the path if a library
+/// cannot be opened, lacks the entry point, was built for another ABI version or registers a name
+/// that is taken. A folder that does not exist is an error only if `required` is set.
 void load_modules(Registry& registry, const std::filesystem::path& folder, bool required = false);
 
-/// The folders that every program loads from: beside the program (build tree) or in the install
-/// prefix's `lib/pharos/plugins`, then those of the colon-separated PHAROS_MODULE_PATH. Each folder
-/// stands once.
+/// Returns the folders from which every program loads modules: `plugins` beside the program (build
+/// tree), `lib/pharos/plugins` in the install prefix, and then the folders of the colon-separated
+/// PHAROS_MODULE_PATH. Each folder is listed once.
 std::vector<std::filesystem::path> default_module_folders();
 
-/// A registry with the modules of all default folders. Those that PHAROS_MODULE_PATH names must
-/// exist.
+/// Returns a registry with the modules of all default folders. Folders that PHAROS_MODULE_PATH
+/// names must exist.
 Registry load_default_modules();
 
 }  // namespace pharos

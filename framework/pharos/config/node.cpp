@@ -14,7 +14,7 @@ bool is_letter_or_digit(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
 }
 
-/// True for texts that YAML surely reads back as the same scalar without quotes.
+/// Returns true for texts that YAML certainly reads back as the same scalar without quotes.
 bool is_plain(std::string_view text) {
   constexpr std::array<std::string_view, 4> special{"", "null", "Null", "NULL"};
   if (std::find(special.begin(), special.end(), text) != special.end()) return false;
@@ -57,7 +57,7 @@ bool fits_one_line(const ConfigNode& node) {
 
 void write_block(const ConfigNode& node, std::size_t indent, std::string& out);
 
-/// One `key:` or `- ` with what follows it.
+/// Writes one `key:` or `- ` with the node that follows it.
 void write_block_item(const ConfigNode& item, std::size_t indent, std::string& out) {
   if (fits_one_line(item)) {
     out += std::string(indent, ' ') + "- " + to_flow_yaml(item) + '\n';
@@ -128,7 +128,7 @@ ConfigNode merged(ConfigNode base, ConfigNode over) {
 
 namespace {
 
-/// Reads a config with all that it extends.
+/// Reads a config and everything that it extends.
 class ConfigReader {
  public:
   ConfigNode read(const std::filesystem::path& path) {
@@ -192,8 +192,8 @@ class ConfigReader {
   int files_ = 0;
 };
 
-/// The child of `node` named `step` on the way of an override; made when missing. `way` is the
-/// path so far.
+/// Returns the child of `node` named `step` for an override, and creates it if it is missing. `way`
+/// is the path so far.
 ConfigNode& child(ConfigNode& node, const std::string& step, const std::string& way,
                   const Location& where) {
   if (node.is_null()) node = ConfigNode::mapping(where);

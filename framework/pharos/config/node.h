@@ -11,8 +11,8 @@
 
 namespace pharos {
 
-/// One located node of a configuration: a scalar, a sequence or a mapping that keeps its order.
-/// A value type; knows nothing of YAML's library.
+/// One node of a configuration with its location: null, a scalar, a sequence or a mapping that
+/// keeps the order of its entries. A value type that is independent of the YAML library.
 class ConfigNode {
  public:
   enum class Kind { null, scalar, sequence, mapping };
@@ -35,8 +35,8 @@ class ConfigNode {
   bool is_scalar() const { return kind_ == Kind::scalar; }
   bool is_sequence() const { return kind_ == Kind::sequence; }
   bool is_mapping() const { return kind_ == Kind::mapping; }
-  /// What an error message says was found, on one line and shortened: "nothing", "the scalar 'x'",
-  /// "the list [1, 2]", "the mapping { type: sobol, … }".
+  /// Returns a description of the node for error messages, on one line and shortened: "nothing",
+  /// "the scalar 'x'", "the list [1, 2]", "the mapping { type: sobol, … }".
   std::string describe() const;
 
   const Location& where() const { return where_; }
@@ -44,20 +44,22 @@ class ConfigNode {
   const std::vector<ConfigNode>& items() const { return items_; }
   std::vector<ConfigNode>& items() { return items_; }
   const std::vector<Entry>& entries() const { return entries_; }
-  /// For changing values in place; keys are unique, see set().
+  /// The entries, for changing values in place. Keys are unique, see set().
   std::vector<Entry>& entries() { return entries_; }
 
-  /// The value under `key`; a null pointer when this is no mapping or has no such key.
+  /// Returns the value under `key`, or a null pointer if this node is not a mapping or has no such
+  /// key.
   const ConfigNode* find(std::string_view key) const;
   ConfigNode* find(std::string_view key);
-  /// Where `key` itself was written; this node's own place when there is no such key.
+  /// Returns the location of `key` itself, or the location of this node if there is no such key.
   const Location& where_key(std::string_view key) const;
-  /// Adds an entry at the end, or replaces the one with this key where it stands.
+  /// Adds an entry at the end. If there is an entry with this key, replaces that entry in place.
   void set(std::string key, ConfigNode value, Location key_where = {});
-  /// Takes an entry out and returns its value, or a null node.
+  /// Removes an entry and returns its value, or returns a null node if there is no such entry.
   ConfigNode take(std::string_view key);
 
-  /// Throws InputError at this node's location; unlocated when that is unknown.
+  /// Throws InputError at the location of this node. The error is unlocated if the location is
+  /// unknown.
   [[noreturn]] void fail(const std::string& message) const;
 
  private:
@@ -74,34 +76,38 @@ struct ConfigNode::Entry {
   ConfigNode value;
 };
 
-/// Reads one YAML document. Throws InputError (file:line:column, the file as it was given) for a
-/// file that is missing, a folder, no UTF-8 text, empty or over 32 MiB; for bad syntax, several
-/// documents, tags, duplicate keys, keys that are not scalars, nesting deeper than 64 and documents
-/// of more than a million nodes once aliases are copied out.
+/// Reads one YAML document. Throws InputError (file:line:column, with the file as it was given) for
+/// a file that is missing, a folder, not UTF-8 text, empty or over 32 MiB. Also throws it for bad
+/// syntax, several documents, tags, duplicate keys, keys that are not scalars, nesting deeper than
+/// 64 levels and documents of more than a million nodes after aliases are expanded.
 ConfigNode read_yaml(const std::filesystem::path& path);
-/// The same for text that came from elsewhere; `name` stands for the file.
+/// Reads a YAML document from a text. `name` takes the place of the file. Throws InputError like
+/// read_yaml().
 ConfigNode parse_yaml(std::string_view text, const std::string& name);
-/// The same; every node, and every error, is located at `where`, not at its place in the text.
+/// Reads a YAML document from a text. Every node and every error has the location `where`, whatever
+/// its place in the text.
 ConfigNode parse_yaml_at(std::string_view text, const Location& where);
 
-/// Reads a config and follows `extends: other.yaml` (relative to the file that says so; a path or
-/// a list of paths, later ones win, the file itself wins over all). Mappings merge key by key, but
-/// for a mapping with another `type`, which replaces; everything else replaces, so that `key: null`
-/// takes an inherited value back. Throws InputError also for cycles, for more than 256 files and
-/// for a document that is not a mapping.
+/// Reads a config and follows its `extends: other.yaml`. The value of `extends` is a path or a list
+/// of paths, relative to the file that contains it. Later files of the list override earlier ones,
+/// and the file itself overrides all of them. Mappings are merged key by key, except that a mapping
+/// with another `type` replaces the inherited mapping. Everything else replaces the inherited
+/// value, so `key: null` removes it. Throws InputError like read_yaml(), and also for cycles, for
+/// more than 256 files and for a document that is not a mapping.
 ConfigNode read_config(const std::filesystem::path& path);
 
-/// `over` laid over `base` as a file over what it extends.
+/// Merges `over` into `base`, like a file into the config that it extends.
 ConfigNode merged(ConfigNode base, ConfigNode over);
 
-/// Applies one `a.b.c=value` override; the value is YAML and replaces what was there. An index
-/// steps into a sequence; mappings that are missing are made. Throws InputError located at
-/// "--set a.b.c=value".
+/// Applies one override `a.b.c=value`. The value is YAML and replaces the previous value. A number
+/// in the path is an index into a sequence. Missing mappings are created. Throws InputError located
+/// at "--set a.b.c=value".
 void apply_override(ConfigNode& root, const std::string& assignment);
 
-/// Writes block-style YAML that parses to an equal node. Sequences of scalars stand on one line.
+/// Returns block-style YAML that parses to an equal node. Sequences of scalars are written on one
+/// line.
 std::string to_yaml(const ConfigNode& node);
-/// The same in flow style, on one line without line break.
+/// Returns flow-style YAML on one line without a line break.
 std::string to_flow_yaml(const ConfigNode& node);
 
 }  // namespace pharos

@@ -13,7 +13,7 @@
 
 namespace pharos {
 
-/// What is known of one plugin.
+/// The description of one plugin.
 struct PluginInfo {
   std::string contract;
   std::string name;
@@ -27,49 +27,51 @@ struct PluginInfo {
       build;
 };
 
-/// All plugins by (contract, name). Filled by ModuleLoader; constant afterwards.
+/// All plugins by (contract, name). load_modules() fills the registry; it is constant afterwards.
 class Registry {
  public:
-  /// Registers the class P under its contract. P names its settings `P::Settings`, a struct with
-  /// `static void describe(Schema<Settings>&)`, and has a constructor from Settings. Throws
-  /// InputError naming both modules when the name is taken.
+  /// Registers the class P under its contract. The struct P::Settings declares
+  /// `static void describe(Schema<Settings>&)`, and P has a constructor from Settings. Throws
+  /// InputError with the names of both modules if the name is taken.
   template <class P>
   void add(std::string name, std::string summary);
 
-  /// Makes `name` the plugin that a bare scalar or list stands for where contract C is expected:
-  /// `reflectance: 0.5` then reads as `{ type: name, key: 0.5 }`.
+  /// Makes `name` the plugin that is meant by a bare number or list where contract C is expected:
+  /// `reflectance: 0.5` is then read as `{ type: name, key: 0.5 }`.
   template <class C>
   void set_shorthand(std::string name, std::string key) {
     shorthands_[std::string(C::contract_name)] = {std::move(name), std::move(key)};
   }
 
-  /// Makes `name` the plugin that the word `default` stands for where contract C is expected.
+  /// Makes `name` the plugin that is meant by the word `default` where contract C is expected.
   template <class C>
   void set_default(std::string name) {
     defaults_[std::string(C::contract_name)] = std::move(name);
   }
 
-  /// Builds the component of contract C that `node` describes: a mapping with `type`, the name of
-  /// a plugin without further settings, `default`, the name of an entry of the scene's
-  /// dictionaries, or the contract's shorthand. An entry of the dictionaries wins over a plugin of
-  /// the same name. `resolved` receives what was built with all values in force; for an entry its
-  /// name. Throws InputError with location and nearest name; errors of a constructor that name no
-  /// location get that of `node`. Never null.
+  /// Builds the component of contract C that `node` describes. The node is a mapping with `type`,
+  /// the name of a plugin without further settings, `default`, the name of an entry of the scene's
+  /// dictionaries, or the shorthand of the contract. An entry of the dictionaries takes precedence
+  /// over a plugin of the same name. `resolved` receives the plugin with the values of its
+  /// parameters, or the name of the entry. Throws InputError with the location and the nearest
+  /// name. Errors of a constructor that have no location get the location of `node`. Never returns
+  /// null.
   template <class C>
   Ref<C> build(const ConfigNode& node, BuildContext& context, ConfigNode& resolved) const {
     return std::static_pointer_cast<const C>(
         build_component(std::string(C::contract_name), node, context, resolved));
   }
 
-  /// Names of all contracts that have plugins, and of all plugins of a contract, sorted.
+  /// Returns the names of all contracts that have plugins, or the names of all plugins of a
+  /// contract, sorted.
   std::vector<std::string> contracts() const;
   std::vector<std::string> names(std::string_view contract) const;
-  /// Null when there is no such plugin.
+  /// Returns null if there is no such plugin.
   const PluginInfo* find(std::string_view contract, std::string_view name) const;
 
-  /// Set by the loader while a module registers its plugins.
+  /// Sets the module of the plugins that are registered next. Called by the loader.
   void set_current_module(std::string module) { current_module_ = std::move(module); }
-  /// Where plugins were looked for; named in errors.
+  /// Adds a folder in which plugins were searched. Error messages name these folders.
   void add_searched_folder(std::string folder) { searched_.push_back(std::move(folder)); }
 
  private:
@@ -81,7 +83,8 @@ class Registry {
   std::shared_ptr<const Component> build_component(const std::string& contract,
                                                    const ConfigNode& node, BuildContext& context,
                                                    ConfigNode& resolved) const;
-  /// The plugin that `name` names, given the mapping of its settings, which may hold `type`.
+  /// Builds the plugin that `name` names. `settings` is the mapping of its settings, which may hold
+  /// `type`.
   std::shared_ptr<const Component> build_plugin(const std::string& contract, const ConfigNode& name,
                                                 const ConfigNode& settings, BuildContext& context,
                                                 ConfigNode& resolved) const;
@@ -121,7 +124,7 @@ std::shared_ptr<const C> Value<std::shared_ptr<const C>>::read(const ConfigNode&
   return context.registry.template build<C>(node, context, resolved);
 }
 
-/// Settings of plugins that have none.
+/// The settings of plugins that have no parameters.
 struct NoSettings {
   static void describe(Schema<NoSettings>&) {}
 };

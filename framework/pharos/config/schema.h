@@ -16,15 +16,15 @@ namespace pharos {
 struct ParameterInfo {
   std::string key;
   std::string type;
-  std::string unit;           ///< empty when there is none to state
+  std::string unit;           ///< empty if there is none
   std::string default_value;  ///< YAML text; empty for "none"
   std::string range;          ///< such as ">= 0" or "one | all"; empty for "any"
   std::string help;           ///< one line
   bool required = false;
-  std::vector<std::string> choices;  ///< all values of a choice or switch; empty for others
+  std::vector<std::string> choices;  ///< all values of a choice or boolean; empty for others
 };
 
-/// The parameters of a settings struct, each declared once:
+/// The parameters of a settings struct. Each parameter is declared once:
 ///
 ///     struct Settings {
 ///       float radius = 1;
@@ -33,13 +33,13 @@ struct ParameterInfo {
 ///       }
 ///     };
 ///
-/// Parsing, range checks, listings, documentation and the resolved config all follow from it.
-/// Defaults are those of the member initializers. One without a YAML text, such as infinity or a
-/// null component, shows as "none" and is in force when the key is left out.
+/// Parsing, range checks, listings, documentation and the resolved config all follow from this
+/// declaration. Defaults are the values of the member initializers. A default without a YAML text,
+/// such as infinity or a null component, is shown as "none" and applies if the key is left out.
 template <class Settings>
 class Schema {
  public:
-  /// Refines the field just declared.
+  /// Refines the field that was just declared.
   template <class T>
   class FieldOptions {
    public:
@@ -50,13 +50,13 @@ class Schema {
       info_.unit = std::move(text);
       return *this;
     }
-    /// The key must be given.
+    /// Makes the key mandatory.
     FieldOptions& required() {
       info_.required = true;
       info_.default_value.clear();
       return *this;
     }
-    /// Default for fields whose C++ initializer cannot say it, as YAML text.
+    /// Sets the default as YAML text, for fields whose C++ initializer cannot express it.
     FieldOptions& otherwise(std::string yaml) {
       info_.default_value = std::move(yaml);
       return *this;
@@ -73,7 +73,7 @@ class Schema {
     FieldOptions& below(double high) {
       return check("< " + number_text(high), [high](const T& v) { return all_below(v, high); });
     }
-    /// Any other condition, worded as what is expected.
+    /// Adds any other condition. `expected` describes the values for which it holds.
     FieldOptions& check(std::string expected, Check<T> holds) {
       info_.range += (info_.range.empty() ? "" : " and ") + expected;
       checks_.emplace_back(std::move(expected), std::move(holds));
@@ -109,6 +109,12 @@ class Schema {
     return FieldOptions<T>(*info, *checks);
   }
 
+  /// The same for a member of a base of the settings.
+  template <class T, class Base>
+  FieldOptions<T> field(std::string key, T Base::*member, std::string help) {
+    return field(std::move(key), static_cast<T Settings::*>(member), std::move(help));
+  }
+
   /// Gives settings worth trying, as a YAML mapping on one line without `type`. The conformance
   /// suites test a plugin with its defaults and with every example; the documentation shows them. A
   /// plugin that cannot be built from its defaults needs one. Examples may name the files
@@ -122,8 +128,8 @@ class Schema {
     return all;
   }
 
-  /// The parameters in which `settings` differs from Settings{}, as a YAML mapping on one line:
-  /// the default of a field that holds this struct.
+  /// Returns the parameters in which `settings` differs from Settings{}, as a YAML mapping on one
+  /// line. This text is the default of a field that holds the struct.
   std::string changed_text(const Settings& settings) const {
     std::string text;
     for (const Field& f : fields_) {
@@ -134,10 +140,10 @@ class Schema {
     return text.empty() ? "{}" : "{" + text + " }";
   }
 
-  /// Reads the mapping `node`; its key `skipped_key` is someone else's. Throws InputError for
-  /// unknown keys, missing required keys, wrong types and values out of range. `resolved` receives
-  /// every parameter with the value in force. A parameter that is not required and has no default
-  /// may also be given as null, and then keeps its C++ initializer.
+  /// Reads the mapping `node`. Its key `skipped_key` belongs to the caller and is skipped. Throws
+  /// InputError for unknown keys, missing required keys, wrong types and values out of range. A
+  /// parameter that is not required and has no default keeps its C++ initializer if it is left out
+  /// or given as null. `resolved` receives the values of all other parameters.
   Settings read(const ConfigNode& node, BuildContext& context, ConfigNode& resolved,
                 std::string_view skipped_key = {}) const {
     check_keys(node, parameters(), skipped_key);

@@ -10,7 +10,8 @@
 namespace pharos {
 namespace {
 
-/// Reads all of `text` in `base`; `failed` tells junk (invalid_argument) from overflow.
+/// Parses all of `text` in `base`. `failed` distinguishes malformed text (invalid_argument) from
+/// overflow.
 template <class Number>
 Number parse_whole(std::string_view text, int base, std::errc& failed) {
   Number value = 0;
@@ -19,7 +20,7 @@ Number parse_whole(std::string_view text, int base, std::errc& failed) {
   return value;
 }
 
-/// 16 or 8 for texts that begin with 0x or 0o, else 10.
+/// Returns 16 for texts that begin with 0x, 8 for texts that begin with 0o, else 10.
 int base_of(std::string_view text) {
   const std::string_view prefix = text.substr(0, 2);
   return prefix == "0x" ? 16 : prefix == "0o" ? 8 : 10;
@@ -39,7 +40,7 @@ std::int64_t parse_integer(std::string_view text, std::errc& failed) {
   return value;
 }
 
-/// A number in the notation of YAML 1.2's core schema.
+/// Parses a number in the notation of YAML 1.2's core schema.
 double parse_number(std::string_view text, std::errc& failed) {
   if (base_of(text) != 10) return static_cast<double>(parse_integer(text, failed));
   const std::string_view number = without_plus(text);
@@ -241,7 +242,7 @@ Rgb Value<Rgb>::read(const ConfigNode& node, BuildContext&, ConfigNode& resolved
   return color;
 }
 
-/// The steps that a transform is made of.
+/// The steps of which a transform consists.
 namespace {
 
 struct Rotation {
@@ -258,9 +259,9 @@ struct View {
   Vec3 origin, target, up{0, 1, 0};
 
   static void describe(Schema<View>& s) {
-    s.field("origin", &View::origin, "Where local (0, 0, 0) goes").required();
-    s.field("target", &View::target, "Where local +z points to").required();
-    s.field("up", &View::up, "Direction that local +y comes near to");
+    s.field("origin", &View::origin, "Position of the local origin").required();
+    s.field("target", &View::target, "Point at which local +z points").required();
+    s.field("up", &View::up, "Direction near to local +y");
   }
 };
 

@@ -20,8 +20,8 @@
 #include <pharos/core/transform.h>
 #include <pharos/core/vec.h>
 
-/// How each C++ type of a settings field is written in a config: Value<T> names the type, reads a
-/// node (throwing InputError at its location) and writes the value in force.
+/// Defines how each C++ type of a settings field is written in a config. Value<T> names the type,
+/// reads a node (throwing InputError at its location) and writes the resolved value.
 namespace pharos {
 
 class Registry;
@@ -33,52 +33,54 @@ class Schema;
 template <class T>
 using Check = std::function<bool(const T&)>;
 
-/// Specialize for an enum: `static constexpr std::array<std::pair<std::string_view, E>, n> names`.
+/// The names of the values of an enum. Each enum needs a specialization with
+/// `static constexpr std::array<std::pair<std::string_view, E>, n> names`.
 template <class E>
 struct EnumNames;
 
 template <class T>
 struct Value;
 
-/// A settings struct: it describes its own parameters.
+/// A settings struct, which describes its own parameters.
 template <class T>
 concept DescribedStruct = requires(Schema<T>& schema) {
   T::describe(schema);
 };
 
-/// The shortest decimal text that reads back as the same value; "" when it is not finite, which
-/// no config can say.
+/// Returns the shortest decimal text that reads back as the same value. Returns "" if the value is
+/// not finite, because a config cannot express it.
 std::string number_text(double value);
 std::string number_text(float value);
 
 /// Throws InputError at `node`: "KEY must be EXPECTED, got VALUE".
 [[noreturn]] void fail_range(const ConfigNode& node, const std::string& key,
                              const std::string& expected);
-/// Throws InputError at `mapping`: the key of `parameter` is missing.
+/// Throws InputError at `mapping` because the key of `parameter` is missing.
 [[noreturn]] void fail_missing(const ConfigNode& mapping, const ParameterInfo& parameter);
 /// Throws InputError at `node`: "expected EXPECTED, found WHAT IT IS".
 [[noreturn]] void fail_type(const ConfigNode& node, const std::string& expected);
-/// Throws unless `node` is a mapping whose keys are all parameters (or `skipped_key`).
+/// Throws InputError unless `node` is a mapping whose keys are all parameters (or `skipped_key`).
 void check_keys(const ConfigNode& node, const std::vector<ParameterInfo>& parameters,
                 std::string_view skipped_key = {});
-/// The default's text as a node located at the mapping that lacks the key.
+/// Returns the text of the default as a node. Its location is the mapping that lacks the key.
 ConfigNode default_node(const ParameterInfo& parameter, const ConfigNode& mapping);
 
-/// True when the text is a number of YAML 1.2's core schema, infinity and NaN left out.
+/// Returns true if the text is a number of YAML 1.2's core schema, except for infinity and NaN.
 bool is_number(std::string_view text);
-/// A finite number of at most `largest` in magnitude; throws InputError otherwise.
+/// Reads a finite number of at most `largest` in magnitude. Throws InputError otherwise.
 double read_number(const ConfigNode& node, double largest = std::numeric_limits<double>::max());
-/// An integer in decimal, 0x or 0o notation in [low, high]; throws InputError otherwise.
+/// Reads an integer in decimal, 0x or 0o notation in [low, high]. Throws InputError otherwise.
 std::int64_t read_integer(const ConfigNode& node, std::int64_t low, std::int64_t high);
-/// A list of `count` numbers; throws InputError, "expected EXPECTED, …", otherwise.
+/// Reads a list of `count` numbers. Throws InputError, "expected EXPECTED, …", otherwise.
 std::vector<float> read_floats(const ConfigNode& node, std::size_t count,
                                const std::string& expected);
 ConfigNode float_list(const std::vector<float>& values);
-/// The index of the name that `node` gives; throws InputError with the nearest name otherwise.
+/// Returns the index of the name that `node` gives. Throws InputError with the nearest name if
+/// there is no such name.
 std::size_t read_choice(const ConfigNode& node, const std::vector<std::string>& names);
 
-/// True when `holds` is true of every number in `v`: a number, a vector or color by component, an
-/// optional if there is one, a list by item.
+/// Returns true if `holds` is true of every number in `v`: of a number itself, of the components of
+/// a vector or color, of the value of an optional (if there is one) and of the items of a list.
 template <class T, class Holds>
 bool all_numbers(const T& v, const Holds& holds) {
   if constexpr (std::is_arithmetic_v<T>) {
@@ -96,7 +98,8 @@ bool all_numbers(const T& v, const Holds& holds) {
                        [&](const auto& item) { return all_numbers(item, holds); });
   }
 }
-/// A bound as a number like `like`: 0.1 as a bound of floats is the float 0.1.
+/// Converts a bound to the type of the number that it limits: 0.1 as a bound of floats is the float
+/// 0.1.
 template <class Number>
 auto bound_for(Number, double bound) {
   if constexpr (std::is_floating_point_v<Number>) {
@@ -122,8 +125,9 @@ bool all_below(const T& v, double high) {
   return all_numbers(v, [high](auto x) { return x < bound_for(x, high); });
 }
 
-/// Types without a range of their own and too many values to list. `default_text` is YAML text that
-/// reads as the given value; "" when there is none, and then the field keeps its C++ initializer.
+/// The base of types without a range of their own and with too many values to list. `default_text`
+/// returns YAML text that reads as the given value. It returns "" if there is none; the field then
+/// keeps its C++ initializer.
 struct PlainValue {
   static std::string range() { return {}; }
   static std::vector<std::string> choices() { return {}; }
@@ -171,8 +175,8 @@ struct Value<std::string> : PlainValue {
   static std::string read(const ConfigNode& node, BuildContext&, ConfigNode& resolved);
 };
 
-/// Paths are relative to the file that states them (on the command line, to the working directory)
-/// and are read as absolute.
+/// Paths are relative to the file that contains them (on the command line, to the working
+/// directory). They are read as absolute paths.
 template <>
 struct Value<std::filesystem::path> : PlainValue {
   static std::string type_name() { return "path"; }
@@ -196,7 +200,7 @@ struct Value<Vec3> : PlainValue {
   static Vec3 read(const ConfigNode& node, BuildContext&, ConfigNode& resolved);
 };
 
-/// A mapping that is kept as it was written, to be read later.
+/// A mapping that is kept as it was written and is read later.
 template <>
 struct Value<ConfigNode> : PlainValue {
   static std::string type_name() { return "mapping"; }
@@ -204,7 +208,7 @@ struct Value<ConfigNode> : PlainValue {
   static ConfigNode read(const ConfigNode& node, BuildContext&, ConfigNode& resolved);
 };
 
-/// One number for gray or a list of three.
+/// One number for gray, or a list of three numbers.
 template <>
 struct Value<Rgb> : PlainValue {
   static std::string type_name() { return "color"; }
@@ -212,10 +216,10 @@ struct Value<Rgb> : PlainValue {
   static Rgb read(const ConfigNode& node, BuildContext&, ConfigNode& resolved);
 };
 
-/// One step or a list of steps, the first applied first: `translate: [x, y, z]`,
+/// One step or a list of steps, applied in the order of the list: `translate: [x, y, z]`,
 /// `scale: s | [x, y, z]`, `rotate: { axis: [x, y, z], degrees: a }`,
-/// `look_at: { origin: …, target: …, up: … }`, `matrix: [12 or 16 numbers, row-major]`. The value
-/// in force is written as `matrix`, which reads back as the same transform in every bit.
+/// `look_at: { origin: …, target: …, up: … }`, `matrix: [12 or 16 numbers, row-major]`. The
+/// resolved value is written as `matrix`, which reads back as the same transform in every bit.
 template <>
 struct Value<Transform> : PlainValue {
   static std::string type_name() { return "transform"; }
@@ -306,7 +310,7 @@ struct Value<T> : PlainValue {
   }
 };
 
-/// A nested component. Without a default (`otherwise`) and not required it may stay null.
+/// A nested component. It may stay null if it is not required and has no default (`otherwise`).
 template <class C>
 struct Value<std::shared_ptr<const C>> : PlainValue {
   static std::string type_name() { return std::string(C::contract_name); }
@@ -315,16 +319,16 @@ struct Value<std::shared_ptr<const C>> : PlainValue {
                                        ConfigNode& resolved);
 };
 
-/// What building a component needs besides its node.
+/// The context in which a component is built from its node.
 struct BuildContext {
   const Registry& registry;
-  /// Named components of a scene, by contract and name (`materials:`, `media:`, `textures:`).
+  /// A named component of a scene with its contract and name (`materials:`, `media:`, `textures:`).
   struct Named {
     std::string contract, name;
     std::shared_ptr<const Component> component;
   };
   std::vector<Named> named = {};
-  /// Every path that was read, absolute, in order: the input besides the config itself.
+  /// All paths that were read, absolute and in order: the input besides the config itself.
   std::vector<std::filesystem::path> files = {};
 };
 

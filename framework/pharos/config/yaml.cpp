@@ -14,29 +14,29 @@
 
 #include <pharos/config/node.h>
 
-/// The one file that knows yaml-cpp. Documents are taken as a stream of events, so that limits hold
-/// while they are read and nothing is expanded before it is counted.
+/// This file is the only one that uses yaml-cpp. Documents are processed as a stream of events, so
+/// that limits hold during reading and nothing is expanded before it is counted.
 namespace pharos {
 namespace {
 
 constexpr std::size_t kDeepest = 64;
 constexpr std::size_t kMostNodes = 1'000'000;
 constexpr std::size_t kMostBytes = std::size_t{32} << 20;
-/// A scalar counts as one node more for each so many bytes, so that aliases of long texts are
-/// bounded too.
+/// A scalar counts as one more node per this number of bytes, so that aliases of long texts are
+/// limited, too.
 constexpr std::size_t kBytesPerNode = 64;
 
 /// A finished node with its cost.
 struct Measured {
   ConfigNode node;
-  std::size_t nodes = 1;   ///< it and all below, see kBytesPerNode
-  std::size_t height = 1;  ///< levels, itself included
+  std::size_t nodes = 1;   ///< this node and all nodes below it, see kBytesPerNode
+  std::size_t height = 1;  ///< levels, including its own
 };
 
 /// Builds the nodes of one document from the parser's events.
 class Builder : public YAML::EventHandler {
  public:
-  /// Locates by line and column in `name`, or all at `fixed`.
+  /// Locates nodes by line and column in `name`, or all nodes at `fixed`.
   Builder(std::string name, std::optional<Location> fixed)
       : name_(std::move(name)), fixed_(std::move(fixed)) {}
 
@@ -44,7 +44,7 @@ class Builder : public YAML::EventHandler {
     if (fixed_) return *fixed_;
     return mark.is_null() ? Location{name_} : Location{name_, mark.line + 1, mark.column + 1};
   }
-  /// Null when the stream held no document.
+  /// Empty if the stream held no document.
   std::optional<ConfigNode>& result() { return result_; }
 
   void OnDocumentStart(const YAML::Mark& mark) override {
@@ -81,16 +81,17 @@ class Builder : public YAML::EventHandler {
   void OnMapEnd() override { close(); }
 
  private:
-  /// A sequence or mapping whose end has not come yet.
+  /// A sequence or mapping whose end has not been reached yet.
   struct Open {
     Measured built;
     YAML::Mark mark;
     YAML::anchor_t anchor;
     bool has_key = false;                            ///< a key was read, its value is next
-    std::unordered_map<std::string, int> keys = {};  ///< those so far, with their lines
+    std::unordered_map<std::string, int> keys = {};  ///< the keys so far, with their lines
   };
 
-  /// yaml-cpp places a value that was left out at whatever comes next: its key's line is meant.
+  /// Returns the location of a null. yaml-cpp locates an omitted value at the next token, so the
+  /// location of its key is returned instead if the key is on an earlier line.
   Location place_of_null(const YAML::Mark& mark) const {
     if (open_.empty() || !open_.back().has_key) return place(mark);
     const Location& key = open_.back().built.node.entries().back().key_where;
@@ -133,7 +134,7 @@ class Builder : public YAML::EventHandler {
     add(mark, std::move(node));
   }
 
-  /// Puts a finished node where it belongs: root, item, key or value.
+  /// Stores a finished node where it belongs: as root, item, key or value.
   void add(const YAML::Mark& mark, Measured node) {
     if (open_.empty()) {
       result_ = std::move(node.node);
@@ -174,8 +175,8 @@ class Builder : public YAML::EventHandler {
   std::size_t nodes_ = 0;
 };
 
-/// Length of the UTF-8 character that starts at `i`; 0 when it is malformed, overlong or no
-/// printable text.
+/// Returns the length of the UTF-8 character that starts at `i`, or 0 if the character is
+/// malformed, overlong or not printable.
 std::size_t character_length(std::string_view text, std::size_t i) {
   const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(text[k]); };
   const unsigned first = byte(i);
@@ -209,11 +210,11 @@ void check_text(std::string_view text, const Builder& builder) {
   }
 }
 
-/// The document's root; nothing when there is none.
+/// Returns the root of the document, or nothing if there is no document.
 std::optional<ConfigNode> parse(std::string_view text, Builder builder) {
   check_text(text, builder);
-  // yaml-cpp takes the end of the text for the end of a quoted scalar when a line break comes last.
-  // Opening quotes in a remark turn such a scalar into the error that it is.
+  // If a text ends with a line break, yaml-cpp accepts the end of the text as the end of a quoted
+  // scalar. An appended comment with opening quotes makes such a scalar the error that it is.
   const bool ends_line = !text.empty() && text.back() == '\n';
   try {
     std::istringstream stream(std::string(text) + (ends_line ? "# '\" '" : ""));

@@ -13,7 +13,7 @@
 namespace pharos::conformance {
 namespace {
 
-/// A way to ask a BSDF.
+/// A configuration in which a BSDF is queried.
 struct Question {
   SurfacePoint point;
   Vec3 wo;
@@ -35,7 +35,7 @@ std::string text(Vec3 v) {
   return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x, v.y, v.z);
 }
 
-/// Texture coordinates run along x and y, a unit over a unit of length.
+/// A point whose texture coordinates run along x and y, one unit of them per unit of length.
 SurfacePoint point_at(Vec2 uv) {
   return {.uv = uv, .tangents = {{1, 0, 0}, {0, 1, 0}}};
 }
@@ -45,7 +45,8 @@ std::vector<Vec3> outgoing_directions() {
           direction(85, 320), direction(140, 20), direction(100, 260)};
 }
 
-/// Every direction with all events in both transports, and with those of each side.
+/// Returns every outgoing direction with all events in both transports, and with the events of each
+/// side in radiance transport.
 std::vector<Question> questions() {
   std::vector<Question> all;
   for (const Vec3 wo : outgoing_directions()) {
@@ -68,7 +69,7 @@ ScatterValue evaluate(const Bsdf& bsdf, const Question& q, Vec3 wi) {
   return bsdf.evaluate(q.point, q.wo, wi, q.options);
 }
 
-/// The listed outcome that a sample is; null when there is none.
+/// Returns the listed outcome of a sample; null if there is none.
 const DiscreteOutcome* outcome_of(const DiscreteOutcomes& outcomes, const ScatterSample& s) {
   for (const DiscreteOutcome& o : outcomes) {
     if (o.event == s.event) return &o;
@@ -133,7 +134,7 @@ void check_weight(const Bsdf& bsdf, Suite& suite) {
   }
 }
 
-/// f |cos wi| of radiance against f |cos wo| of importance with the directions exchanged.
+/// f of radiance must be f of importance with the directions exchanged.
 void check_adjoint_pair(const Bsdf& bsdf, const SurfacePoint& point, Vec3 wo, Vec3 wi,
                         Check& check) {
   const Rgb forth = bsdf.evaluate(point, wo, wi, {Transport::radiance}).value / std::abs(wi.z);
@@ -144,9 +145,10 @@ void check_adjoint_pair(const Bsdf& bsdf, const SurfacePoint& point, Vec3 wo, Ve
   });
 }
 
-/// Light that goes one way at an interface comes back the other: v cos(o) dw_o of radiance is
-/// v cos(i) dw_i of importance, and Snell's law makes n^2 cos dw the same on both sides (Veach
-/// 1997, sec. 5.2), so that shares differ by (sin i / sin o)^2.
+/// Light that goes one way through an interface also comes back. For outcomes of value v,
+/// v cos(o) dw_o of radiance transport equals v cos(i) dw_i of importance transport. By Snell's
+/// law, n^2 cos dw is the same on both sides (Veach 1997, sec. 5.2). The values thus differ by (sin
+/// i / sin o)^2.
 void check_adjoint_outcomes(const Bsdf& bsdf, const SurfacePoint& point, Vec3 wo, Check& check) {
   for (const DiscreteOutcome& o : bsdf.discrete(point, wo, {Transport::radiance})) {
     const double sine_o = std::hypot(wo.x, wo.y), sine_i = std::hypot(o.direction.x, o.direction.y);
@@ -181,17 +183,18 @@ void check_adjoint(const Bsdf& bsdf, Suite& suite) {
     if (std::abs(wo.z) < 0.05f || std::abs(wi.z) < 0.05f) continue;
     check_adjoint_pair(bsdf, point, wo, wi, check);
   }
-  if (bsdf.tilts_normal()) return;  // Snell's law holds about a normal that only the BSDF knows
+  if (bsdf.tilts_normal()) return;  // Snell's law holds for a normal that only the BSDF knows
   for (const Vec3 wo : outgoing_directions()) check_adjoint_outcomes(bsdf, {}, wo, check);
 }
 
-/// How the energy is asked for. Importance transport carries light itself, without the 1/eta^2 of
-/// radiance. About a tilted normal it may gain (Veach 1997, sec. 5.3), and radiance must not.
+/// Returns the transport in which energy is tested. Importance transport carries light without the
+/// factor 1/eta^2 of radiance. With a tilted normal, importance may increase
+/// (Veach 1997, sec. 5.3), but radiance must not.
 Transport energy_transport(const Bsdf& bsdf) {
   return bsdf.tilts_normal() ? Transport::radiance : Transport::importance;
 }
 
-/// The factor that frees a sample's weight of the 1/eta^2.
+/// Returns the factor that removes 1/eta^2 from a sample's weight.
 float energy_factor(const Bsdf& bsdf, const Question& q, const ScatterSample& s) {
   const bool refracted = contains(EventMask::transmit, s.event) && s.event != Event::pass_through;
   if (q.options.transport == Transport::importance || !refracted) return 1;
@@ -222,7 +225,7 @@ void check_energy(const Bsdf& bsdf, Suite& suite) {
   }
 }
 
-/// A sample or outcome is one event of those asked for, on its side.
+/// Expects that a sample or outcome is a single event that was asked for, on its side.
 void expect_event(const Bsdf& bsdf, const Question& q, Event event, Vec3 wi, Check& check) {
   const bool one = std::has_single_bit(static_cast<std::uint8_t>(event));
   check.expect(one && contains(bsdf.events() & q.options.events, event), [&] {
@@ -274,7 +277,7 @@ void check_events(const Bsdf& bsdf, Suite& suite) {
   }
 }
 
-/// Directions of every steepness, down to where cosines are denormal or zero.
+/// Directions of all elevations, down to denormal and zero cosines.
 std::vector<Vec3> extreme_directions() {
   std::vector<Vec3> all;
   for (const float z : {1.0f, 0.7f, 1e-2f, 1e-4f, 1e-6f, 1e-12f, 1e-20f, 1e-38f, 1e-42f, 0.0f}) {
@@ -332,7 +335,7 @@ void check_finite(const Bsdf& bsdf, Suite& suite) {
                [] { return "albedo() or relative_ior() is negative or not finite"; });
 }
 
-/// Frequencies of each outcome, of all smooth events together and of nothing.
+/// Tests the frequencies of each outcome, of all smooth events together and of no event.
 void test_outcomes(const Bsdf& bsdf, const Question& q, std::uint64_t seed, Check& check) {
   constexpr int kDraws = 20'000;
   const DiscreteOutcomes outcomes = bsdf.discrete(q.point, q.wo, q.options);
@@ -351,7 +354,7 @@ void test_outcomes(const Bsdf& bsdf, const Question& q, std::uint64_t seed, Chec
     ++observed[static_cast<std::size_t>(o != nullptr ? o - outcomes.begin() : outcomes.count)];
   }
   const double rest = kDraws * std::max(0.0, 1 - sum);
-  // What is certain, or certainly not, has no spread that a statistic could measure.
+  // An outcome that is certain or impossible has no variance for a statistic.
   check.expect(rest > 0.5 || observed.back() < 5,
                [&] { return q.text() + ": samples other than the listed outcomes"; });
   expected.push_back(rest);

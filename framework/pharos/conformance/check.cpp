@@ -8,7 +8,7 @@ namespace pharos::conformance {
 
 void Check::add_p_value(double p, const std::string& where) {
   ++tests_;
-  // A p-value that is no number comes from a statistic that is none: a fault.
+  // A p-value that is NaN means that the statistic is NaN, which is a fault.
   expect(!std::isnan(p), [&] { return where + ": no statistic"; });
   if (p < smallest_p_ || tests_ == 1) {
     smallest_p_ = p;

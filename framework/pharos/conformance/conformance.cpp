@@ -14,7 +14,7 @@
 namespace pharos::conformance {
 namespace {
 
-/// One case with its suite, to be run at any time by any thread.
+/// One case with its suite. Any thread can run it at any time.
 struct Job {
   const PluginInfo* plugin;
   std::string settings;
@@ -31,7 +31,7 @@ Finding finding_of(const PluginInfo& plugin, std::string settings, Finding findi
   return finding;
 }
 
-/// Runs a job by itself: while it waits for its own tasks, its thread takes up no other job.
+/// Runs a job in isolation: while its thread waits for the job's own tasks, it takes no other job.
 void run(Job& job, std::uint64_t seed) {
   const auto start = std::chrono::steady_clock::now();
   Suite suite(seed);
@@ -54,7 +54,7 @@ void run(Job& job, std::uint64_t seed) {
   job.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// The suite of a contract whose plugins are tested by themselves; empty when there is none.
+/// Returns the suite of a contract whose plugins are tested on their own; empty if there is none.
 std::function<void(Suite&)> suite_of(const Subject& s) {
   const auto as = [&s]<class C>() { return std::static_pointer_cast<const C>(s.component); };
   const std::string& contract = s.plugin->contract;
@@ -88,7 +88,7 @@ std::function<void(Suite&)> suite_of(const Subject& s) {
   return {};
 }
 
-/// All plugins of a registry with their cases, and what is to be done for those selected.
+/// All plugins of a registry with their cases, and the jobs for the selected plugins.
 class Plan {
  public:
   Plan(const Registry& registry, const Selection& selection)
@@ -134,7 +134,7 @@ class Plan {
             std::any_of(selection_.names.begin(), selection_.names.end(), names));
   }
 
-  /// Throws InputError for names that nothing has.
+  /// Throws InputError for names that do not exist.
   void check_selection() const {
     std::vector<std::string> names = registry_.contracts(), modules;
     for_each_plugin([&](const PluginInfo& plugin) {
@@ -196,37 +196,39 @@ class Plan {
     }
   }
 
-  /// The cases of all guiders or learners of a model.
-  std::vector<const Cases*> partners(std::string_view contract, const std::string& model) const {
+  /// Whether the guider can sample what the learner learns.
+  static bool suit(const Subject& guider, const Subject& learner) {
+    const auto model = static_cast<const Learner&>(*learner.component).empty_model();
+    return static_cast<const Guider&>(*guider.component).find(*model) != nullptr;
+  }
+
+  /// The cases of all plugins of a contract whose first subject is a partner.
+  template <class IsPartner>
+  std::vector<const Cases*> partners(std::string_view contract, IsPartner&& is_partner) const {
     std::vector<const Cases*> all;
     for_each_plugin([&](const PluginInfo& plugin) {
       if (plugin.contract != contract || cases_.at(&plugin).subjects.empty()) return;
-      if (model_of(cases_.at(&plugin).subjects.front()) == model)
-        all.push_back(&cases_.at(&plugin));
+      if (is_partner(cases_.at(&plugin).subjects.front())) all.push_back(&cases_.at(&plugin));
     });
     return all;
   }
 
-  static std::string model_of(const Subject& subject) {
-    return subject.plugin->contract == Guider::contract_name
-               ? static_cast<const Guider&>(*subject.component).traits().model
-               : static_cast<const Learner&>(*subject.component).traits().model;
-  }
-
   void add_no_partner(const Subject& subject, const char* partner) {
-    add_finding(
-        *subject.plugin, subject.settings,
-        {.check = "suite",
-         .verdict = Verdict::not_applicable,
-         .detail = fmt::format("no {} of the model '{}' is loaded", partner, model_of(subject))});
+    add_finding(*subject.plugin, subject.settings,
+                {.check = "suite",
+                 .verdict = Verdict::not_applicable,
+                 .detail = fmt::format("no {} for its model is loaded", partner)});
   }
 
-  /// Every case of the guider with the first case of each learner of its model, and its first case
-  /// with all others; pairs of which neither was selected are left out.
+  /// Adds every case of the guider with the first case of each learner of its model, and the
+  /// guider's first case with all other cases of the learner. Omits pairs of which neither was
+  /// selected.
   void add_guider(const PluginInfo& plugin) {
     const std::vector<Subject>& guiders = cases_.at(&plugin).subjects;
     if (guiders.empty()) return;
-    const auto all = partners(Learner::contract_name, model_of(guiders.front()));
+    const auto all = partners(Learner::contract_name, [&](const Subject& learner) {
+      return suit(guiders.front(), learner);
+    });
     if (all.empty() && is_selected(plugin)) add_no_partner(guiders.front(), "learner");
     for (const Cases* learners : all) {
       if (!is_selected(plugin) && !is_selected(*learners->subjects.front().plugin)) continue;
@@ -247,7 +249,9 @@ class Plan {
   void add_learner(const PluginInfo& plugin) {
     const std::vector<Subject>& learners = cases_.at(&plugin).subjects;
     if (learners.empty()) return;
-    const auto guiders = partners(Guider::contract_name, model_of(learners.front()));
+    const auto guiders = partners(Guider::contract_name, [&](const Subject& guider) {
+      return suit(guider, learners.front());
+    });
     if (guiders.empty()) return add_no_partner(learners.front(), "guider");
     for (const Subject& learner : learners) {
       const Subject& guider = guiders.front()->subjects.front();

@@ -9,13 +9,14 @@
 
 /// Tests every registered plugin by the suite of its contract, see docs/contracts/conformance.md:
 ///
-///     const conformance::Report report = conformance::check_plugins(registry, {.module =
-///     "bsdfs"}); CHECK(report.passed());
+///     const conformance::Report report =
+///         conformance::check_plugins(registry, {.module = "bsdfs"});
+///     CHECK(report.passed());
 namespace pharos::conformance {
 
-/// Which plugins are tested; empty: all.
+/// The plugins to test. All are tested if both members are empty.
 struct Selection {
-  std::vector<std::string> names;  ///< of plugins or contracts
+  std::vector<std::string> names;  ///< names of plugins or contracts
   std::string module;              ///< only plugins that this module registered
 };
 
@@ -24,9 +25,9 @@ struct Options {
   double family_level = 0.01;  ///< probability of any false alarm in the report
 };
 
-/// Tests the selected plugins with their defaults, examples, choices and switches. Findings depend
-/// on registry, selection and options alone, whatever the number of threads. Throws InputError for
-/// a name or module that there is none of, and when the selection holds no plugin.
+/// Tests the selected plugins with their defaults, examples, choices and switches. The findings
+/// depend on registry, selection and options alone, not on the number of threads. Throws InputError
+/// for an unknown name or module, and if the selection contains no plugin.
 Report check_plugins(const Registry& registry, const Selection& selection = {},
                      const Options& options = {});
 

@@ -10,7 +10,7 @@
 namespace pharos::conformance {
 namespace {
 
-/// A disk that light falls through.
+/// A disk through which light passes.
 struct Detector {
   Point3 center;
   Vec3 normal;  ///< unit, towards the light
@@ -29,7 +29,7 @@ struct Detector {
   }
 };
 
-/// Across a few rays, so that narrow lobes are met.
+/// Places detectors across a few rays, so that narrow lobes are covered.
 std::vector<Detector> detectors(const Site& site) {
   constexpr float kAway = 2;
   std::vector<Detector> all;
@@ -48,7 +48,8 @@ std::vector<Detector> detectors(const Site& site) {
   return all;
 }
 
-/// Power through a detector: of rays that leave the light, and of light samples from its points.
+/// Compares the power through a detector by rays that leave the light with the power by light
+/// samples from the detector's points.
 void check_carried(const Site& site, std::uint64_t seed, Check& check) {
   constexpr std::size_t kDraws = 200'000;
   if (!site.is_lit()) check.not_applicable(kNeverLit);
@@ -77,8 +78,8 @@ void check_carried(const Site& site, std::uint64_t seed, Check& check) {
   }
 }
 
-/// What a ray carries is radiance times cosine over its densities, which are those of
-/// pdf_emission().
+/// Checks that a ray carries radiance times cosine over its densities, and that these are the
+/// results of pdf_emission().
 void check_emitted(const Site& site, std::uint64_t seed, Check& check) {
   constexpr double kTolerance = 0.01;
   check.not_applicable("nothing is emitted");

@@ -17,9 +17,10 @@ bool is_lit(const Site& site, Point3 from) {
   return false;
 }
 
-/// Finds lit points around the light, and makes them references unless the given ones are lit: near
-/// by, then so far away that lights beside the scene which shine away from it are seen too. A spot
-/// of one degree lights a share of 8e-5 of the directions.
+/// Searches for lit points around the light and adds them to the references until enough of these
+/// are lit. The first tries are near the light. Later tries are so far away that they see lights
+/// beside the scene which shine away from it. A spot light of one degree illuminates a fraction of
+/// 8e-5 of all directions.
 void light_up(Site& site) {
   constexpr int kTries = 1'000'000, kLit = 3;
   int lit = 0;

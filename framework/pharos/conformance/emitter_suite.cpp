@@ -11,7 +11,7 @@
 namespace pharos::conformance {
 namespace {
 
-/// The density of directions, over all points of the light that lie along them.
+/// Returns the density of directions, summed over all points of the light along a direction.
 double density_along(const Site& site, Point3 from, Vec3 direction) {
   if (site.light->is_environment()) return site.light->pdf_direction(direction);
   return sum_along(*site.scene, {from, direction}, [&](const SurfacePoint& p) {
@@ -39,7 +39,7 @@ void check_density(const Site& site, std::uint64_t seed, Check& chi_square, Chec
   }
 }
 
-/// The radiance and density that a path finds which ran into the sampled point by itself.
+/// Returns the radiance and the density for a path that hits the sampled point by chance.
 std::pair<Rgb, float> found_by_path(const Site& site, Point3 from, const LightSample& s) {
   if (site.light->is_environment()) {
     return {site.light->environment_radiance(s.direction), site.light->pdf_direction(s.direction)};
@@ -73,7 +73,7 @@ void check_weight(const Site& site, std::uint64_t seed, Check& check) {
   }
 }
 
-/// Points far away, at the origin, and on and next to the light.
+/// Returns points far away, at the origin, and on and next to the light.
 std::vector<Point3> extreme_references(const Site& site) {
   std::vector<Point3> all = site.references;
   for (const float far : {1e3f, 1e6f, 1e12f}) all.push_back({far, -far, 0.5f * far});
@@ -112,7 +112,7 @@ void check_finite(const Site& site, Check& check) {
                [&] { return fmt::format("{}: power() is {}", site.name, site.light->power()); });
 }
 
-/// Radiance over the surface and the sphere of directions.
+/// Integrates radiance over the surface and the sphere of directions.
 double surface_flux(const Site& site, RandomStream& random, int draws) {
   const Shape& shape = *site.scene->objects()[0].shape;
   double sum = 0;
@@ -125,7 +125,7 @@ double surface_flux(const Site& site, RandomStream& random, int draws) {
   return sum / draws;
 }
 
-/// What enters the scene's sphere: radiance over all directions times its cross section.
+/// Returns the flux into the scene's sphere: radiance over all directions times its cross section.
 double environment_flux(const Site& site, RandomStream& random, int draws) {
   double sum = 0;
   for (int i = 0; i < draws; ++i) {
@@ -135,8 +135,8 @@ double environment_flux(const Site& site, RandomStream& random, int draws) {
   return sum / draws * double{kPi} * square(site.radius);
 }
 
-/// Irradiance over a sphere about a light without extent, or over the scene's cross section for one
-/// that is infinitely far.
+/// Integrates irradiance over a sphere around a light without extent, or over the scene's cross
+/// section for a light infinitely far away.
 double discrete_flux(const Site& site, RandomStream& random, int draws) {
   if (!std::isfinite(site.lit.distance)) {
     return double{mean(site.lit.radiance)} * double{kPi} * square(site.radius);

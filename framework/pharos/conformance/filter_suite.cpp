@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kOffsets = 2000;
 
-/// Uniform in the square of half-width `half`.
+/// Returns an offset that is uniform in the square of half-width `half`.
 Vec2 random_offset(RandomStream& random, float half) {
   const Vec2 u = random.next_2d();
   return {half * (2 * u.x - 1), half * (2 * u.y - 1)};

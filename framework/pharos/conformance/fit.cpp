@@ -8,15 +8,16 @@
 namespace pharos::conformance {
 namespace {
 
-/// Systematic error of quadrature and float densities that is not the plugin's, relative [1].
+/// Systematic relative error of quadrature and of float densities [1]. It is not the plugin's
+/// fault.
 constexpr double kSlack = 0.005;
 
-/// An estimated share with its standard error [1].
+/// An estimated fraction with its standard error [1].
 struct Share {
   double value, error;
 };
 
-/// The share of draws with a result, known to about 0.2 % of itself where that can be had.
+/// Estimates the fraction of draws with a result, to a relative error of about 0.2 % if possible.
 Share share_with_result(const DirectionFit& setup, double missed, std::uint64_t seed) {
   constexpr double kRelativeError = 0.002, kMostDraws = 400'000;
   const double wanted = missed / std::max(1 - missed, 1e-9) / (kRelativeError * kRelativeError);

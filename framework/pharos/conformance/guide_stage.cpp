@@ -180,7 +180,7 @@ StageVertex::StageVertex(const Scene& scene, const GuidingVertex& previous,
              .towards_previous = towards_previous,
              .transport = transport,
              .bounce = bounce,
-             .scattering = scattering_,
+             .scattering = &scattering_,
              .medium = medium} {}
 
 Ray StageVertex::ray_towards(Vec3 direction) const {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <pharos/conformance/subjects.h>
-#include <pharos/guiding/pipeline/guiding.h>
+#include <pharos/guiding/pipeline/guiding_frame.h>
 #include <pharos/rendering/render_job.h>
 
 /// Where guides are tested: small rooms that a learner has seen.

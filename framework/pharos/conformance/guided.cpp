@@ -3,25 +3,26 @@
 namespace pharos::conformance {
 namespace {
 
-class HalfUnguided final : public MixingFractions {
+/// One guide and unguided sampling share the samples equally.
+class EqualShares final : public MixingShares {
  public:
-  float unguided_fraction(std::uint32_t) const override { return 0.5f; }
+  std::uint32_t at(const MixingQuery& query, std::span<float> shares) const override {
+    const std::array<float, 1> weight{1};
+    share_by_weight(weight, query.places, 0.5f, shares);
+    return 0;
+  }
 };
 
 }  // namespace
 
 GuidingFrame frame_of(const Guider& guider, const std::shared_ptr<const GuidingModel>& model) {
-  const GuiderTraits traits = guider.traits();
-  return GuidingFrame({{.guider = guider.bind(model),
-                        .steers_distance = traits.steers_distance,
-                        .steers_events = traits.steers_events,
-                        .guides_light_paths = traits.guides_light_paths}},
-                      std::make_shared<const HalfUnguided>());
+  return GuidingFrame({{.guider = BoundGuider(guider, model), .traits = guider.traits()}},
+                      std::make_shared<const EqualShares>());
 }
 
 std::optional<Proposal> Guided::propose(std::uint64_t path) const {
   const SampleStream stream(numbers_, {.seed = 77, .index = path});
-  return distribution_->propose(VertexStream(stream, vertex_.query().bounce));
+  return guidance_.propose(VertexStream(stream, vertex_.query().bounce));
 }
 
 std::optional<ResolvedVertex> Guided::draw(RandomStream& random) const {

@@ -29,14 +29,12 @@ GuidingFrame frame_of(const Guider& guider, const std::shared_ptr<const GuidingM
 class Guided {
  public:
   Guided(const GuidingFrame& frame, const StageVertex& vertex)
-      : vertex_(vertex), distribution_(frame.query(vertex.query(), arena_).distribution) {}
+      : vertex_(vertex), query_(vertex.query()), guidance_(frame.query(query_, arena_)) {}
 
-  bool declines() const { return distribution_ == nullptr; }
+  bool declines() const { return !guidance_.is_guided(); }
   const StageVertex& vertex() const { return vertex_; }
   /// All the following need an answer: !declines().
-  double density(const ResolvedVertex& vertex) const {
-    return distribution_->density(vertex).value;
-  }
+  double density(const ResolvedVertex& vertex) const { return guidance_.density(vertex); }
   std::optional<Proposal> propose(std::uint64_t path) const;
   /// The vertex that a draw leads to; empty for a sample of value zero.
   std::optional<ResolvedVertex> draw(RandomStream& random) const;
@@ -53,9 +51,10 @@ class Guided {
                                       RandomStream& random) const;
 
   const StageVertex& vertex_;
+  GuidingQuery query_;
   Arena arena_;
   KeyedSampler numbers_;
-  const GuidingDistribution* distribution_;
+  Guidance guidance_;
 };
 
 }  // namespace pharos::conformance

@@ -22,7 +22,7 @@ Ray stage_ray(int i, float t_max) {
   return {{random.next_1d(), random.next_1d(), random.next_1d()}, direction, t_max};
 }
 
-/// Shares of the channels: some are left out.
+/// Returns shares of the channels. Some of them are zero.
 Rgb stage_shares(int i) {
   static const std::array all{Rgb(1.0f / 3), Rgb(0.7f, 0.2f, 0.1f), Rgb(0, 0.5f, 0.5f),
                               Rgb(0, 0, 1)};
@@ -34,7 +34,7 @@ std::string text(const Ray& ray) {
                      ray.direction.z, ray.t_max);
 }
 
-/// Within how much of a ray half of the draws scatter; 1 where they hardly ever do.
+/// Returns the distance within which half of the draws scatter; 1 if draws hardly ever scatter.
 float scale_of(const Medium& medium) {
   const Ray ray = stage_ray(0, 1e6f);
   std::vector<float> distances;
@@ -48,7 +48,7 @@ float scale_of(const Medium& medium) {
   return distances[500] < ray.t_max && distances[500] > 0 ? distances[500] : 1;
 }
 
-/// The integral of scatter_pdf() over [a, b] (Simpson's rule).
+/// Returns the integral of scatter_pdf() over [a, b] by Simpson's rule.
 double scattered_between(const Medium& medium, const Ray& ray, Rgb shares, double a, double b) {
   constexpr int kHalves = 16;
   const double h = (b - a) / (2 * kHalves);
@@ -60,7 +60,7 @@ double scattered_between(const Medium& medium, const Ray& ray, Rgb shares, doubl
   return sum * h / 3;
 }
 
-/// Distances of draws, and how many get through, against the densities.
+/// Compares the distances of draws, and the number of draws that pass, with the densities.
 void check_distances(const Medium& medium, Suite& suite) {
   Check &chi_square = suite.check("chi_square"), &integral = suite.check("integral");
   const float scale = scale_of(medium);
@@ -95,7 +95,7 @@ void check_distances(const Medium& medium, Suite& suite) {
   }
 }
 
-/// What is left of light: a share in each channel, which multiplies along a ray.
+/// Checks that transmittance is a fraction in each channel that multiplies along a ray.
 void check_transmittance(const Medium& medium, Suite& suite) {
   Check& check = suite.check("transmittance");
   const float scale = scale_of(medium);
@@ -113,7 +113,7 @@ void check_transmittance(const Medium& medium, Suite& suite) {
   }
 }
 
-/// Where light is scattered, distances are drawn: else it would be missing.
+/// Checks that distances are drawn wherever light is scattered. Otherwise light would be missing.
 void check_support(const Medium& medium, Suite& suite) {
   Check& check = suite.check("support");
   const float scale = scale_of(medium);

@@ -26,7 +26,7 @@ void check_density(const PhaseFunction& phase, Suite& suite) {
   }
 }
 
-/// Light may be followed either way: turning a path around exchanges the directions.
+/// Light can be followed either way, and reversing a path exchanges the directions.
 void check_reciprocity(const PhaseFunction& phase, Suite& suite) {
   Check& check = suite.check("reciprocity");
   RandomStream random(suite.seed(), 1);

@@ -11,37 +11,38 @@ namespace pharos::conformance {
 
 enum class Verdict { passed, failed, not_applicable };
 
-/// What one check says of one case of one plugin.
+/// The finding of one check for one case of one plugin.
 struct Finding {
   std::string contract, plugin;
   std::string module;    ///< library that registered the plugin
   std::string settings;  ///< the case: a YAML mapping on one line
   std::string check;     ///< see docs/contracts/conformance.md
   Verdict verdict = Verdict::passed;
-  std::string detail;  ///< the first fault or the worst configuration; why not applicable
+  std::string detail;  ///< first fault or worst configuration; if not applicable, the reason
   std::optional<double> p_value;  ///< of statistical checks, corrected for their configurations
-  double adjusted_p = 1;          ///< Holm over the report; set by finish()
+  double adjusted_p = 1;          ///< Holm's correction over the report; set by finish()
 };
 
-/// What was found of all plugins that were tested.
+/// The findings for all plugins that were tested.
 struct Report {
-  /// By contract, plugin, case and check; the same for any number of threads.
+  /// Ordered by contract, plugin, case and check. The same for any number of threads.
   std::vector<Finding> findings;
   /// Wall-clock seconds by (contract, plugin).
   std::map<std::pair<std::string, std::string>, double> seconds;
 
-  /// Nothing failed.
+  /// Whether no check failed.
   bool passed() const;
 };
 
-/// Adjusts the p-values of all findings (Holm 1979) and turns those at or below `family_level` red:
-/// the probability that a sound set of plugins fails by chance is at most that.
+/// Adjusts the p-values of all findings (Holm 1979) and marks findings at or below `family_level`
+/// as failed. The probability that a sound set of plugins fails by chance is at most
+/// `family_level`.
 void finish(Report& report, double family_level);
 
-/// The names of the checks that failed.
+/// Returns the names of the checks that failed.
 std::set<std::string> failed_checks(const Report& report);
 
-/// The report as a JSON document: an array of findings.
+/// Returns the report as a JSON document, an array of findings.
 std::string to_json(const Report& report);
 
 }  // namespace pharos::conformance

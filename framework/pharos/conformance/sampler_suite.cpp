@@ -60,7 +60,7 @@ std::unique_ptr<const PreparedSampler> prepare(const Sampler& sampler, int edge,
                          sampler.needs_probe() ? &probe : nullptr);
 }
 
-/// Every purpose at the vertices where it may be asked for, some at several branches.
+/// Returns every purpose at the vertices that may ask for it, some at several branches.
 std::vector<Dimension> dimensions() {
   std::vector<Dimension> all;
   for (int p = 0; p < kPurposeCount; ++p) {
@@ -81,7 +81,7 @@ std::string text(Dimension d) {
                      d.branch());
 }
 
-/// One number of each dimension from every pixel, its sample number running along.
+/// The numbers of one dimension, one from each pixel. The sample number varies with the pixel.
 struct Column {
   std::string name;
   std::vector<float> values;
@@ -97,7 +97,7 @@ PathKey key_of(std::size_t pixel, std::uint64_t seed, std::uint32_t samples) {
           .sample = static_cast<std::uint32_t>(pixel * 2654435761u >> 7) % samples};
 }
 
-/// `key_at(pixel)` names the path that each pixel's numbers are of.
+/// Returns the columns of all dimensions. `key_at(pixel)` is the key of the path in each pixel.
 template <class KeyAt>
 std::vector<Column> columns_of(const PreparedSampler& sampler, const KeyAt& key_at) {
   std::vector<Column> all;
@@ -151,7 +151,7 @@ double joint_p_value(const std::vector<float>& a, const std::vector<float>& b) {
   return uniform_p_value(counts);
 }
 
-/// One-sided p-value of a positive correlation: samplers may well spread neighbors apart.
+/// The one-sided p-value of a positive correlation. Samplers may spread neighbors apart.
 double correlation_p_value(const std::vector<float>& a, const std::vector<float>& b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - 0.5) * (b[i] - 0.5);
@@ -159,14 +159,14 @@ double correlation_p_value(const std::vector<float>& a, const std::vector<float>
   return 0.5 * std::erfc(z / std::sqrt(2.0));
 }
 
-/// The same numbers of other paths.
+/// Numbers of the same dimensions from other paths.
 struct Others {
   const char* name;
   std::vector<Column> columns;
-  bool may_correlate = false;  ///< only equal numbers are faults
+  bool may_correlate = false;  ///< if true, only equal numbers are faults
 };
 
-/// Paths that differ from those of key_of() in one part of the key each.
+/// Returns paths that differ from the paths of key_of() in one part of the key.
 std::vector<Others> others_of(const Sampler& sampler, const PreparedSampler& prepared,
                               std::uint64_t seed) {
   const std::uint32_t samples = samples_of(sampler);
@@ -186,7 +186,8 @@ std::vector<Others> others_of(const Sampler& sampler, const PreparedSampler& pre
                    return key_of(pixel, seed + 1, samples);
                  })});
   all.push_back({"another iteration", with([](PathKey& key) { key.iteration = 1; })});
-  // Samplers may go through their strata in order; over all pairs of a pixel they must not crowd.
+  // Samplers may visit their strata in order, so the next sample may correlate. Over all pairs of
+  // samples of a pixel, there must be no positive correlation.
   all.push_back(
       {"the next sample", with([&](PathKey& key) { key.sample = step(key.sample, 1); }), true});
   all.push_back({"another sample", with([&](PathKey& key) {
@@ -204,7 +205,7 @@ double share_of_equal(const std::vector<float>& a, const std::vector<float>& b) 
 
 void compare(const Column& column, const std::vector<float>& other, const std::string& name,
              bool may_correlate, Check& check) {
-  constexpr double kMostEqual = 0.01;  // numbers of few bits meet by chance
+  constexpr double kMostEqual = 0.01;  // numbers of few bits are equal by chance
   const double equal = share_of_equal(column.values, other);
   check.expect(equal <= kMostEqual, [&] {
     return fmt::format("{}: {:.1f} % of the numbers are those of {}", column.name, 100 * equal,
@@ -214,9 +215,9 @@ void compare(const Column& column, const std::vector<float>& other, const std::s
   check.add_p_value(correlation_p_value(column.values, other), column.name + " with " + name);
 }
 
-/// Dimensions of one path against each other, pixels against their neighbors, paths against others
-/// of the same pixel. The two numbers that a dimension has in 1D and 2D may be the same: it is
-/// asked for one of them.
+/// Compares the dimensions of one path with each other, pixels with their neighbors, and paths with
+/// other paths of the same pixel. A dimension may have the same number in 1D and in 2D, because
+/// only one of them is ever requested.
 void check_independence(const std::vector<Column>& columns, const std::vector<Others>& others,
                         Suite& suite) {
   Check& check = suite.check("independence");
@@ -237,7 +238,7 @@ void check_independence(const std::vector<Column>& columns, const std::vector<Ot
   }
 }
 
-/// Integrals over [0,1)^2 that every seed's estimates must average to.
+/// An integral over [0,1)^2. The estimates of all seeds must average to it.
 struct Integrand {
   const char* name;
   double expected;
@@ -251,7 +252,7 @@ std::vector<Integrand> integrands() {
           {"x + y < 0.7", 0.245, [](Vec2 u) { return u.x + u.y < 0.7f ? 1.0 : 0.0; }}};
 }
 
-/// The mean over all samples of all pixels of a small image.
+/// Returns the mean over all samples of all pixels of a small image.
 double image_mean(const PreparedSampler& sampler, int edge, std::uint64_t seed,
                   std::uint32_t samples, Dimension dimension, const Integrand& integrand) {
   double sum = 0;
@@ -267,7 +268,7 @@ double image_mean(const PreparedSampler& sampler, int edge, std::uint64_t seed,
 void check_mean(const Sampler& sampler, Suite& suite) {
   constexpr int kSmallEdge = 8;
   constexpr std::uint64_t kSeeds = 24;
-  constexpr double kRounding = 1e-7;  // numbers are cut to 24 bits
+  constexpr double kRounding = 1e-7;  // numbers are truncated to 24 bits
   Check& check = suite.check("mean");
   const std::vector<Dimension> asked{{Purpose::pixel},
                                      {Purpose::light_position, 1},

@@ -17,7 +17,7 @@ namespace {
 constexpr int kWidth = 64, kHeight = 48;
 constexpr const char* kNoDensity = "the sensor sees one direction";
 
-/// A sensor that sees one direction: all rays are parallel, and no direction has a response.
+/// Checks a sensor that sees one direction: all rays are parallel, and no direction has a response.
 void expect_parallel(const PreparedSensor& sensor, const LensPoint& lens, const Ray& ray,
                      Vec3 elsewhere, Check& check) {
   const Vec3 first = sensor.ray(sensor.sample_lens({0.5f, 0.5f}), {0.5f, 0.5f}).direction;
@@ -54,7 +54,7 @@ void check_inverse(const PreparedSensor& sensor, bool one_direction, Suite& suit
   }
 }
 
-/// Directions of uniform film positions against the density that the response claims.
+/// Compares directions of uniform film positions with the density of response().
 void check_density(const PreparedSensor& sensor, bool one_direction, Suite& suite) {
   constexpr double kRim = 1e-3;
   Check& chi_square = suite.check("chi_square");
@@ -78,8 +78,8 @@ void check_density(const PreparedSensor& sensor, bool one_direction, Suite& suit
   }
 }
 
-/// From points along rays back to their film positions, and the density of rays there: what three
-/// neighboring rays span across, per share of the film between them.
+/// Checks that connect() leads points along rays back to their film positions. The density must be
+/// the fraction of the film between neighboring rays, over the area that these rays span.
 void check_connection(const PreparedSensor& sensor, Suite& suite) {
   constexpr float kStep = 0.01f;
   Check& check = suite.check("connection");
@@ -114,7 +114,8 @@ void check_connection(const PreparedSensor& sensor, Suite& suite) {
   }
 }
 
-/// Whatever the sensor sees lies on the ray of the film position that it names, before the lens.
+/// Checks that a connected point lies in front of the lens, on the ray of the film position of the
+/// connection.
 void check_seen(const PreparedSensor& sensor, Suite& suite) {
   Check& check = suite.check("seen");
   RandomStream random(suite.seed(), 4);
@@ -154,7 +155,7 @@ class LensPlane {
   bool is_point() const { return bounds_.diagonal() == 0; }
   bool is_flat() const { return bounds_.extent().z <= 1e-3f * bounds_.diagonal(); }
 
-  /// How many positions lie in each cell of a grid of `edge` x `edge` cells.
+  /// Returns the number of positions in each cell of a grid of `edge` x `edge` cells.
   std::vector<double> counts(int edge) const {
     std::vector<double> all(static_cast<std::size_t>(edge) * edge);
     for (const Vec3 p : points_) {
@@ -175,7 +176,8 @@ class LensPlane {
   bool finite_ = true;
 };
 
-/// The counts of cells that lie within the lens: all their neighbors, up to two away, have points.
+/// Returns the counts of cells within the lens. All neighbors of such a cell, up to two away, have
+/// points.
 std::vector<double> inner_counts(const std::vector<double>& counts, int edge) {
   std::vector<double> inner;
   for (int y = 2; y < edge - 2; ++y) {

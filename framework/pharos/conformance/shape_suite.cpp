@@ -13,7 +13,7 @@
 namespace pharos::conformance {
 namespace {
 
-/// A shape by itself in a scene, with a sphere around it.
+/// A shape alone in a scene, with a sphere around it.
 struct Stand {
   explicit Stand(const Ref<Shape>& s) : shape(*s), scene(alone(s)) {
     center = s->bounds().center();
@@ -30,7 +30,7 @@ std::string text(Point3 p) {
   return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x, p.y, p.z);
 }
 
-/// A line of the uniform and isotropic measure through the sphere around the shape.
+/// Returns a line of the uniform and isotropic measure through the sphere around the shape.
 Ray random_line(const Stand& stand, RandomStream& random) {
   const Vec3 direction = normalize(warp::sphere_from_square(random.next_2d()));
   const Vec2 disk = warp::disk_from_square(random.next_2d());
@@ -48,7 +48,7 @@ std::vector<SurfacePoint> hits_of(const Stand& stand, const Ray& ray) {
   return hits;
 }
 
-/// Cells of the shape's box, 4 x 4 x 4.
+/// Returns the cell of a point in a 4 x 4 x 4 grid over the shape's box.
 std::size_t cell_of(const Stand& stand, Point3 p) {
   const Bounds3 box = stand.shape.bounds();
   std::size_t cell = 0;
@@ -60,11 +60,12 @@ std::size_t cell_of(const Stand& stand, Point3 p) {
   return cell;
 }
 
-/// What random lines tell of a surface (Crofton): how often they meet it gives its area, and where
-/// they meet it is uniform over it.
+/// Statistics of random lines through a surface (Crofton). The mean number of hits gives the area,
+/// and the hits are uniform over the surface.
 struct LineCensus {
   std::vector<double> hits_a_line;
-  std::vector<double> cells = std::vector<double>(64);  ///< one hit a line at most: independent
+  /// Counts of at most one hit per line, so that they are independent.
+  std::vector<double> cells = std::vector<double>(64);
 };
 
 LineCensus census(const Stand& stand, std::uint64_t seed) {
@@ -84,7 +85,7 @@ LineCensus census(const Stand& stand, std::uint64_t seed) {
   return result;
 }
 
-/// Whether two sets of counts are of the same distribution: chi-square over both rows.
+/// Tests by chi-square over both rows whether two sets of counts have the same distribution.
 double two_sample_p_value(const std::vector<double>& a, const std::vector<double>& b) {
   double sum_a = 0, sum_b = 0;
   for (std::size_t i = 0; i < a.size(); ++i) sum_a += a[i], sum_b += b[i];
@@ -100,7 +101,7 @@ double two_sample_p_value(const std::vector<double>& a, const std::vector<double
   return statistics::chi_square_test(observed, expected, 25).p_value;
 }
 
-/// The point of a sample is met by a ray that aims at it from beside the surface.
+/// Checks that a ray aimed at the sample's point from beside the surface hits it.
 void expect_on_surface(const Stand& stand, const SurfacePoint& p, Check& check) {
   const float distance = 1e-2f * stand.radius;
   const Ray ray{p.position + distance * p.normal, -p.normal};
@@ -142,7 +143,7 @@ void check_area(const Stand& stand, Suite& suite) {
                     "samples against hits of random lines, in 4 x 4 x 4 cells");
 }
 
-/// Points outside, near and within the shape's bounds.
+/// Returns points outside, near and within the shape's bounds.
 std::vector<Point3> references(const Stand& stand) {
   const float r = stand.radius;
   return {stand.center + r * Vec3{1.1f, -2, 1.7f}, stand.center + r * Vec3{0.2f, 1.15f, 0.3f},
@@ -198,10 +199,10 @@ void check_bounds(const Stand& stand, Suite& suite) {
   }
 }
 
-/// A hit lies on its ray, its normals are unit and on one side.
+/// Checks that a hit lies on its ray and that its normals are unit and on one side.
 void expect_consistent(const Ray& ray, float t, const SurfacePoint& p, float scale, Check& check) {
   const Point3 on_ray = ray.at(t);
-  // Positions keep away from edges by their error, seen at a slant.
+  // Positions keep their error as a distance from edges, which a slanted view stretches.
   const float slack =
       1e-4f * scale + 8 * p.error / std::max(abs_dot(p.normal, ray.direction), 1e-2f);
   check.expect(length(p.position - on_ray) <= slack, [&] {
@@ -238,7 +239,7 @@ void check_intersection(const Stand& stand, Suite& suite) {
   check.expect(met > 20, [] { return "random lines never meet the surface"; });
 }
 
-/// Rays that leave a hit do not meet it again, at any angle that is not quite level.
+/// Checks that rays leaving a hit do not meet it again, at any angle that is not nearly tangential.
 void check_self_intersection(const Stand& stand, Suite& suite) {
   Check& check = suite.check("self_intersection");
   RandomStream random(suite.seed(), 6);

@@ -116,7 +116,7 @@ class Glow final : public Emitter {
   float radiance_;
 };
 
-/// A square film one unit wide at distance one.
+/// A pinhole camera with a square film of width one at distance one.
 class PreparedPinhole final : public PreparedSensor {
  public:
   explicit PreparedPinhole(Point3 at) : lens_{at, {0, 0, 1}} {}

@@ -5,8 +5,8 @@
 
 #include <pharos/scene/scene.h>
 
-/// What subjects are tested on: parts of scenes that come with the suites, so that a plugin is
-/// tested by itself.
+/// Parts of scenes that come with the suites, so that a plugin can be tested independently of
+/// others.
 namespace pharos::conformance {
 
 /// A triangle mesh as a shape, sampled uniformly over its area.
@@ -21,38 +21,39 @@ class StageShape final : public Shape {
 
  private:
   TriangleMesh mesh_;
-  std::vector<double> area_up_to_;  ///< of each triangle and those before it
+  std::vector<double> area_up_to_;  ///< summed areas of all triangles up to each one
 };
 
-/// The parallelogram about `center` with half edges `u` and `v`; it faces u x v.
+/// The parallelogram around `center` with half edges `u` and `v`. Its outer side faces u x v.
 TriangleMesh square_mesh(Point3 center, Vec3 u, Vec3 v);
 /// A ball of flat triangles with smooth shading normals.
 TriangleMesh ball_mesh(Point3 center, float radius);
-/// The cube [-1,1]^3 seen from inside.
+/// The cube [-1,1]^3, with the outer side inwards.
 TriangleMesh room_mesh();
 
 /// A surface that scatters nothing.
 Ref<Bsdf> black_bsdf();
 /// A matt surface of the given reflectance on its outer side.
 Ref<Bsdf> matt_bsdf(float reflectance);
-/// Half of the light is mirrored, half passes straight through: discrete events without loss.
+/// A surface that mirrors half of the light and lets the other half pass straight through, so its
+/// events are discrete and lossless.
 Ref<Bsdf> half_mirror();
-/// Radiance `radiance` from a shape's outer side.
+/// An emitter of radiance `radiance` from a shape's outer side.
 Ref<Emitter> glow(float radiance);
-/// A pinhole at `at` that looks along +z.
+/// A pinhole camera at `at` that looks along +z.
 Ref<Sensor> pinhole(Point3 at);
-/// A medium that only scatters, evenly in all directions, `density` times a meter.
+/// A medium that scatters isotropically with coefficient `density` [1/m] and absorbs nothing.
 Ref<Medium> fog(float density);
 
-/// One object of its own in an otherwise empty scene.
+/// A scene with a single object.
 SceneParts alone(Ref<Shape> shape, Ref<Emitter> emitter = nullptr);
 
-/// The sum of `value(point)` over all surface points along a ray.
+/// Returns the sum of `value(point)` over all surface points along a ray.
 double sum_along(const Scene& scene, Ray ray,
                  const std::function<double(const SurfacePoint&)>& value);
 
-/// Whether a point is seen neither edge-on, where densities over solid angle grow without bound and
-/// quadrature fails, nor from itself. Tests of densities treat all others as not there.
+/// Whether `point` is not seen edge-on and is not `from` itself. At such points densities over
+/// solid angle grow without bound and quadrature fails, so tests of densities ignore them.
 bool is_well_seen(Point3 from, const SurfacePoint& point);
 
 }  // namespace pharos::conformance

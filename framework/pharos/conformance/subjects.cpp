@@ -41,7 +41,7 @@ end_header
 3 0 3 5
 )";
 
-/// A sky that brightens upwards with a small sun, as a map of the sphere of directions.
+/// Returns a map of the sphere of directions: a sky that brightens upwards, with a small sun.
 Image example_sky() {
   Image image(32, 16, {"R", "G", "B"});
   for (int y = 0; y < 16; ++y) {
@@ -71,7 +71,7 @@ class CaseBuilder {
   CaseBuilder(const Registry& registry, const PluginInfo& plugin, const fs::path& folder)
       : registry_(registry), plugin_(plugin), where_{(folder / "example.yaml").string(), 1, 1} {}
 
-  /// Adds the case of a YAML mapping; the reason in `failures` when it cannot be built.
+  /// Adds the case of a YAML mapping. If it cannot be built, adds the reason to `failures`.
   void add(const std::string& yaml, std::vector<std::string>& failures) {
     try {
       add(parse_yaml_at(yaml, where_));
@@ -109,7 +109,7 @@ class CaseBuilder {
         {&plugin_, std::move(settings), std::move(node), std::move(component)});
   }
 
-  /// A message without the folder's name, which is another at each run.
+  /// Removes the folder's name from a message, because it differs from run to run.
   std::string without_folder(std::string message) const {
     const std::string prefix = fs::path(where_.file).parent_path().string() + "/";
     for (std::size_t at; (at = message.find(prefix)) != std::string::npos;) {

@@ -17,8 +17,8 @@
 #include <pharos/scene/shape.h>
 #include <pharos/scene/texture.h>
 
-/// One suite a contract, each in its own file. docs/contracts/conformance.md says what every check
-/// asks and how small an error it finds.
+/// One suite per contract, each in its own file. docs/contracts/conformance.md describes what each
+/// check tests and how small an error it detects.
 namespace pharos::conformance {
 
 void check_bsdf(const Bsdf& bsdf, Suite& suite);
@@ -30,10 +30,10 @@ void check_sampler(const Sampler& sampler, Suite& suite);
 void check_phase_function(const PhaseFunction& phase, Suite& suite);
 void check_medium(const Medium& medium, Suite& suite);
 void check_shape(const Ref<Shape>& shape, Suite& suite);
-/// A guider bound to what a learner of its model learns in small renders.
+/// Tests a guider with the model that `learner` learns in small renders.
 void check_guider(const Registry& registry, const Subject& guider, const Subject& learner,
                   Suite& suite);
-/// A learner, by renders with one of the guiders of its model.
+/// Tests a learner in renders with a guider of its model.
 void check_learner(const Registry& registry, const Subject& learner, const Subject& guider,
                    Suite& suite);
 

@@ -30,7 +30,7 @@ void check_range(const Texture& texture, Suite& suite) {
   }
 }
 
-/// The mean of jittered evaluations over [0, extent)^2.
+/// Returns the mean of jittered evaluations over [0, extent)^2.
 Rgb mean_over(const Texture& texture, float extent, std::uint64_t seed) {
   constexpr int kEdge = 512;
   RandomStream random(seed, 1);
@@ -45,12 +45,13 @@ Rgb mean_over(const Texture& texture, float extent, std::uint64_t seed) {
   return {static_cast<float>(sums[0]), static_cast<float>(sums[1]), static_cast<float>(sums[2])};
 }
 
-/// Texture space is the unit square, or, for patterns whose periods do not fit into it, many units.
+/// Checks that average() is the mean over the unit square, or over many units for patterns whose
+/// periods do not fit into one.
 void check_average(const Texture& texture, Suite& suite) {
   constexpr double kTolerance = 0.02;
   const Rgb claimed = texture.average();
   const Rgb unit = mean_over(texture, 1, suite.seed()), wide = mean_over(texture, 16, suite.seed());
-  const double slack = 0.002 * double{max_component(texture.maximum())};  // of jittered edges
+  const double slack = 0.002 * double{max_component(texture.maximum())};  // for jittered edges
   const bool agrees =
       close(claimed, unit, kTolerance, slack) || close(claimed, wide, kTolerance, slack);
   suite.check("average").expect(agrees, [&] {

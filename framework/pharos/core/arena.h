@@ -9,28 +9,29 @@
 
 namespace pharos {
 
-/// Bump allocator for objects that live as long as one path vertex: one arena per work unit,
-/// reset() before each vertex. Blocks are kept, so that nothing comes from the heap once the
-/// largest vertex of the unit has been seen. Objects must need no destructor.
+/// A bump allocator for objects that live as long as one path vertex. Each work unit owns one arena
+/// and calls reset() before each vertex. The arena keeps its blocks, so it allocates no more heap
+/// memory once it has served the largest vertex of the unit. Objects must be trivially
+/// destructible.
 class Arena {
  public:
   explicit Arena(std::size_t block_bytes = 16 * 1024) : block_bytes_(block_bytes) {}
 
-  /// Constructs one T; it lives until reset().
+  /// Constructs a T that lives until reset().
   template <class T, class... Args>
   T* make(Args&&... args) {
     static_assert(std::is_trivially_destructible_v<T>, "the arena runs no destructors");
     return new (allocate(sizeof(T), alignof(T))) T(std::forward<Args>(args)...);
   }
 
-  /// Value-initialized array of `count` T; it lives until reset().
+  /// Returns a value-initialized array of `count` T that lives until reset().
   template <class T>
   T* make_array(std::size_t count) {
     static_assert(std::is_trivially_destructible_v<T>, "the arena runs no destructors");
     return new (allocate(sizeof(T) * count, alignof(T))) T[count]();
   }
 
-  /// Takes every object back; keeps the memory.
+  /// Ends the lifetime of all objects but keeps the memory.
   void reset() {
     block_ = 0;
     used_ = 0;

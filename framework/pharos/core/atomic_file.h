@@ -11,11 +11,12 @@
 
 namespace pharos {
 
-/// Makes the file `path` appear whole or not at all: `write(temporary)` writes a file beside it,
-/// which then takes its name. When write() throws or the renaming fails, the temporary is removed,
-/// an older `path` stays as it was, and the error goes on. Throws RunError when the folder does not
-/// exist or `path` is there and not a regular file: a device or folder is never replaced. A
-/// symbolic link stays one; the file it points to is replaced.
+/// Writes the file `path` as a whole or not at all. `write(temporary)` writes a temporary file
+/// beside it, which is then renamed. If write() throws or the renaming fails, the temporary file is
+/// removed, an existing `path` stays as it was, and the error propagates. If `path` is a symbolic
+/// link, the link stays and the file that it points to is replaced. Throws RunError if the folder
+/// does not exist, or if `path` exists and is not a regular file: devices and folders are never
+/// replaced.
 template <class Write>
 void write_atomically(const std::filesystem::path& path, Write&& write) {
   namespace fs = std::filesystem;
@@ -41,7 +42,7 @@ void write_atomically(const std::filesystem::path& path, Write&& write) {
   }
 }
 
-/// Makes `path` a file of this text, whole or not at all. Throws RunError.
+/// Writes `text` to the file `path`, as a whole or not at all. Throws RunError.
 void write_text_atomically(const std::filesystem::path& path, std::string_view text);
 
 }  // namespace pharos

@@ -4,7 +4,7 @@
 
 namespace pharos {
 
-/// An axis-aligned box [scene units]; empty until something is added.
+/// An axis-aligned box [scene units]. It is empty until a point or a box is added.
 struct Bounds3 {
   Point3 low{kInfinity, kInfinity, kInfinity};
   Point3 high{-kInfinity, -kInfinity, -kInfinity};
@@ -12,7 +12,7 @@ struct Bounds3 {
   bool empty() const { return low.x > high.x || low.y > high.y || low.z > high.z; }
   Vec3 extent() const { return high - low; }
   Point3 center() const { return 0.5f * (low + high); }
-  /// Length of the diagonal, 0 when empty [scene units].
+  /// Returns the length of the diagonal [scene units], or 0 if the box is empty.
   float diagonal() const { return empty() ? 0.0f : length(extent()); }
   bool contains(Point3 p) const {
     return p.x >= low.x && p.x <= high.x && p.y >= low.y && p.y <= high.y && p.z >= low.z &&

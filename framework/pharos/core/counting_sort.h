@@ -9,9 +9,9 @@
 
 namespace pharos {
 
-/// Puts items into the order of their keys, those of one key in the order they had; returns where
-/// each key's begin, and the end: `keys` + 1 numbers. `key_of(i)` below `keys` is that of
-/// `items[i]`; asked for concurrently.
+/// Sorts `items` by their keys. Items with equal keys keep their order. `key_of(i)` returns the key
+/// of `items[i]`, a number below `keys`; it is called concurrently. Returns `keys` + 1 numbers: the
+/// index at which the items of each key begin, and the number of items.
 template <class Item, class KeyOf>
 std::vector<std::size_t> sort_by_key(std::vector<Item>& items, std::size_t keys, KeyOf&& key_of) {
   std::vector<std::uint32_t> key(items.size());

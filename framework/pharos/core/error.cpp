@@ -7,8 +7,9 @@
 namespace pharos {
 namespace {
 
-/// Number of insertions, deletions, replacements and swaps of neighbors that turn `a` into `b`,
-/// no letter being edited twice (the "optimal string alignment" form of Damerau-Levenshtein).
+/// Returns the number of insertions, deletions, replacements and swaps of neighbors that turn `a`
+/// into `b`. No letter is edited twice (the "optimal string alignment" form of the
+/// Damerau-Levenshtein distance).
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before_last, last(b.size() + 1), row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;

@@ -1,4 +1,4 @@
 #pragma once
 
-/// Marks what a module's library shows to the loader.
+/// Marks the symbols of a module's library that are visible to the loader.
 #define PHAROS_EXPORT __attribute__((visibility("default")))

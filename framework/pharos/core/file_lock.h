@@ -6,14 +6,15 @@
 
 namespace pharos {
 
-/// A lock between processes, held as long as the object lives, by a file that is made where it is
-/// not there and stays. Threads of one process each need an object of their own.
+/// A lock between processes, held as long as the object lives. The lock is on a file, which is
+/// created if it does not exist and stays afterwards. Threads of one process need one object each.
 class FileLock {
  public:
-  /// The lock, or nothing when another process or object holds it. Throws RunError when the file
-  /// cannot be made.
+  /// Returns the lock, or nothing if another process or object holds it. Throws RunError if the
+  /// file cannot be created.
   static std::optional<FileLock> try_lock(const std::filesystem::path& file);
-  /// Waits for the lock; empty when `stop` was set meanwhile. `stop` may be null.
+  /// Waits for the lock. Returns nothing if `stop` is set in the meantime; `stop` may be null.
+  /// Throws RunError like try_lock().
   static std::optional<FileLock> wait(const std::filesystem::path& file,
                                       const std::atomic<bool>* stop);
 

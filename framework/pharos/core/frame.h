@@ -6,12 +6,12 @@
 
 namespace pharos {
 
-/// An orthonormal right-handed frame; local z is the normal.
+/// An orthonormal right-handed frame. The local z axis is the normal.
 struct Frame {
   Vec3 s{1, 0, 0}, t{0, 1, 0}, n{0, 0, 1};
 
-  /// A frame around the unit normal `n`; s and t are arbitrary, and jump where n.z changes its sign
-  /// (Duff et al. 2017, "Building an Orthonormal Basis, Revisited").
+  /// Returns a frame around the unit normal `n`. The axes s and t are arbitrary, and they jump
+  /// where n.z changes its sign (Duff et al. 2017, "Building an Orthonormal Basis, Revisited").
   static Frame from_normal(Vec3 n) {
     const float sign = std::copysign(1.0f, n.z);
     const float a = -1 / (sign + n.z);
@@ -19,11 +19,12 @@ struct Frame {
     return {{1 + sign * n.x * n.x * a, sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}, n};
   }
 
-  /// The frame around the unit normal `n` whose s is as near as may be to `tangent`, of any length;
-  /// as from_normal() where the two are parallel, or the tangent is zero or not finite.
+  /// Returns the frame around the unit normal `n` whose s is as close as possible to `tangent`,
+  /// which may have any length. Returns from_normal(n) if the two are parallel, or if the tangent
+  /// is zero or not finite.
   static Frame along(Vec3 n, Vec3 tangent) {
     const Vec3 s = tangent - dot(tangent, n) * n;
-    // In double, as squares may be beyond what a float can hold.
+    // Uses double precision, because the squares may exceed the range of a float.
     const double size = std::hypot(double{s.x}, double{s.y}, double{s.z});
     if (!(size > 0) || !std::isfinite(size)) return from_normal(n);
     const Vec3 unit{static_cast<float>(s.x / size), static_cast<float>(s.y / size),
@@ -35,7 +36,7 @@ struct Frame {
   Vec3 to_world(Vec3 v) const { return v.x * s + v.y * t + v.z * n; }
 };
 
-/// Signed cosine between a local direction and the normal.
+/// Returns the signed cosine between a local direction and the normal.
 constexpr float cos_theta(Vec3 local) {
   return local.z;
 }

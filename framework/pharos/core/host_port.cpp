@@ -15,13 +15,14 @@ bool is_name_letter(char c) {
          c == '-' || c == '_';
 }
 
-/// A host name or an IPv4 address; names are at most 253 letters long (RFC 1035).
+/// Returns whether `host` can be a host name or an IPv4 address. Names have at most 253 letters
+/// (RFC 1035).
 bool is_name(std::string_view host) {
   return !host.empty() && host.size() <= 253 &&
          std::all_of(host.begin(), host.end(), is_name_letter);
 }
 
-/// An IPv6 address, with the zone that local ones may need ("fe80::1%eth0").
+/// Returns whether `host` is an IPv6 address. Local addresses may include a zone ("fe80::1%eth0").
 bool is_ipv6(std::string_view host) {
   const std::size_t percent = std::min(host.find('%'), host.size());
   const std::string_view zone = host.substr(std::min(percent + 1, host.size()));
@@ -30,7 +31,8 @@ bool is_ipv6(std::string_view host) {
          (percent == host.size() || is_name(zone));
 }
 
-/// The port after a host: nothing, or a colon and a number.
+/// Reads the port after a host. The text is empty or consists of a colon and a number. Returns
+/// nothing for any other text.
 std::optional<std::uint16_t> read_port(std::string_view text, std::uint16_t default_port) {
   if (text.empty()) return default_port;
   std::uint16_t port = 0;
@@ -53,7 +55,7 @@ HostPort parse_host_port(std::string_view text, std::uint16_t default_port, cons
   const std::string_view host = text.substr(bracketed, host_end - bracketed);
   const std::string_view rest = text.substr(std::min(host_end + bracketed, text.size()));
   const auto port = read_port(rest, default_port);
-  // A bracket that is not closed leaves nothing to end the host.
+  // Without a closing bracket, host_end is the end of the text.
   const bool sound = bracketed ? host_end < text.size() && is_ipv6(host) : is_name(host);
   if (!sound || !port) {
     throw InputError(where,

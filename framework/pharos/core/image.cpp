@@ -11,7 +11,7 @@ namespace {
 
 constexpr const char* kImageLibrary = "libpharos_images.so";
 
-/// Loads the library that stands beside this one.
+/// Loads the image library from the folder of this library. Throws RunError if that fails.
 const ImageFiles* load_image_files() {
   Dl_info here;
   dladdr(reinterpret_cast<const void*>(&load_image_files), &here);

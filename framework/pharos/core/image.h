@@ -11,11 +11,11 @@
 
 namespace pharos {
 
-/// Rows of float pixels, top row first, with named channels interleaved.
+/// An image of float pixels with named, interleaved channels. Rows are stored from top to bottom.
 class Image {
  public:
   Image() = default;
-  /// All zero. Channel names are those of OpenEXR, such as "R", "albedo.R" or "depth.Z".
+  /// Makes an image of zeros. Channel names follow OpenEXR, such as "R", "albedo.R" or "depth.Z".
   Image(int width, int height, std::vector<std::string> channels);
 
   int width() const { return width_; }
@@ -26,7 +26,7 @@ class Image {
 
   float* pixel(int x, int y) { return values_.data() + offset(x, y); }
   const float* pixel(int x, int y) const { return values_.data() + offset(x, y); }
-  /// Channels `first` to `first + 2` as a color.
+  /// Returns channels `first` to `first + 2` as a color.
   Rgb rgb(int x, int y, int first = 0) const {
     const float* p = pixel(x, y) + first;
     return {p[0], p[1], p[2]};
@@ -38,10 +38,11 @@ class Image {
   std::vector<float>& values() { return values_; }
   const std::vector<float>& values() const { return values_; }
 
-  /// Index of a channel by its full name; -1 when there is none.
+  /// Returns the index of the channel with this full name, or -1 if there is none.
   int channel_index(const std::string& name) const;
-  /// The indices of red, green and blue: of the channels R, G, B or else Y three times; without
-  /// such names the first three channels, or the first alone when there are fewer.
+  /// Returns the indices of the red, green and blue channels. These are the channels R, G and B, or
+  /// else Y three times. Without such names they are the first three channels, or the first channel
+  /// three times if there are fewer than three.
   std::array<int, 3> color_channels() const;
 
  private:
@@ -54,28 +55,30 @@ class Image {
   std::vector<float> values_;
 };
 
-/// Text entries of an image file's header.
+/// The text entries of an image file's header.
 using Metadata = std::map<std::string, std::string>;
 
 enum class ColorSpace { linear, srgb };
 
-/// Reads any format OpenImageIO knows, all channels, as float. Eight- and sixteen-bit formats are
-/// taken as `srgb` unless told `linear`; float formats are linear. Throws InputError with the path
-/// when the file is missing, unreadable, cut off, over 65,536 pixels wide or high or of more than
-/// 2^30 values, deep, or cropped (OpenEXR's data window is not its display window). Channels keep
-/// their names, not always their order: look them up by channel_index().
+/// Reads all channels of an image file as float, in any format that OpenImageIO knows. Values of
+/// 8-bit and 16-bit formats are decoded from sRGB unless `integer_formats` is `linear`; values of
+/// float formats are linear. Channels keep their names but not always their order, so look them up
+/// by channel_index(). Throws InputError with the path if the file is missing, unreadable or cut
+/// off, if the image is over 65,536 pixels wide or high or has more than 2^30 values, and if it is
+/// deep or cropped (the OpenEXR data window is not the display window).
 Image read_image(const std::filesystem::path& path, ColorSpace integer_formats = ColorSpace::srgb);
 
-/// The text entries of an image file's header. Throws as read_image does.
+/// Reads the text entries of an image file's header. Throws InputError like read_image().
 Metadata read_metadata(const std::filesystem::path& path);
 
-/// Writes OpenEXR (32-bit float, ZIP). The file appears whole or not at all; throws RunError.
+/// Writes an OpenEXR file (32-bit float, ZIP) as a whole or not at all. Throws RunError.
 void write_exr(const Image& image, const std::filesystem::path& path,
                const Metadata& metadata = {});
 
-/// Writes an 8-bit sRGB PNG of channels 0-2 (of channel 0 when there are fewer) after scaling by
-/// 2^exposure and a filmic curve (Narkowicz 2015) when `filmic`, else plain clipping. NaN shows as
-/// black. The file appears whole or not at all; throws RunError.
+/// Writes an 8-bit sRGB PNG file as a whole or not at all. The file shows channels 0 to 2, or
+/// channel 0 alone if there are fewer than three. Values are scaled by 2^exposure and then mapped
+/// by a filmic curve (Narkowicz 2015) if `filmic` is set, else clipped. NaN becomes black. Throws
+/// RunError.
 void write_png(const Image& image, const std::filesystem::path& path, float exposure = 0,
                bool filmic = true);
 

@@ -20,8 +20,8 @@ namespace {
 constexpr int kLargestEdge = 65536;
 constexpr std::size_t kMostValues = std::size_t{1} << 30;
 
-/// Reading and writing happen on the caller's thread: pools of the image libraries would compete
-/// with the renderer's.
+/// Makes the image libraries work on the caller's thread. Their own thread pools would compete with
+/// the renderer's.
 void keep_to_one_thread() {
   static const bool done = OIIO::attribute("threads", 1) && OIIO::attribute("exr_threads", -1);
   static_cast<void>(done);
@@ -31,13 +31,14 @@ void keep_to_one_thread() {
   throw InputError("cannot read the image '" + path.string() + "': " + one_line(why));
 }
 
-/// What OpenImageIO says, or `otherwise` when it says nothing.
+/// Returns the message of OpenImageIO, or `otherwise` if the message is empty.
 std::string reason(const std::string& message, const std::string& otherwise) {
   return message.empty() ? otherwise : message;
 }
 
-/// While it lives, what libraries print on standard error goes nowhere: libpng prints there what it
-/// also returns. One at a time, as the stream belongs to the whole process.
+/// Discards what libraries print on standard error as long as the object lives. libpng prints its
+/// messages there although it also returns them. Only one object can exist at a time, because the
+/// stream belongs to the whole process.
 class SilentLibraries {
  public:
   SilentLibraries() : nowhere_(std::fopen("/dev/null", "w")) {
@@ -57,7 +58,7 @@ class SilentLibraries {
   std::FILE* nowhere_;
 };
 
-/// Runs `read` and turns whatever escapes the image libraries into InputError.
+/// Runs `read` and turns exceptions of the image libraries into InputError.
 template <class Read>
 auto guarded_read(const std::filesystem::path& path, Read&& read) {
   const SilentLibraries silent;
@@ -76,7 +77,7 @@ std::unique_ptr<OIIO::ImageInput> open_image(const std::filesystem::path& path) 
   keep_to_one_thread();
   const std::string problem = file_problem(path);
   if (!problem.empty()) fail_reading(path, problem);
-  // Colors under transparent pixels are wanted as they were stored.
+  // Keep colors under transparent pixels as they were stored.
   OIIO::ImageSpec wishes;
   wishes.attribute("oiio:UnassociatedAlpha", 1);
   auto input = OIIO::ImageInput::open(path.string(), &wishes);
@@ -117,7 +118,7 @@ void decode_srgb(Image& image, int alpha_channel) {
   }
 }
 
-/// Writes `values` as one image file in the format `format`; throws RunError naming `path`.
+/// Writes `values` as an image file in the format `format`. Throws RunError with the path.
 void write_image(const std::filesystem::path& path, const std::string& format,
                  const OIIO::ImageSpec& spec, OIIO::TypeDesc type, const void* values) {
   keep_to_one_thread();
@@ -140,9 +141,10 @@ void write_image(const std::filesystem::path& path, const std::string& format,
   });
 }
 
-/// Fit of the ACES filmic curve (Narkowicz 2015, "ACES Filmic Tone Mapping Curve"), to [0, 1].
+/// A fit of the ACES filmic curve (Narkowicz 2015, "ACES Filmic Tone Mapping Curve"). Large
+/// arguments give values slightly above 1.
 float filmic_curve(float x) {
-  constexpr float saturated = 1e4f;  // the curve has long reached 1; keeps infinity from NaN
+  constexpr float saturated = 1e4f;  // the curve exceeds 1 there; avoids NaN for infinity
   x = std::min(x, saturated);
   return x * (2.51f * x + 0.03f) / (x * (2.43f * x + 0.59f) + 0.14f);
 }
@@ -161,7 +163,7 @@ Image read_image_file(const std::filesystem::path& path, ColorSpace integer_form
     Image image(spec.width, spec.height, spec.channelnames);
     const bool complete =
         input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.values().data());
-    // Some readers fill what is missing, report success and leave only a message.
+    // Some readers fill in missing pixels, report success and only leave a message.
     if (!complete || input->has_error()) {
       fail_reading(path, reason(input->geterror(), "it is cut off or damaged"));
     }
@@ -190,7 +192,7 @@ void write_exr_file(const Image& image, const std::filesystem::path& path,
   spec.channelnames = image.channels();
   for (const auto& [key, text] : metadata) spec.attribute(key, text);
   spec.attribute("compression", "zip");
-  spec.attribute("DateTime", "");  // else the time of writing, which makes equal images differ
+  spec.attribute("DateTime", "");  // otherwise the time, which makes equal images differ
   write_image(path, "openexr", spec, OIIO::TypeDesc::FLOAT, image.values().data());
 }
 

@@ -6,9 +6,10 @@
 
 namespace pharos {
 
-/// Image files as OpenImageIO reads and writes them: the functions behind image.h. They live in a
-/// library of their own, libpharos_images, that is loaded when the first image is read or written:
-/// OpenImageIO brings some 250 libraries with it, which take longer to load than a small scene.
+/// The functions behind image.h, which read and write image files by OpenImageIO. They live in a
+/// library of their own, libpharos_images, which is loaded when the first image is read or written.
+/// OpenImageIO depends on some 250 libraries, and loading these takes longer than loading a small
+/// scene.
 struct ImageFiles {
   Image (*read)(const std::filesystem::path& path, ColorSpace integer_formats);
   Metadata (*read_metadata)(const std::filesystem::path& path);

@@ -4,11 +4,11 @@
 
 namespace pharos {
 
-/// Messages to people, on the standard error stream, one line each; thread-safe. Errors are
-/// exceptions, not log lines.
+/// Prints a message for people on standard error, as one line. Thread-safe. Errors are reported by
+/// exceptions, not by log lines.
 void log_info(const std::string& message);
 void log_warning(const std::string& message);
-/// Leaves only warnings.
+/// Restricts the log to warnings if `quiet` is set.
 void set_log_quiet(bool quiet);
 
 }  // namespace pharos

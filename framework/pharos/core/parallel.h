@@ -12,11 +12,11 @@
 
 namespace pharos {
 
-/// Runs `produce(i)` for i = 0, 1, … concurrently and `consume(i, result)` strictly in order of i,
-/// one at a time. What consume() folds is therefore the same for any number of threads. At most
-/// about four results a thread wait at once, so memory stays bounded. The loop ends at `count`,
-/// or early at the first i for which `keep_going(i)` is false; every i below that is consumed. The
-/// first exception, by order of i, ends the loop and comes out of it.
+/// Runs `produce(i)` for i = 0, 1, … concurrently, and `consume(i, result)` in order of i, one call
+/// at a time. The value that consume() accumulates is therefore the same for any number of threads.
+/// At most about four results per thread wait at any time, so memory stays bounded. The loop ends
+/// at `count`, or earlier at the first i for which `keep_going(i)` is false; all smaller i are
+/// still consumed. The first exception in order of i ends the loop and is rethrown.
 template <class Produce, class Consume, class KeepGoing>
 void parallel_ordered(std::size_t count, Produce&& produce, Consume&& consume,
                       KeepGoing&& keep_going) {
@@ -30,13 +30,13 @@ void parallel_ordered(std::size_t count, Produce&& produce, Consume&& consume,
   const auto tokens = 4 * static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
   std::size_t next = 0;
   std::atomic<bool> failed{false};
-  std::exception_ptr first_error;  // by order of i
+  std::exception_ptr first_error;  // first in order of i
   const auto number = [&](tbb::flow_control& flow) -> std::size_t {
     if (next < count && !failed && keep_going(next)) return next++;
     flow.stop();
     return 0;
   };
-  // Exceptions must not pass through the pipeline: it forgets what is on its way.
+  // Exceptions must not leave the pipeline: it would drop the items that it is still processing.
   const auto work = [&](std::size_t i) {
     auto item = std::make_shared<Item>(Item{i, std::nullopt, nullptr});
     try {
@@ -67,13 +67,14 @@ void parallel_ordered(std::size_t count, Produce&& produce, Consume&& consume,
   if (first_error) std::rethrow_exception(first_error);
 }
 
-/// As above, always to the end.
+/// The same without an early end.
 template <class Produce, class Consume>
 void parallel_ordered(std::size_t count, Produce&& produce, Consume&& consume) {
   parallel_ordered(count, produce, consume, [](std::size_t) { return true; });
 }
 
-/// Independent iterations; each may write only what belongs to its own index.
+/// Runs `body(i)` for each i below `count` concurrently. Each call may write only data that belongs
+/// to its own index.
 template <class Body>
 void parallel_for(std::size_t count, Body&& body) {
   tbb::parallel_for(std::size_t{0}, count, body);

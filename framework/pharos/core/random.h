@@ -17,7 +17,7 @@ constexpr std::uint64_t mix_bits(std::uint64_t v) {
   return v;
 }
 
-/// Folds one more word into a hash; order matters.
+/// Adds one more word to a hash. The order of the words matters.
 constexpr std::uint64_t hash_combine(std::uint64_t hash, std::uint64_t word) {
   return mix_bits(hash * 0x9e3779b97f4a7c15ull + word + 0x632be59bd9b4e019ull);
 }
@@ -26,15 +26,16 @@ constexpr std::uint64_t hash_combine(std::uint64_t hash, std::uint64_t word) {
 constexpr float to_unit_float(std::uint32_t bits) {
   return static_cast<float>(bits >> 8) * 0x1p-24f;
 }
-/// Two independent numbers in [0, 1) from one 64-bit word.
+/// Maps a 64-bit word to two independent numbers in [0, 1).
 constexpr Vec2 to_unit_vec2(std::uint64_t bits) {
   return {to_unit_float(static_cast<std::uint32_t>(bits >> 32)),
           to_unit_float(static_cast<std::uint32_t>(bits))};
 }
 
-/// A counter-based random stream for learners and tests: its values are a function of the key
-/// and of the count of numbers drawn, never of a thread. Keys name what the numbers are for, such
-/// as (seed, iteration, leaf). Meets UniformRandomBitGenerator. Paths use SampleStream instead.
+/// A counter-based random stream for learners and tests. Its values are a function of the key and
+/// of the count of numbers drawn, never of a thread. The key names what the numbers are for, such
+/// as (seed, iteration, leaf). Meets the requirements of UniformRandomBitGenerator. Paths use
+/// SampleStream instead.
 class RandomStream {
  public:
   using result_type = std::uint64_t;
@@ -47,9 +48,9 @@ class RandomStream {
   static constexpr result_type max() { return ~result_type{0}; }
   constexpr result_type operator()() { return mix_bits(state_ += 0x9e3779b97f4a7c15ull); }
 
-  /// Uniform in [0, 1), 24 bits.
+  /// Returns a uniform number in [0, 1) with 24 bits.
   constexpr float next_1d() { return to_unit_float(static_cast<std::uint32_t>((*this)() >> 32)); }
-  /// Uniform in [0, 1)^2, 24 bits each.
+  /// Returns a uniform point in [0, 1)^2 with 24 bits per coordinate.
   constexpr Vec2 next_2d() { return to_unit_vec2((*this)()); }
 
  private:

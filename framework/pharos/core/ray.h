@@ -4,7 +4,7 @@
 
 namespace pharos {
 
-/// A half-line or segment; `direction` has unit length, so t is a distance [scene units].
+/// A half-line or segment. `direction` has unit length, so t is a distance [scene units].
 struct Ray {
   Point3 origin;
   Vec3 direction;

@@ -5,7 +5,7 @@
 
 namespace pharos {
 
-/// Linear Rec.709 color: a reflectance [1], or radiance [W/(m^2 sr)] and its relatives.
+/// A linear Rec.709 color: a reflectance [1], or a radiance [W/(m^2 sr)] or related quantity.
 struct Rgb {
   float r = 0, g = 0, b = 0;
 
@@ -29,7 +29,7 @@ struct Rgb {
   friend constexpr bool operator==(Rgb, Rgb) = default;
 };
 
-/// Relative luminance of linear Rec.709 [unit of the color].
+/// Returns the relative luminance of a linear Rec.709 color [unit of the color].
 constexpr float luminance(Rgb c) {
   return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b;
 }
@@ -39,7 +39,7 @@ constexpr float mean(Rgb c) {
 constexpr float max_component(Rgb c) {
   return std::max(c.r, std::max(c.g, c.b));
 }
-/// The larger value in each channel.
+/// Returns the larger value in each channel.
 constexpr Rgb max(Rgb x, Rgb y) {
   return {std::max(x.r, y.r), std::max(x.g, y.g), std::max(x.b, y.b)};
 }

@@ -10,9 +10,9 @@
 #include <immintrin.h>
 #endif
 
-/// Numbers that are computed with side by side: vectors of the compiler, whose operators work
-/// element by element, and the functions that these do not have. Comparisons give masks; `mask ? a
-/// : b` chooses element by element.
+/// SIMD vectors: vector types of the compiler, whose operators work element by element, and
+/// functions that the compiler does not provide. Comparisons return masks; `mask ? a : b` selects
+/// element by element.
 namespace pharos {
 
 using Float8 = float __attribute__((vector_size(32)));
@@ -20,10 +20,11 @@ using Double4 = double __attribute__((vector_size(32)));
 using Mask8 = std::int32_t __attribute__((vector_size(32)));
 using Mask4 = std::int64_t __attribute__((vector_size(32)));
 
-/// Four singles: a step on the way to and from memory.
+/// Four floats, an intermediate step on the way to and from memory.
 using Float4 = float __attribute__((vector_size(16)));
 
-/// The same number at all places. (A difference, as x + 0 may not be left out.)
+/// Returns a vector with `x` in all elements. (The code subtracts zero because the compiler may
+/// omit x - 0, but not x + 0.)
 inline Float8 all8(float x) {
   return x - Float8{};
 }
@@ -31,14 +32,14 @@ inline Double4 all4(double x) {
   return x - Double4{};
 }
 
-/// Four neighbors in memory; the address needs no alignment.
+/// Loads four neighbors in memory. The address needs no alignment.
 inline Double4 load4(const double* from) {
   Double4 x;
   std::memcpy(&x, from, sizeof x);
   return x;
 }
 
-/// Element i of each of four vectors, for all i.
+/// The result of transposing four vectors: row i holds element i of each vector.
 struct Transposed4 {
   Float4 rows[4];
 };
@@ -53,7 +54,7 @@ inline Transposed4 transposed(const Float4& a, const Float4& b, const Float4& c,
            __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7)}};
 }
 
-/// The same numbers in double precision.
+/// Converts the numbers to double precision.
 inline Double4 widened(const Float4& x) {
 #if defined(__AVX__)
   return _mm256_cvtps_pd(x);
@@ -72,7 +73,7 @@ inline Float8 sqrt(const Float8& x) {
 #endif
 }
 
-/// Eight doubles, in two registers whose operations can run at the same time.
+/// Eight doubles in two registers. Operations on the two registers can run at the same time.
 struct Double8 {
   Double4 low, high;
 
@@ -99,7 +100,7 @@ inline Double8 widened(const Float8& x) {
           widened(__builtin_shufflevector(x, x, 4, 5, 6, 7))};
 }
 
-/// Numbers of double precision rounded to single.
+/// Rounds numbers of double precision to single precision.
 inline Float8 rounded(const Double8& x) {
 #if defined(__AVX__)
   return _mm256_set_m128(_mm256_cvtpd_ps(x.high), _mm256_cvtpd_ps(x.low));
@@ -113,7 +114,7 @@ inline Float8 rounded(const Double8& x) {
 #endif
 }
 
-/// The larger of two numbers.
+/// Returns the larger of two numbers, element by element.
 inline Float8 larger(const Float8& a, const Float8& b) {
 #if defined(__AVX__)
   return _mm256_max_ps(a, b);
@@ -132,7 +133,7 @@ inline Float8 absolute(const Float8& x) {
   return larger(x, -x);
 }
 
-/// Whether the mask is set anywhere.
+/// Returns whether any element of the mask is set.
 inline bool any(const Mask8& mask) {
 #if defined(__AVX__)
   return _mm256_movemask_ps(std::bit_cast<__m256>(mask)) != 0;
@@ -143,7 +144,7 @@ inline bool any(const Mask8& mask) {
 #endif
 }
 
-/// Sums of all, always added in the same order.
+/// Returns the sum of all elements. The order of the additions is fixed.
 inline float sum(const Float8& x) {
   const Float4 four =
       __builtin_shufflevector(x, x, 0, 1, 2, 3) + __builtin_shufflevector(x, x, 4, 5, 6, 7);
@@ -154,15 +155,15 @@ inline double sum(const Double4& x) {
   return (x[0] + x[2]) + (x[1] + x[3]);
 }
 
-/// 2^x for x below 128, relative error below 3e-7; 0 below -126. (And
-/// 2^-126 for what is not a number.)
+/// Returns 2^x for x below 128, with a relative error below 3e-7. Returns 0 for x below -126, and
+/// 2^-126 for NaN.
 inline Float8 exp2(const Float8& x) {
-  constexpr float kRound = 0x1.8p23f;  // added, it leaves no room for fractions
+  constexpr float kRound = 0x1.8p23f;  // adding it rounds to an integer
   constexpr float kLeast = -126;
   const Float8 bounded = larger(x, all8(kLeast));
   const Float8 shifted = bounded + kRound;
   const Float8 r = bounded - (shifted - kRound);
-  // Taylor's polynomial of degree 6, in few steps that wait for each other.
+  // Taylor polynomial of degree 6, arranged so that few steps depend on each other.
   const Float8 r2 = r * r;
   const Float8 high = (9.61812911e-3f + r * 1.33335581e-3f) + r2 * 1.54035304e-4f;
   const Float8 p = (1 + r * 0.693147181f) + r2 * ((0.240226507f + r * 5.55041087e-2f) + r2 * high);
@@ -172,12 +173,13 @@ inline Float8 exp2(const Float8& x) {
 
 inline constexpr float kLog2E = 1.44269504f;
 
-/// e^x for x below 88; 0 below -87. The relative error is that of 2^x and 1e-7 times |x|.
+/// Returns e^x for x below 88, and 0 for x below -87. The relative error is the error of exp2()
+/// plus 1e-7 times |x|.
 inline Float8 exp(const Float8& x) {
   return exp2(x * kLog2E);
 }
 
-/// e^x for x below 709, relative error below 1e-15; 0 below -708.
+/// Returns e^x for x below 709, with a relative error below 1e-15. Returns 0 for x below -708.
 inline Double4 exp(const Double4& x) {
   constexpr double kOverLn2 = 1.4426950408889634;
   constexpr double kLn2High = 0x1.62e42fefa38p-1, kLn2Low = 0x1.ef35793c7673p-45;

@@ -17,14 +17,15 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// How often a wait looks whether it is to be stopped.
+/// The interval at which a waiting call checks whether it must stop.
 constexpr std::chrono::milliseconds kSlice{20};
 
 [[noreturn]] void fail(int error) {
   throw RunError(std::system_category().message(error));
 }
 
-/// Calls `ready(slice)` until it returns true; throws RunError after `seconds` or when stopped.
+/// Calls `ready(slice)` until it returns true. Throws RunError after `seconds` or if a stop is
+/// requested.
 template <class Ready>
 void wait(const std::stop_token& stop, double seconds, Ready&& ready) {
   const auto end = Clock::now() + std::chrono::duration<double>(seconds);
@@ -63,7 +64,7 @@ std::vector<TcpClient::Address> TcpClient::look_up(const HostPort& server) {
 }
 
 std::vector<TcpClient::Address> TcpClient::addresses(const std::stop_token& stop, double seconds) {
-  // A lookup that took too long for an earlier call may be done by now.
+  // A lookup that took too long for an earlier call may have finished by now.
   if (!lookup_.valid()) {
     std::packaged_task<std::vector<Address>()> task([server = server_] { return look_up(server); });
     lookup_ = task.get_future();

@@ -10,9 +10,9 @@
 
 namespace pharos {
 
-/// A connection over which data is sent to a TCP server. No call waits longer than it is told, and
-/// all end within some hundredths of a second once a stop is requested. Calls throw RunError, with
-/// the reason alone ("Connection refused"), and raise no signal. Not thread-safe.
+/// A connection that sends data to a TCP server. No call waits longer than its time limit. All
+/// calls end within some hundredths of a second after a stop is requested. Calls throw RunError,
+/// with the reason alone ("Connection refused"), and raise no signal. Not thread-safe.
 class TcpClient {
  public:
   explicit TcpClient(HostPort server) : server_(std::move(server)) {}
@@ -20,11 +20,13 @@ class TcpClient {
   TcpClient(const TcpClient&) = delete;
   TcpClient& operator=(const TcpClient&) = delete;
 
-  /// Looks the name up and tries its addresses in turn; at most `seconds` for each of these steps.
+  /// Looks up the name of the server and tries its addresses in turn. Each of these steps takes at
+  /// most `seconds`.
   void connect(const std::stop_token& stop, double seconds);
-  /// Hands all bytes to the system; fails when it takes none for `seconds`.
+  /// Hands all bytes to the operating system. Fails if the system accepts no bytes for `seconds`.
   void send(std::span<const char> bytes, const std::stop_token& stop, double seconds);
-  /// Whether the server has closed the connection, as far as is known. What it sent is thrown away.
+  /// Returns whether the server is known to have closed the connection. Discards data that the
+  /// server has sent.
   bool closed_by_server();
   void close();
 
@@ -38,8 +40,8 @@ class TcpClient {
   void connect_to(const Address& address, const std::stop_token& stop, double seconds);
 
   HostPort server_;
-  /// A name's addresses, when they are known. The system offers no way to break a lookup off, so
-  /// that it runs in a thread of its own, which is left behind where it takes too long.
+  /// The addresses of the server once they are known. The system offers no way to cancel a lookup.
+  /// The lookup therefore runs in a thread of its own, which is left behind if it takes too long.
   std::future<std::vector<Address>> lookup_;
   int socket_ = -1;
 };

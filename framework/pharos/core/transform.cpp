@@ -13,11 +13,11 @@ using Matrix = Transform::Matrix;
 
 constexpr Matrix kIdentity{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
 
-/// Below this ratio of volume to edge lengths the rows of a float matrix are linearly dependent up
-/// to the rounding of its elements.
+/// The smallest ratio of the volume to the product of the edge lengths. Below it, the rows of a
+/// float matrix are linearly dependent up to the rounding of their elements.
 constexpr double kSingularVolume = 1e-7;
 
-/// The minor of the linear part left by taking out row r and column c, with its sign.
+/// Returns the signed minor of the linear part without row r and column c.
 double cofactor(const Matrix& m, int r, int c) {
   const auto& row1 = m[(r + 1) % 3];
   const auto& row2 = m[(r + 2) % 3];
@@ -43,8 +43,8 @@ bool is_finite(const Matrix& m) {
   return true;
 }
 
-/// The inverse by cofactors in double precision. It follows from the elements of `m` alone, so that
-/// a transform read back from its matrix is the same in every bit.
+/// Computes the inverse by cofactors in double precision. The result depends on the elements of `m`
+/// alone, so a transform that is read back from its matrix is identical in every bit.
 Matrix inverse(const Matrix& m) {
   const double volume = determinant(m);
   const double edges = row_length(m, 0) * row_length(m, 1) * row_length(m, 2);
@@ -88,7 +88,7 @@ Transform Transform::rotate(Vec3 axis, float degrees) {
                                  static_cast<double>(axis.z));
   if (!(norm > 0) || !std::isfinite(norm)) throw InputError("the rotation axis has no direction");
   const double a[3] = {axis.x / norm, axis.y / norm, axis.z / norm};
-  // Exact for multiples of 90 degrees, so that axis-aligned scenes stay axis-aligned.
+  // Is exact for multiples of 90 degrees, so that axis-aligned scenes stay axis-aligned.
   const double turns = std::fmod(static_cast<double>(degrees), 360.0) / 180.0;
   const double s = boost::math::sin_pi(turns), c = boost::math::cos_pi(turns);
   Matrix m = kIdentity;

@@ -6,23 +6,24 @@
 
 namespace pharos {
 
-/// An invertible affine map from local to world space, with its inverse.
-/// Matrices are row-major 3x4: columns 0-2 linear part, column 3 translation.
+/// An invertible affine map from local to world space, with its inverse. Matrices are row-major
+/// 3x4: columns 0-2 are the linear part, column 3 is the translation.
 class Transform {
  public:
   using Matrix = std::array<std::array<float, 4>, 3>;
 
   /// The identity.
   Transform();
-  /// The affine map of `matrix`; throws InputError when it cannot be inverted.
+  /// Makes the affine map of `matrix`. Throws InputError if the matrix cannot be inverted.
   explicit Transform(const Matrix& matrix);
 
   static Transform translate(Vec3 offset);
   static Transform scale(Vec3 factors);
-  /// Counter-clockwise about `axis` (need not be unit) by `degrees`.
+  /// Rotates counter-clockwise about `axis` by `degrees`. The axis may have any length.
   static Transform rotate(Vec3 axis, float degrees);
-  /// Local +z towards `target`, local +y near `up`, local origin at `origin`; right-handed with +x
-  /// to the left of the viewer. Throws InputError when the three do not span a frame.
+  /// Maps local +z towards `target`, local +y near to `up`, and the local origin to `origin`. The
+  /// map is right-handed, with +x to the left of the viewer. Throws InputError if the three
+  /// arguments do not span a frame.
   static Transform look_at(Point3 origin, Point3 target, Vec3 up);
 
   Point3 point(Point3 p) const { return apply(forward_, p) + column(forward_, 3); }
@@ -32,7 +33,7 @@ class Transform {
   Point3 inverse_point(Point3 p) const { return apply(inverse_, p) + column(inverse_, 3); }
   Vec3 inverse_vector(Vec3 v) const { return apply(inverse_, v); }
 
-  /// True when the map mirrors (negative determinant).
+  /// Returns true if the map mirrors (negative determinant).
   bool flips_handedness() const;
   const Matrix& matrix() const { return forward_; }
 

@@ -8,10 +8,10 @@ namespace pharos {
 
 inline constexpr float kPi = 3.14159265358979323846f;
 inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
-/// The largest float below one: primary numbers lie in [0, kOneMinusEpsilon].
+/// The largest float below one. Primary numbers lie in [0, kOneMinusEpsilon].
 inline constexpr float kOneMinusEpsilon = 0x1.fffffep-1f;
 
-/// Two floats: primary numbers, texture coordinates, film positions.
+/// Two floats: primary numbers, texture coordinates or film positions.
 struct Vec2 {
   float x = 0, y = 0;
 
@@ -22,7 +22,7 @@ struct Vec2 {
   friend constexpr bool operator==(Vec2, Vec2) = default;
 };
 
-/// Three floats in world or local space [scene units, or unitless for directions].
+/// Three floats in world or local space [scene units; directions have no unit].
 struct Vec3 {
   float x = 0, y = 0, z = 0;
 
@@ -40,7 +40,7 @@ struct Vec3 {
   friend constexpr bool operator==(Vec3, Vec3) = default;
 };
 
-/// The role of a Vec3 where the signature should say it.
+/// A Vec3 that holds a position. Signatures use this name to distinguish positions from directions.
 using Point3 = Vec3;
 
 constexpr float dot(Vec3 a, Vec3 b) {
@@ -80,7 +80,7 @@ inline bool is_finite(Vec3 v) {
 constexpr float square(float v) {
   return v * v;
 }
-/// Square root that treats the small negatives of rounding as zero.
+/// Returns the square root, treating small negative values from rounding as zero.
 inline float safe_sqrt(float v) {
   return std::sqrt(std::max(0.0f, v));
 }

@@ -4,7 +4,7 @@
 
 namespace pharos {
 
-/// The version of libpharos, such as "0.1.0".
+/// Returns the version of libpharos, such as "0.1.0".
 std::string version();
 
 }  // namespace pharos

@@ -7,12 +7,12 @@
 namespace pharos::warp {
 namespace {
 
-/// Keeps what rounding pushed out of [0, 1) inside.
+/// Clamps values that rounding has moved out of [0, 1).
 float primary(float u) {
   return std::clamp(u, 0.0f, kOneMinusEpsilon);
 }
 
-/// The azimuth of (x, y) as a fraction of the full turn, in [0, 1).
+/// Returns the azimuth of (x, y) as a fraction of the full turn, in [0, 1).
 float turn(float x, float y) {
   const float fraction = std::atan2(y, x) / (2 * kPi);
   return primary(fraction < 0 ? fraction + 1 : fraction);
@@ -72,14 +72,15 @@ double normal_from_unit(double u) {
   using boost::math::policies::promote_double;
   constexpr double lowest = std::numeric_limits<double>::min();
   constexpr double highest = 1 - 0x1p-53;
-  // The complement's inverse has full relative accuracy in the lower tail, where u has it too.
+  // The inverse of the complementary error function has full relative accuracy in the lower tail,
+  // and so has u.
   const double complement = 2 * std::clamp(u, lowest, highest);
   return -std::sqrt(2.0) * boost::math::erfc_inv(complement, policy<promote_double<false>>());
 }
 
 float fast_normal_from_unit(float u) {
   const float x = (2 * u - 1) + 0x1p-24f;
-  // 1 - x^2 by its factors keeps the digits of both tails.
+  // The product (1 - x)(1 + x) keeps the digits of both tails, unlike 1 - x^2.
   float w = -std::log((1 - x) * (1 + x)), p;
   if (w < 5) {
     w -= 2.5f;

@@ -4,8 +4,8 @@
 
 namespace pharos {
 
-/// Fails before long work, not after it, where its result could not be written: throws InputError
-/// unless `file` is empty, or a regular file or none at all in a folder that may be written.
+/// Checks before long work that its result can be written. Throws InputError unless `file` is
+/// empty, or names a regular file or no existing file in a writable folder.
 void check_writable(const std::filesystem::path& file);
 
 }  // namespace pharos

@@ -10,7 +10,8 @@ namespace pharos::laboratory {
 namespace {
 
 constexpr double kSmallestComponent = 1e-6;
-/// Less of the square than this, inside or outside, is nothing that points would find.
+/// The smallest area that must be inside and outside of a region. Points would rarely find a
+/// smaller part of the square.
 constexpr double kSmallestArea = 1e-4;
 
 double snapped(double component) {
@@ -40,7 +41,7 @@ std::vector<PlanePoint> clipped(const std::vector<PlanePoint>& polygon, const Ha
   return kept;
 }
 
-/// Calls `each(a, b)` for the two ends of every side.
+/// Calls `each(a, b)` with the two ends of every side.
 template <class Each>
 void for_sides(const std::vector<PlanePoint>& polygon, Each&& each) {
   for (std::size_t i = 0; i < polygon.size(); ++i) {

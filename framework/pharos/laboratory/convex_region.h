@@ -6,8 +6,8 @@
 
 namespace pharos::laboratory {
 
-/// (cos, sin) of an angle [degrees]. Components below 1e-6 are zero: multiples of 90 degrees are
-/// exact, and closed forms that divide by a component keep their digits.
+/// Returns (cos, sin) of an angle [degrees]. Components below 1e-6 become zero. Multiples of 90
+/// degrees are therefore exact, and closed forms that divide by a component keep their precision.
 PlanePoint direction_at(double degrees);
 
 /// The points p with normal . p <= bound.
@@ -15,12 +15,12 @@ struct HalfPlane {
   PlanePoint normal;
   double bound = 0;
 
-  /// Distance to the border when `normal` is of unit length, negative inside.
+  /// Returns the distance to the border, negative inside, if `normal` has unit length.
   double signed_distance(PlanePoint p) const { return normal.x * p.x + normal.y * p.y - bound; }
 };
 
-/// The half plane whose outward normal points to `degrees` and whose border passes the center of
-/// the unit square at the distance `offset` along the normal.
+/// Returns the half plane with an outward normal at the angle `degrees`. The border has the
+/// distance `offset` along the normal from the center of the unit square.
 HalfPlane half_plane(double degrees, double offset);
 
 /// The intersection of half planes.
@@ -33,31 +33,33 @@ class ConvexRegion {
     for (const HalfPlane& side : sides_) inside &= side.signed_distance(p) <= 0;
     return inside;
   }
-  /// Its part in the unit square, counter-clockwise; the square clipped by one side after the
-  /// other (Sutherland and Hodgman 1974). Empty when nothing of it lies there.
+  /// Returns the part of the region in the unit square, counter-clockwise: the square clipped by
+  /// each side in turn (Sutherland and Hodgman 1974). The polygon is empty if the region does not
+  /// reach the square.
   std::vector<PlanePoint> polygon_in_square() const;
 
  private:
   std::vector<HalfPlane> sides_;
 };
 
-/// The half planes at `degrees`, each with its offset (0 where `offsets` is empty). Throws
-/// InputError for other numbers of offsets.
+/// Returns the intersection of the half planes at the angles `degrees`, each with its offset (0 if
+/// `offsets` is empty). Throws InputError for any other number of offsets.
 ConvexRegion region_of(const std::vector<double>& degrees, const std::vector<double>& offsets);
 
-/// The area of a counter-clockwise polygon by the shoelace formula.
+/// Returns the area of a counter-clockwise polygon by the shoelace formula.
 double area(const std::vector<PlanePoint>& polygon);
 
-/// The integral of cos(k . p) over a counter-clockwise polygon, k not zero. The divergence theorem
-/// makes it a sum over the sides: sin(k . m) sinc(k . d / 2) (k x d) / |k|^2, of a side from a to
-/// a + d with the middle m.
+/// Returns the integral of cos(k . p) over a counter-clockwise polygon, for k other than zero. The
+/// divergence theorem makes it a sum over the sides. A side from a to a + d with the middle m
+/// contributes sin(k . m) sinc(k . d / 2) (k x d) / |k|^2.
 double wave_integral(const std::vector<PlanePoint>& polygon, PlanePoint k);
 
-/// An area, returned as it is. Throws InputError unless it is that of a part of the unit square,
-/// not of all of it; `what` names what has the area in the message, such as "the edges".
+/// Returns `area` unchanged. Throws InputError unless it is the area of a part of the unit square
+/// that is neither nearly empty nor nearly the whole square. `what` names the shape in the message,
+/// such as "the edges".
 double dividing_area(double area, const char* what);
 
-/// The area of the region's part of the unit square. Throws as dividing_area() does.
+/// Returns the area of the region's part of the unit square. Throws as dividing_area() does.
 double required_area(const ConvexRegion& region, const char* what);
 
 }  // namespace pharos::laboratory

@@ -9,28 +9,28 @@
 
 namespace pharos::laboratory {
 
-/// A point or vector of the plane; primary numbers lie in [0, 1)^2. In doubles, so that shifted
-/// points keep every bit of points and shift.
+/// A point or vector of the plane. Primary numbers lie in [0, 1)^2. The type is double, so that
+/// shifted points keep every bit of points and shift.
 struct PlanePoint {
   double x = 0, y = 0;
 };
 
-/// Contract of the laboratory: a function on the unit square whose integral is known in closed
-/// form.
+/// Contract of the laboratory: a function on the unit square with an integral that is known in
+/// closed form.
 class Integrand : public Component {
  public:
   static constexpr std::string_view contract_name = "integrand";
 
-  /// At a point of [0, 1)^2.
+  /// Returns the value at a point of [0, 1)^2.
   virtual double value(PlanePoint p) const = 0;
-  /// The values at all points, added in their order.
+  /// Returns the sum of the values at all points, added in their order.
   virtual double sum(std::span<const PlanePoint> points) const = 0;
-  /// The exact integral over the unit square, which is the mean of the values.
+  /// Returns the exact integral over the unit square, which is the mean of the values.
   virtual double mean() const = 0;
 };
 
-/// What an integrand is made of: a value type with `Settings`, a constructor from them (which
-/// throws InputError when they describe no useful integrand), its value and its exact mean.
+/// A plane function: a value type with `Settings`, a constructor from them (which throws InputError
+/// if they describe no useful integrand), its value and its exact mean.
 template <class F>
 concept PlaneFunction = std::constructible_from<F, const typename F::Settings&> &&
     requires(const F& f, PlanePoint p) {
@@ -38,7 +38,7 @@ concept PlaneFunction = std::constructible_from<F, const typename F::Settings&> 
   { f.mean() } -> std::same_as<double>;
 };
 
-/// Makes a plane function an integrand; sums are inlined.
+/// Implements Integrand by a plane function; sums are inlined.
 template <PlaneFunction F>
 class IntegrandOf final : public Integrand {
  public:

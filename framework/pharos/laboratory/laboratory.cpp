@@ -11,13 +11,15 @@
 namespace pharos::laboratory {
 namespace {
 
-/// Estimates of all integrands, one vector each, by realization.
+/// Estimates of all integrands: one vector per integrand, ordered by realization.
 using Estimates = std::vector<std::vector<double>>;
 
-/// To try a point takes about as long as to add it to so many frequencies of a spectrum.
+/// Evaluating the integrands at a point takes about as long as adding the point to this number of
+/// frequencies of a spectrum.
 constexpr double kFrequenciesOfPoint = 50;
 
-/// All work of one config, from the smallest number of points to the largest.
+/// All work of one config, from the smallest number of points to the largest, followed by the
+/// spectra.
 class Bench {
  public:
   Bench(const LaboratoryConfig& config, const LaboratoryControl& control)
@@ -52,13 +54,13 @@ class Bench {
     if (control_.on_progress) control_.on_progress(done_ / total_, seconds());
   }
 
-  /// A realization of a spectrum, as points of the other work.
+  /// Returns the work of one realization of a spectrum, in units of evaluated points.
   double spectrum_work() const {
     const double edge = 2.0 * config_.spectrum.max_frequency + 1;
     return config_.spectrum.points * edge * edge / 2 / kFrequenciesOfPoint;
   }
 
-  /// Estimates from the sets of one preparation; fewer when stopped.
+  /// Returns the estimates from the sets of one preparation; fewer if the work was stopped.
   Estimates estimates_of(const NamedSampler& sampler, std::uint32_t power, std::size_t group) {
     const std::uint64_t seed = seed_of(config_.seed, sampler.name);
     const auto prepared = prepare(*sampler.sampler, {seed, power, group});
@@ -76,7 +78,7 @@ class Bench {
     return estimates;
   }
 
-  /// All estimates of a sampler with 2^power points; none when stopped.
+  /// Returns all estimates of a sampler with 2^power points; empty if the work was stopped.
   std::optional<Estimates> all_estimates(const NamedSampler& sampler, std::uint32_t power) {
     Estimates all(config_.integrands.size());
     const auto produce = [&](std::size_t group) { return estimates_of(sampler, power, group); };
@@ -90,7 +92,8 @@ class Bench {
     return all;
   }
 
-  /// Measures all samplers with 2^power points; false, and nothing is added, when stopped.
+  /// Measures all samplers with 2^power points. Returns false, and adds nothing, if the work was
+  /// stopped.
   bool add_number(std::uint32_t power, LaboratoryResults& results) {
     std::vector<Estimates> found;
     for (const NamedSampler& sampler : config_.samplers) {
@@ -108,7 +111,7 @@ class Bench {
     return true;
   }
 
-  /// False when stopped before the last.
+  /// Returns false if the work was stopped before the last number of points.
   bool add_numbers(LaboratoryResults& results) {
     for (std::uint32_t power = config_.samples.from; power <= config_.samples.to; ++power) {
       if (!add_number(power, results)) return false;
@@ -131,7 +134,7 @@ class Bench {
     }
   }
 
-  /// Empty when stopped.
+  /// Returns the spectrum of a sampler; empty if the work was stopped.
   Image spectrum_of(const NamedSampler& sampler) {
     const SpectrumSettings& s = config_.spectrum;
     const SpectrumPlan plan{.dimension = kDimension,
@@ -156,7 +159,7 @@ class Bench {
     return image;
   }
 
-  /// False when stopped before all were made.
+  /// Returns false if the work was stopped before all spectra were made.
   bool add_spectra(LaboratoryResults& results) {
     if (config_.spectrum.points == 0) return true;
     parallel_for(results.samplers.size(), [&](std::size_t i) {
@@ -169,9 +172,9 @@ class Bench {
   const LaboratoryConfig& config_;
   const LaboratoryControl& control_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  double total_ = 0;  ///< points, of the whole work
+  double total_ = 0;  ///< total work [points]
   std::mutex progress_;
-  double done_ = 0;  ///< points, guarded by `progress_`
+  double done_ = 0;  ///< finished work [points], guarded by `progress_`
 };
 
 }  // namespace

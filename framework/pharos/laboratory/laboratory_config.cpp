@@ -9,14 +9,14 @@
 namespace pharos::laboratory {
 namespace {
 
-/// A straight line and its scatter need as many points.
+/// The smallest number of values that determine a straight line and its scatter.
 constexpr std::uint32_t kLeastFitted = 3;
 
-/// With more points samplers of finite sets would begin a second set, which is not what they are
-/// like with as many.
+/// The largest exponent. With more points, samplers with finite sets would begin a second set,
+/// which does not represent the behavior of a single set.
 constexpr std::uint32_t kMostPower = 16;
 
-/// Whether a sampler can be built from its name alone and works without a scene.
+/// Returns whether a sampler can be built from its name alone and works without a scene.
 bool stands_alone(const Registry& registry, const std::string& name) {
   for (const ParameterInfo& parameter : registry.find("sampler", name)->parameters) {
     if (parameter.required) return false;
@@ -26,7 +26,8 @@ bool stands_alone(const Registry& registry, const std::string& name) {
   return !registry.build<Sampler>(ConfigNode::scalar(name), context, resolved)->needs_probe();
 }
 
-/// Puts the registered samplers in place of a list that is not there; returns those left out.
+/// Inserts the registered samplers if the config has no list of samplers. Returns the samplers that
+/// were left out.
 std::vector<std::string> add_samplers(ConfigNode& root, const Registry& registry) {
   std::vector<std::string> left_out;
   if (root.find("samplers") != nullptr) return left_out;
@@ -87,23 +88,25 @@ void PowerRange::describe(Schema<PowerRange>& s) {
   const std::string rule =
       fmt::format("an exponent of at most {}, as many samplers' sets hold no more than 2^{} points",
                   kMostPower, kMostPower);
-  s.field("from", &PowerRange::from, "Exponent of the smallest number").check(rule, is_held);
-  s.field("to", &PowerRange::to, "Exponent of the largest number").check(rule, is_held);
+  s.field("from", &PowerRange::from, "Exponent of the smallest number of points")
+      .check(rule, is_held);
+  s.field("to", &PowerRange::to, "Exponent of the largest number of points").check(rule, is_held);
 }
 
 void NamedIntegrand::describe(Schema<NamedIntegrand>& s) {
   s.field("name", &NamedIntegrand::name, "Name in tables")
       .required()
       .check(kEntryNameRule, is_entry_name);
-  s.field("integrand", &NamedIntegrand::integrand, "What is integrated").required();
+  s.field("integrand", &NamedIntegrand::integrand, "Function to integrate").required();
 }
 
 void SpectrumSettings::describe(Schema<SpectrumSettings>& s) {
-  s.field("points", &SpectrumSettings::points, "Of each set; 0: no pictures")
+  s.field("points", &SpectrumSettings::points, "Number of points of each set; 0: no pictures")
       .at_most(65536)
       .check("0 or a power of two",
              [](std::uint32_t n) { return n == 0 || std::has_single_bit(n); });
-  s.field("realizations", &SpectrumSettings::realizations, "Sets that a picture is the mean of")
+  s.field("realizations", &SpectrumSettings::realizations,
+          "Number of sets over which a picture is averaged")
       .at_least(1)
       .at_most(10000);
   s.field("max_frequency", &SpectrumSettings::max_frequency, "Largest frequency along each axis")
@@ -114,22 +117,27 @@ void SpectrumSettings::describe(Schema<SpectrumSettings>& s) {
 
 void LaboratoryConfig::describe(Schema<LaboratoryConfig>& s) {
   s.field("title", &LaboratoryConfig::title, "Heading of the report");
-  s.field("description", &LaboratoryConfig::description, "What is asked, in a sentence or two");
-  s.field("integrands", &LaboratoryConfig::integrands, "What is integrated").required();
-  s.field("samplers", &LaboratoryConfig::samplers, "What is compared; by default all registered");
+  s.field("description", &LaboratoryConfig::description,
+          "Question of the measurement, in a sentence or two");
+  s.field("integrands", &LaboratoryConfig::integrands, "Functions to integrate").required();
+  s.field("samplers", &LaboratoryConfig::samplers,
+          "Samplers to compare; by default all registered samplers");
   s.field("baseline", &LaboratoryConfig::baseline,
-          "Sampler that ratios are to; by default the first of type 'independent'");
+          "Sampler in the denominator of ratios; by default the first of type 'independent'");
   s.field("samples", &LaboratoryConfig::samples, "Numbers of points, powers of two");
-  s.field("fit", &LaboratoryConfig::fit, "Those that slopes are fitted to; by default all");
-  s.field("realizations", &LaboratoryConfig::realizations, "Sets of points of each number")
+  s.field("fit", &LaboratoryConfig::fit,
+          "Numbers of points that slopes are fitted to; by default all");
+  s.field("realizations", &LaboratoryConfig::realizations,
+          "Number of point sets for each number of points")
       .at_least(16)
       .at_most(1000000);
   s.field("preparations", &LaboratoryConfig::preparations,
-          "Groups of realizations, each with tables of its own; intervals are those of groups")
+          "Number of groups of realizations, each with tables of its own; intervals are estimated "
+          "from groups")
       .at_least(8)
       .at_most(1000000);
-  s.field("seed", &LaboratoryConfig::seed, "Of all random numbers").at_least(0);
-  s.field("spectrum", &LaboratoryConfig::spectrum, "The pictures of power spectra");
+  s.field("seed", &LaboratoryConfig::seed, "Seed of all random numbers").at_least(0);
+  s.field("spectrum", &LaboratoryConfig::spectrum, "Settings of the pictures of power spectra");
   s.field("output", &LaboratoryConfig::output,
           "Folder, relative to the current one; by default the file's name");
 }

@@ -12,7 +12,7 @@ namespace {
 
 constexpr const char* kVariance = "variance";
 
-/// What an interrupted work lacks.
+/// Describes which results are missing after an interruption.
 std::string missing_text(const LaboratoryResults& results) {
   const PowerRange& range = results.config.samples;
   if (results.numbers.size() < range.to + 1 - range.from) {
@@ -75,7 +75,7 @@ ReportCell variance_cell(const VarianceEstimate& variance, const VarianceEstimat
   return cell;
 }
 
-/// At the largest number of points.
+/// Returns the variances at the largest number of points.
 ReportTable variance_table(const LaboratoryResults& results) {
   ReportTable table{kVariance,
                     "variance",
@@ -117,7 +117,7 @@ ReportCurve curve_of(const LaboratoryResults& results, std::size_t s, std::size_
   return curve;
 }
 
-/// All pictures as one group, which the page heads with its name.
+/// Returns all pictures as one group. The page uses the group's name as its heading.
 ReportScene spectra_of(const LaboratoryResults& results) {
   const SpectrumSettings& s = results.config.spectrum;
   ReportScene scene{.name = fmt::format("Power spectra of {} points, {} realizations, {} cycles to "

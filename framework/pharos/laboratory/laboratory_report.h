@@ -7,10 +7,11 @@
 
 namespace pharos::laboratory {
 
-/// The report page of the results: samplers are its methods, integrands its scenes.
+/// Returns the report page of the results. Its methods are the samplers, and its scenes are the
+/// integrands.
 Report laboratory_report(const LaboratoryResults& results);
 
-/// Every variance with its interval, one line each, as CSV.
+/// Returns every variance with its interval as CSV, one line each.
 std::string variances_csv(const LaboratoryResults& results);
 
 }  // namespace pharos::laboratory

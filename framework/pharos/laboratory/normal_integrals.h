@@ -12,11 +12,11 @@ inline double normal_density(double z) {
 inline double normal_distribution(double z) {
   return 0.5 * std::erfc(-z / std::numbers::sqrt2);
 }
-/// The integral of normal_distribution().
+/// Returns the integral of normal_distribution() from minus infinity to z.
 inline double first_integral(double z) {
   return z * normal_distribution(z) + normal_density(z);
 }
-/// The integral of first_integral().
+/// Returns the integral of first_integral() from minus infinity to z.
 inline double second_integral(double z) {
   return 0.5 * ((z * z + 1) * normal_distribution(z) + z * normal_density(z));
 }

@@ -9,7 +9,7 @@ std::uint64_t hash(const SetKey& key) {
   return hash_combine(hash_combine(mix_bits(key.seed), key.log2_count), key.number);
 }
 
-/// What else a key's hash is used for than seeds of paths.
+/// Uses of a key's hash other than the seeds of paths.
 enum Use : std::uint64_t { kShiftX = 1, kShiftY = 2, kTables = 3 };
 
 double to_unit_double(std::uint64_t bits) {

@@ -10,7 +10,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Of results.json.
+/// The format version of results.json.
 constexpr int kFormat = 1;
 
 json interval_json(const Interval& interval) {
@@ -58,7 +58,7 @@ json curves_json(const LaboratoryResults& results) {
   return curves;
 }
 
-/// Rows from the top, of power at frequencies from -max_frequency to max_frequency.
+/// Returns the rows from the top: the power at frequencies from -max_frequency to max_frequency.
 json spectrum_json(const Image& spectrum) {
   json rows = json::array();
   for (int y = 0; y < spectrum.height(); ++y) {

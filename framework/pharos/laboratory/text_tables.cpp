@@ -8,7 +8,7 @@
 namespace pharos::laboratory {
 namespace {
 
-/// Samplers down, integrands across.
+/// Returns a table with samplers as rows and integrands as columns.
 std::string table_of(const LaboratoryResults& results,
                      const std::function<std::string(std::size_t s, std::size_t i)>& cell) {
   std::vector<TextRow> rows{{"sampler"}};

@@ -12,14 +12,15 @@
 namespace pharos::laboratory {
 namespace {
 
-/// How many standard errors the 95 % of a normal distribution reach to either side.
+/// The half width of the central 95 % of a normal distribution [standard deviations].
 constexpr double kReach = 1.959963984540054;
 
-/// The log_error of normal estimates is sqrt(2 / count). Estimates of a few discrete values may
-/// have equal squares; with no error at all they would be the only ones that a slope is fitted to.
+/// The smallest log_error, as a fraction of the log_error of normal estimates, which is sqrt(2 /
+/// count). Estimates with only a few discrete values may have equal squares. With an error of zero,
+/// they alone would determine a fitted slope.
 constexpr double kLeastOfNormal = 0.1;
 
-/// Sums of a weighted straight line.
+/// The sums of a weighted straight line fit.
 struct LineSums {
   double weight = 0, x = 0, y = 0, xx = 0, xy = 0;
 };
@@ -41,8 +42,8 @@ LineSums centered_sums(std::span<const double> x, std::span<const double> y,
   return sums;
 }
 
-/// The standard error of the mean of values of which only groups are independent, such that kReach
-/// of it hold the mean in 95 % of cases.
+/// Returns the standard error of the mean of values of which only groups are independent. It is
+/// scaled such that an interval of kReach standard errors contains the mean in 95 % of cases.
 double error_of_mean(std::span<const double> values, double mean, std::size_t groups) {
   double spread = 0;
   for (std::size_t g = 0; g < groups; ++g) {

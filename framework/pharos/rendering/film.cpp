@@ -7,7 +7,7 @@
 namespace pharos {
 namespace {
 
-/// Channels of Film::layers(), the color first and then each Layer in order.
+/// Channels of Film::layers(): the color first, then each Layer in order.
 struct LayerChannels {
   int first;
   std::vector<std::string> names;
@@ -25,7 +25,7 @@ const std::vector<LayerChannels>& all_channels() {
   return channels;
 }
 
-/// Pixels whose center lies less than `radius` from a film position, within `bounds`.
+/// Returns the pixels within `bounds` whose centers are less than `radius` from a film position.
 PixelRect footprint(Vec2 film, float radius, const PixelRect& bounds) {
   const auto first = [&](float v) { return static_cast<int>(std::ceil(v - 0.5f - radius)); };
   const auto end = [&](float v) { return static_cast<int>(std::floor(v - 0.5f + radius)) + 1; };
@@ -37,8 +37,8 @@ Vec2 offset_from_center(Vec2 film, int x, int y) {
   return {film.x - (static_cast<float>(x) + 0.5f), film.y - (static_cast<float>(y) + 0.5f)};
 }
 
-/// The share of a filter's integral that falls on the film when the film goes on for `margins`
-/// whole pixels to the left, right, top and bottom of the pixel's own; by the midpoint rule.
+/// Returns the fraction of a pixel filter's integral that falls on the film, by the midpoint rule.
+/// The film extends `margins` whole pixels to the left, right, top and bottom of the pixel.
 float share_on_film(const Filter& filter, const std::array<int, 4>& margins) {
   constexpr int kSteps = 64;
   const float radius = filter.radius(), step = 2 * radius / kSteps;
@@ -61,7 +61,7 @@ float share_on_film(const Filter& filter, const std::array<int, 4>& margins) {
   return static_cast<float>(inside / all);
 }
 
-/// The pixel a film position lies in, kept inside `bounds`.
+/// Returns the index of the pixel that contains a film position, clamped to `bounds`.
 std::size_t pixel_index(Vec2 film, const PixelRect& bounds) {
   return bounds.index(std::clamp(static_cast<int>(film.x), bounds.x0, bounds.x1 - 1),
                       std::clamp(static_cast<int>(film.y), bounds.y0, bounds.y1 - 1));
@@ -111,7 +111,7 @@ void FilmTile::add_sample(Vec2 film, Rgb radiance, const Features& features) {
 }
 
 void FilmTile::add_radiance(Vec2 film, Rgb radiance) {
-  if (filter_->radius() <= 0.5f) {  // only the sample's own pixel is in reach
+  if (filter_->radius() <= 0.5f) {  // the sample reaches its own pixel only
     const int x = static_cast<int>(film.x), y = static_cast<int>(film.y);
     const float weight = filter_->evaluate(offset_from_center(film, x, y));
     pixels_[pixel_index(film, bordered_)].add(weight, radiance);
@@ -172,7 +172,8 @@ void Film::add_splat(const FilmTile::Splat& splat) {
 void Film::find_splat_norms() {
   splat_norms_.assign(pixels_.area(), 1 / filter_->integral());
   const int reach = static_cast<int>(std::ceil(filter_->radius() - 0.5f));
-  // Pixels as far from all four borders, as far as the filter reaches, share their norm.
+  // Pixels share their norm if they have the same distances, capped at the filter's reach, from the
+  // four borders.
   std::map<std::array<int, 4>, float> known;
   for (int y = 0; y < height(); ++y) {
     for (int x = 0; x < width(); ++x) {
@@ -243,8 +244,8 @@ Image Film::layers() const {
     names.insert(names.end(), channels.names.begin(), channels.names.end());
   }
   Image image(width(), height(), std::move(names));
-  // Pass values scatter with variance s^2 / samples: their weighted squares estimate
-  // (passes - 1) s^2, and the mean of all samples has variance s^2 / (all samples).
+  // Pass values have variance s^2 / samples. Their weighted squares thus estimate (passes - 1) s^2,
+  // and the mean of all samples has variance s^2 / (all samples).
   const double freedom = complete_passes_ - 1;
   const auto variance_scale = static_cast<float>(
       freedom > 0 ? 1 / (freedom * samples_) : std::numeric_limits<double>::infinity());

@@ -15,32 +15,33 @@
 
 namespace pharos {
 
-/// First-hit features of a path, averaged over a pixel.
+/// Features of a path's first hit, averaged over a pixel.
 struct Features {
   Rgb albedo;
   Vec3 normal;      ///< shading normal in world space
-  float depth = 0;  ///< distance to the first surface [scene units]; 0 when there is none
+  float depth = 0;  ///< distance to the first surface [scene units]; 0 if there is none
 
   Features& operator+=(const Features& other);
 };
 
-/// What one work unit adds to the film. Pixel samples go to a weighted sum over the unit's pixels
-/// and a border as wide as the filter; splats may land anywhere and are kept as a list.
+/// The contribution of one work unit to the film. Pixel samples are added to weighted sums over the
+/// unit's pixels and a border as wide as the filter. Splats may fall anywhere and are kept as a
+/// list.
 class FilmTile {
  public:
   FilmTile(PixelRect pixels, PixelRect film, const Filter& filter);
 
   const PixelRect& pixels() const { return inner_; }
-  /// A sample of radiance at a film position [pixels] within the unit's pixels.
+  /// Adds a sample of radiance at a film position [pixels] within the unit's pixels.
   void add_sample(Vec2 film, Rgb radiance, const Features& features);
-  /// The same without features; the layer `samples` does not count it.
+  /// Adds a sample without features. The layer `samples` does not count it.
   void add_radiance(Vec2 film, Rgb radiance);
-  /// A contribution f/p in units of (pixel value) x (number of paths started): light tracing and
-  /// camera guiding. Positions off the film have no effect.
+  /// Adds a contribution f/p in units of (pixel value) x (number of paths started), for light
+  /// tracing and camera guiding. Positions off the film have no effect.
   void add_splat(Vec2 film, Rgb contribution) { splats_.push_back({film, contribution}); }
-  /// What a splat's path saw first; counts as a sample of the pixel it landed in.
+  /// Adds the first-hit features of a splat's path. They count as a sample of the pixel at `film`.
   void add_features(Vec2 film, const Features& features) { landings_.push_back({film, features}); }
-  /// Counts paths started; splats are divided by the film's total.
+  /// Counts paths that were started. Splats are divided by the film's total.
   void count_paths(std::uint64_t n) { paths_ += static_cast<double>(n); }
 
  private:
@@ -48,7 +49,7 @@ class FilmTile {
   struct Pixel {
     Rgb radiance;               ///< weighted sum
     float weight = 0;           ///< sum of filter weights
-    float absolute_weight = 0;  ///< sum of their magnitudes
+    float absolute_weight = 0;  ///< sum of the weights' magnitudes
     Features features;          ///< sums over samples
     float samples = 0;
 
@@ -78,22 +79,27 @@ class FilmTile {
   double paths_ = 0;
 };
 
-/// The image of one iteration: a weight-normalized layer of pixel samples plus a splat layer.
-/// Filters with negative lobes may leave a pixel of few samples next to no weight; where less than
-/// the share `least_weight` of the weights' magnitude is left, that share divides instead, so that
-/// no value is more than 1 / least_weight times the brightest sample in reach. Tiles are merged in
-/// the order of work units, by one thread at a time. Passes end with end_pass(); the variance of a
-/// pixel comes from the spread of its pass means, which is right for stratified samples and splats
-/// too (and an upper bound where passes of one sequence complement each other).
+/// The image of one iteration: a layer of pixel samples, normalized by their weights, plus a layer
+/// of splats.
+///
+/// With negative filter lobes, the weights of a few samples may almost cancel out. If their sum is
+/// less than the fraction `least_weight` of the sum of their magnitudes, the pixel is divided by
+/// that fraction instead. No pixel value then exceeds 1 / least_weight times the brightest sample
+/// in reach.
+///
+/// Tiles are merged in the order of work units, by one thread at a time. Passes end with
+/// end_pass(). The variance of a pixel is estimated from the spread of its pass means. This is also
+/// correct for stratified samples and splats, and an upper bound if passes of one sequence
+/// complement each other.
 class Film {
  public:
-  /// See FilmSettings::least_weight, of which this is the default.
+  /// The default of FilmSettings::least_weight.
   static constexpr float kLeastWeight = 0.1f;
 
   Film(int width, int height, Ref<Filter> filter, float least_weight = kLeastWeight)
       : Film(PixelRect{0, 0, width, height}, std::move(filter), least_weight) {}
-  /// Of a window of a larger picture, at whose positions samples come; what falls beside the window
-  /// is not on the film.
+  /// Makes the film of a window of a larger picture. Samples have positions in the larger picture;
+  /// positions outside the window are off the film.
   Film(PixelRect window, Ref<Filter> filter, float least_weight = kLeastWeight);
 
   int width() const { return pixels_.width(); }
@@ -101,18 +107,21 @@ class Film {
   FilmTile make_tile(PixelRect pixels) const { return {pixels, pixels_, *filter_}; }
 
   void merge(const FilmTile& tile);
-  /// Closes a pass of `samples` a pixel: folds it into mean and variance. The samples of a pass
-  /// that was cut short (`complete` false) count in the mean only, and not at all where splats need
-  /// every pixel to have started the same number of paths.
+  /// Ends a pass of `samples` per pixel and adds it to the mean and the variance. A pass that was
+  /// cut short (`complete` is false) counts in the mean only. If there are splats and earlier
+  /// complete passes, such a pass is dropped, because splats need the same number of started paths
+  /// in every pixel.
   void end_pass(double samples, bool complete = true);
-  /// Adds the passes of another film of the same size and filter; both between passes.
+  /// Adds the passes of another film of the same size and filter. Both films must be between
+  /// passes.
   void merge(const Film& other);
 
-  /// R G B, then every Layer: `albedo`, `normal`, `depth` (means over samples), `variance` (of the
-  /// pixel's mean, per channel; infinite before two passes) and `samples`.
+  /// Returns R G B, followed by every Layer: `albedo`, `normal`, `depth` (means over samples),
+  /// `variance` (of the pixel's mean, per channel; infinite before two complete passes) and
+  /// `samples`.
   Image layers() const;
   double samples_per_pixel() const { return samples_; }
-  /// Passes that were not cut short.
+  /// The number of passes that were not cut short.
   int complete_passes() const { return complete_passes_; }
 
  private:
@@ -136,16 +145,16 @@ class Film {
   float least_weight_;
   std::vector<Pixel> total_, pass_;
   std::vector<Moments> moments_;
-  /// One over the filter's integral over the film, as seen from each pixel: light that falls beside
-  /// the film is not there to be filtered in. Empty until there are splats.
+  /// For each pixel, one over the integral of its filter over the film. Light beyond the edges of
+  /// the film makes no splats, so it cannot be filtered in. Empty until there are splats.
   std::vector<float> splat_norms_;
   double samples_ = 0, total_paths_ = 0, pass_paths_ = 0;
   bool pass_has_splats_ = false;
-  double complete_samples_ = 0;  ///< a pixel, of the passes in `moments_`
+  double complete_samples_ = 0;  ///< samples per pixel of the passes in `moments_`
   int complete_passes_ = 0;
 };
 
-/// Image layers that can be written besides the color.
+/// Image layers that can be written in addition to the color.
 enum class Layer { albedo, normal, depth, variance, samples };
 
 template <>
@@ -158,7 +167,7 @@ struct EnumNames<Layer> {
        {"samples", Layer::samples}}};
 };
 
-/// The color and the given layers of an image that Film::layers() made.
+/// Returns the color and the given layers of an image from Film::layers().
 Image select_layers(const Image& all, const std::vector<Layer>& layers);
 
 }  // namespace pharos

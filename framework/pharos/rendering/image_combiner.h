@@ -7,22 +7,21 @@
 
 namespace pharos {
 
-/// Combines images of the same scene, each weighted by its samples. (Weights by inverse variance
-/// are not free of bias where images are made by guides that learn, wherever in the image the
-/// variance is taken from: what one image happens to find makes the variance of the next ones
-/// lower.)
+/// Combines images of the same scene, each weighted by its number of samples. Weights by inverse
+/// variance would be biased for images of guides that learn, whichever part of the image the
+/// variance is taken from: what one image happens to find lowers the variance of the next ones.
 class ImageCombiner {
  public:
-  /// Takes the layers of a film that has samples.
+  /// Adds the layers of a film that has samples.
   void add(const Film& film);
   bool empty() const { return images_.empty(); }
-  /// The combination; there must be at least one image.
+  /// Returns the combination. There must be at least one image.
   Image combine() const;
 
  private:
   struct Weighted {
     Image layers;
-    double samples;  ///< a pixel
+    double samples;  ///< samples per pixel
   };
   std::vector<Weighted> images_;
 };

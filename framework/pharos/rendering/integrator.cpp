@@ -14,7 +14,6 @@ void check_records(const RecordNeeds& offered, const GuidingMethod& method) {
                                  method.learner->plugin_name(), what));
   };
   check(traits.records.light_samples, offered.light_samples, "light samples");
-  check(traits.records.reverse_pdfs, offered.reverse_pdfs, "reverse densities");
   check(traits.records.light_paths, offered.light_paths, "light paths");
 }
 
@@ -39,17 +38,13 @@ void check_camera(const IntegratorTraits& offered, const Sensor& sensor, bool ji
   }
 }
 
-void check_method(const IntegratorTraits& offered, const Sensor& sensor, bool jitter,
-                  const GuidingMethod& method) {
-  const LearnerTraits learner = method.learner->traits();
-  const GuiderTraits guider = method.guider->traits();
-  if (!learner.suits(guider.model)) {
-    throw InputError(fmt::format(
-        "the learner '{}' learns a '{}' model, but the guider '{}' samples a '{}' model",
-        method.learner->plugin_name(), learner.model, method.guider->plugin_name(), guider.model));
-  }
-  check_camera(offered, sensor, jitter, *method.guider);
-  if (method.learns()) check_records(offered.records, method);
+/// `model` is of the kind that the guider is to sample.
+void check_model(const GuidingMethod& method, const GuidingModel& model,
+                 const std::string& learner) {
+  if (method.guider->find(model) != nullptr) return;
+  throw InputError(fmt::format(
+      "the learner '{}' learns a '{}' model, but the guider '{}' samples a '{}' model", learner,
+      model.info().name, method.guider->plugin_name(), method.guider->model_name()));
 }
 
 }  // namespace
@@ -64,8 +59,12 @@ RenderCounters& RenderCounters::operator+=(const RenderCounters& other) {
 void check_compatible(const Integrator& integrator, const Sensor& sensor, bool jitter) {
   if (integrator.guiding() == nullptr) return;
   const IntegratorTraits offered = integrator.traits();
+  Ref<Learner> learner;
   for (const GuidingMethod& method : integrator.guiding()->resolved_methods()) {
-    check_method(offered, sensor, jitter, method);
+    if (!method.shares_model()) learner = method.learner;
+    check_model(method, *learner->empty_model(), learner->plugin_name());
+    check_camera(offered, sensor, jitter, *method.guider);
+    if (method.learns()) check_records(offered.records, method);
   }
 }
 

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include <pharos/config/component.h>
-#include <pharos/guiding/pipeline/guiding.h>
+#include <pharos/guiding/pipeline/guiding_frame.h>
 #include <pharos/guiding/record/path_record.h>
 #include <pharos/rendering/film.h>
 #include <pharos/sampling/integrand_probe.h>

@@ -11,9 +11,9 @@
 
 namespace pharos {
 
-/// Which lights next event estimation asks at a vertex.
+/// The lights that next event estimation samples at a vertex.
 enum class LightSelection {
-  one,  ///< one, chosen in proportion to power
+  one,  ///< one light, chosen in proportion to power
   all   ///< every light, each in a branch of its own
 };
 
@@ -23,25 +23,25 @@ struct EnumNames<LightSelection> {
       {{"one", LightSelection::one}, {"all", LightSelection::all}}};
 };
 
-/// The lights of a scene under a selection policy: constant, thread-safe.
+/// The lights of a scene under a selection policy. Constant and thread-safe.
 class LightSelector {
  public:
   LightSelector(const Scene& scene, LightSelection selection);
 
-  /// Light samples to take at each vertex.
+  /// The number of light samples to take at each vertex.
   std::uint16_t branches() const { return branches_; }
-  /// Whether choose() looks at its number: only where there is a choice.
+  /// Whether choose() uses its random number, that is, whether there is a choice.
   bool needs_number() const { return cumulative_.size() > 1; }
-  /// Index into Scene::lights() for a branch; `u` in [0,1).
+  /// Returns the index in Scene::lights() of the light for a branch; `u` in [0,1).
   int choose(std::uint16_t branch, float u) const;
-  /// The probability [1] of choosing a light (1 with `all`).
+  /// The probability [1] of choosing a light; 1 with `all`.
   float probability(int light) const { return probability_[static_cast<std::size_t>(light)]; }
 
  private:
   LightSelection selection_;
   std::uint16_t branches_ = 0;
   std::vector<float> probability_;
-  std::vector<float> cumulative_;  ///< upper ends, ascending to 1
+  std::vector<float> cumulative_;  ///< upper ends of the lights' intervals, ascending to 1
 };
 
 }  // namespace pharos

@@ -2,9 +2,9 @@
 
 namespace pharos {
 
-/// When a watched render makes the next image to show: at most five times a second, and so that
-/// making images has taken at most 3 % of the time rendered so far. The first image is made at
-/// once, since nobody knows yet what one costs.
+/// Decides when a watched render makes its next preview image: at most five times a second, and
+/// only if making images then takes at most 3 % of the time rendered so far. The first image is
+/// made at once, because its cost is not known yet.
 class PreviewPace {
  public:
   /// Whether an image is due after `seconds` of rendering.
@@ -12,7 +12,7 @@ class PreviewPace {
     if (!any_) return true;
     return seconds - last_ >= kLeastInterval && spent_ + cost_ <= kMostShare * seconds;
   }
-  /// An image was made then and took `cost` seconds.
+  /// Records that an image was made at `seconds` and took `cost` seconds.
   void made(double seconds, double cost) {
     any_ = true;
     last_ = seconds;
@@ -23,7 +23,7 @@ class PreviewPace {
  private:
   static constexpr double kLeastInterval = 0.2, kMostShare = 0.03;
   bool any_ = false;
-  double last_ = 0, cost_ = 0, spent_ = 0;  ///< seconds
+  double last_ = 0, cost_ = 0, spent_ = 0;  ///< all in seconds
 };
 
 }  // namespace pharos

@@ -8,8 +8,8 @@
 namespace pharos {
 namespace {
 
-/// As many as fit into an image with all layers that Pharos can read again; about 16 GiB while it
-/// is rendered.
+/// The most pixels of a film. Pharos can still read an image of this size with all layers.
+/// Rendering it takes about 16 GiB.
 constexpr std::int64_t kMostPixels = std::int64_t{1} << 26;
 
 bool is_exr_or_empty(const std::string& path) {
@@ -20,7 +20,7 @@ bool has_no_duplicates(const std::vector<Layer>& layers) {
   return std::set<Layer>(layers.begin(), layers.end()).size() == layers.size();
 }
 
-/// The node under a path of keys, or the deepest one there is.
+/// Returns the node under a path of keys, or the deepest node on that path that exists.
 const ConfigNode& nearest_node(const ConfigNode& root, std::initializer_list<const char*> keys) {
   const ConfigNode* node = &root;
   for (const char* key : keys) {
@@ -46,7 +46,7 @@ void check_film(const FilmSettings& film, const ConfigNode& node) {
   }
 }
 
-/// What no single parameter can check.
+/// Checks conditions on several parameters at once.
 void check_together(const RenderConfig& config, const ConfigNode& node) {
   check_film(config.film, node);
   if (config.budget.spp.has_value() == config.budget.seconds.has_value()) {
@@ -68,11 +68,11 @@ void check_together(const RenderConfig& config, const ConfigNode& node) {
 
 void CropSettings::describe(Schema<CropSettings>& s) {
   constexpr int kMost = 32768;
-  s.field("x", &CropSettings::x, "Columns to the left of it")
+  s.field("x", &CropSettings::x, "Columns to the left of the window")
       .unit("pixels")
       .at_least(0)
       .at_most(kMost);
-  s.field("y", &CropSettings::y, "Rows above it").unit("pixels").at_least(0).at_most(kMost);
+  s.field("y", &CropSettings::y, "Rows above the window").unit("pixels").at_least(0).at_most(kMost);
   s.field("width", &CropSettings::width, "Width")
       .unit("pixels")
       .at_least(1)
@@ -88,18 +88,19 @@ void CropSettings::describe(Schema<CropSettings>& s) {
 void FilmSettings::describe(Schema<FilmSettings>& s) {
   s.field("width", &FilmSettings::width, "Width").unit("pixels").at_least(1).at_most(32768);
   s.field("height", &FilmSettings::height, "Height").unit("pixels").at_least(1).at_most(32768);
-  s.field("crop", &FilmSettings::crop, "A window of the film, which alone is rendered");
-  s.field("jitter", &FilmSettings::jitter,
-          "Whether paths pass anywhere through a pixel; otherwise all through its middle, without "
-          "anti-aliasing");
+  s.field("crop", &FilmSettings::crop, "Render only this window of the film");
+  s.field(
+      "jitter", &FilmSettings::jitter,
+      "Whether paths pass through random points of a pixel; otherwise they all pass through its "
+      "center, without anti-aliasing");
   s.field("filter", &FilmSettings::filter, "Reconstruction filter").otherwise("default");
   s.field("tile", &FilmSettings::tile, "Edge of a work unit")
       .unit("pixels")
       .at_least(1)
       .at_most(1024);
   s.field("least_weight", &FilmSettings::least_weight,
-          "Least share of the weights' magnitude that divides a pixel; for filters with negative "
-          "lobes")
+          "A pixel is divided by at least this fraction of the sum of its weights' magnitudes; for "
+          "filters with negative lobes")
       .above(0)
       .at_most(1);
 }
@@ -111,21 +112,23 @@ void OutputSettings::describe(Schema<OutputSettings>& s) {
   s.field("aovs", &OutputSettings::aovs, "Further layers of the EXR file")
       .check("each layer once", has_no_duplicates);
   s.field("model", &OutputSettings::model, "File for the learned model of the first method");
-  s.field("png", &OutputSettings::png, "Whether a tone-mapped PNG is written beside the EXR file");
+  s.field("png", &OutputSettings::png, "Whether to write a tone-mapped PNG beside the EXR file");
   s.field("exposure", &OutputSettings::exposure, "Exposure of the PNG").unit("stops");
-  s.field("filmic", &OutputSettings::filmic, "Filmic curve for the PNG instead of clipping");
+  s.field("filmic", &OutputSettings::filmic,
+          "Whether the PNG has a filmic curve instead of clipping");
 }
 
 void RenderConfig::describe(Schema<RenderConfig>& s) {
-  s.field("scene", &RenderConfig::scene, "A scene file, or a scene in place").required();
-  s.field("sensor", &RenderConfig::sensor, "Camera, instead of the scene's");
+  s.field("scene", &RenderConfig::scene, "Path of a scene file, or the scene itself").required();
+  s.field("sensor", &RenderConfig::sensor, "Camera that replaces the scene's");
   s.field("film", &RenderConfig::film, "Size and filter of the image");
-  s.field("sampler", &RenderConfig::sampler, "Where random numbers come from").otherwise("default");
-  s.field("integrator", &RenderConfig::integrator, "How light transport is estimated")
+  s.field("sampler", &RenderConfig::sampler, "Generator of random numbers").otherwise("default");
+  s.field("integrator", &RenderConfig::integrator, "Estimator of light transport")
       .otherwise("default");
-  s.field("budget", &RenderConfig::budget, "How long to render: spp or seconds").required();
+  s.field("budget", &RenderConfig::budget, "Length of the render, either spp or seconds")
+      .required();
   s.field("seed", &RenderConfig::seed, "Seed of all random numbers").at_least(0);
-  s.field("output", &RenderConfig::output, "What is written");
+  s.field("output", &RenderConfig::output, "Files to write");
 }
 
 LoadedConfig load_render_config(const std::filesystem::path& path,

@@ -15,9 +15,9 @@
 
 namespace pharos {
 
-/// A window of the film, all of which is on it [pixels].
+/// A window that lies on the film as a whole [pixels].
 struct CropSettings {
-  int x = 0, y = 0;  ///< of its left upper pixel
+  int x = 0, y = 0;  ///< its upper left pixel
   int width = 0, height = 0;
 
   static void describe(Schema<CropSettings>& schema);
@@ -25,20 +25,20 @@ struct CropSettings {
 
 struct FilmSettings {
   int width = 512, height = 512;
-  /// The part that is rendered; the image has its size. A path is keyed by its pixel of the whole
-  /// film, and work units are those of the whole film, so that pixels have the same bits in it as
-  /// in the whole picture, but where the filter reaches beyond the window. What is learned is
-  /// learned from the window's paths alone.
+  /// The window that is rendered; the image has its size. Paths have the same keys and work units
+  /// as in a render of the whole film. Pixels therefore have the same bits as in the whole picture,
+  /// except where the filter reaches beyond the window. Guides learn from the window's paths alone.
   std::optional<CropSettings> crop;
   Ref<Filter> filter;
-  bool jitter = true;  ///< whether paths pass anywhere through a pixel, or through its middle
+  bool jitter = true;  ///< paths pass through random points of a pixel, or else through its center
   int tile = 32;       ///< edge of a work unit [pixels]
-  /// The least share of the weights' magnitude that a pixel is divided by. Filters without negative
-  /// lobes never meet it, nor does Mitchell and Netravali's with B = C = 1/3; the sharper
-  /// Catmull-Rom does in one of 2500 pixels of a single sample, and no longer with two.
+  /// The least fraction of the sum of the weights' magnitudes that a pixel is divided by. Filters
+  /// without negative lobes never reach it, and neither does the filter of Mitchell and Netravali
+  /// with B = C = 1/3. The sharper Catmull-Rom filter reaches it in one of 2500 pixels with a
+  /// single sample, but no longer with two samples.
   float least_weight = Film::kLeastWeight;
 
-  /// What is rendered of the film.
+  /// Returns the part of the film that is rendered.
   PixelRect window() const {
     if (!crop) return {0, 0, width, height};
     return {crop->x, crop->y, crop->x + crop->width, crop->y + crop->height};
@@ -48,12 +48,12 @@ struct FilmSettings {
 };
 
 struct OutputSettings {
-  std::string image;  ///< EXR, relative to the current folder; the PNG stands beside it
+  std::string image;  ///< EXR file, relative to the current folder; the PNG is written beside it
   std::vector<Layer> aovs;
-  std::string model;  ///< learned model of the first method; empty: not written
+  std::string model;  ///< file for the learned model of the first method; empty: not written
   bool png = true;
-  float exposure = 0;  ///< of the PNG [stops]
-  bool filmic = true;  ///< of the PNG
+  float exposure = 0;  ///< exposure of the PNG [stops]
+  bool filmic = true;  ///< whether the PNG has a filmic curve
 
   static void describe(Schema<OutputSettings>& schema);
 };
@@ -61,7 +61,7 @@ struct OutputSettings {
 /// Everything that determines a render.
 struct RenderConfig {
   SceneParts scene;
-  Ref<Sensor> sensor;  ///< instead of the scene's; may be null
+  Ref<Sensor> sensor;  ///< replaces the scene's sensor; may be null
   FilmSettings film;
   Ref<Sampler> sampler;
   Ref<Integrator> integrator;
@@ -72,21 +72,21 @@ struct RenderConfig {
   static void describe(Schema<RenderConfig>& schema);
 };
 
-/// A config with the text of all values in force.
+/// A render config together with its resolved text.
 struct LoadedConfig {
   RenderConfig config;
-  ConfigNode resolved;                       ///< parses to the same config
-  std::vector<std::filesystem::path> files;  ///< meshes, images and the like that it names
-  std::vector<ImportNote> notes;             ///< how a scene of another program was approximated
+  ConfigNode resolved;                       ///< all values in force; parses to the same config
+  std::vector<std::filesystem::path> files;  ///< files that it names, such as meshes and images
+  std::vector<ImportNote> notes;  ///< approximations made in importing a scene of another program
 };
 
-/// Reads a render config, or a scene that an importer reads, follows `extends`, applies `overrides`
-/// ("a.b=c") in order, builds every component and checks that they fit together. Throws InputError;
-/// writes nothing.
+/// Loads a render config, or a scene that an importer reads. Follows `extends`, applies `overrides`
+/// ("a.b=c") in order, builds every component and checks that they fit together. Throws InputError
+/// and writes nothing.
 LoadedConfig load_render_config(const std::filesystem::path& path,
                                 const std::vector<std::string>& overrides,
                                 const Registry& registry);
-/// The same from a node that was read or made elsewhere.
+/// Builds a render config from a node that was read or made elsewhere.
 LoadedConfig build_render_config(const ConfigNode& node, const Registry& registry);
 
 }  // namespace pharos

@@ -9,6 +9,7 @@
 #include <pharos/core/parallel.h>
 #include <pharos/rendering/image_combiner.h>
 #include <pharos/rendering/render_job.h>
+#include <pharos/rendering/schedule.h>
 #include <pharos/rendering/window_sensor.h>
 
 namespace pharos {
@@ -127,9 +128,9 @@ class RenderJob::Implementation {
         tiles_(tiles_of(config.film.window(), config.film.tile)) {
     const GuidingSettings* guiding = config.integrator->guiding();
     const bool learns = guiding != nullptr && guiding->learns();
-    const TrainingSchedule untrained{.iterations = 0};
+    const TrainingSettings untrained{.iterations = 0};
     set_size_ = config.sampler->preferred_samples({config.seed, config.budget.spp.value_or(0)});
-    iterations_ = (learns ? guiding->training : untrained).divide(config.budget, set_size_);
+    iterations_ = divide(config.budget, learns ? guiding->training : untrained, set_size_);
     preparation_seconds_ = watch_.seconds();
     const auto probe = config.sampler->needs_probe() ? integrator_->probe() : nullptr;
     sampler_ = config.sampler->prepare({config.film.width, config.film.height},

@@ -32,9 +32,9 @@ bool accept(const LocalScattering& scattering, const Proposal& proposal, Scatter
 
 }  // namespace
 
-bool sample_guided_step(const LocalScattering& scattering, const GuidingDistribution& guide,
+bool sample_guided_step(const LocalScattering& scattering, const Guidance& guidance,
                         const VertexStream& stream, ScatterStep& step) {
-  const std::optional<Proposal> proposal = guide.propose(stream);
+  const std::optional<Proposal> proposal = guidance.propose(stream);
   return proposal && accept(scattering, *proposal, step);
 }
 

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include <pharos/guiding/pipeline/guiding.h>
+#include <pharos/guiding/pipeline/guiding_frame.h>
 #include <pharos/scene/local_scattering.h>
 
 namespace pharos {
@@ -14,6 +14,7 @@ struct ScatterStep {
   Rgb value;               ///< f |cos| [1/sr] (volume: [1/(sr m)]), or share [1] if discrete
   float unguided_pdf = 0;  ///< of the BSDF or phase function [1/sr], or probability [1]
   Rgb unguided_weight;     ///< value / unguided_pdf
+  float continuation = 1;  ///< makes up for Russian roulette; a factor of the step's weight
   Proposal::Reach reach = Proposal::Reach::medium;
   float distance = 0;  ///< for Reach::distance [scene units]
   TargetMask targets = TargetMask::all;
@@ -48,21 +49,22 @@ inline bool sample_unguided_step(const LocalScattering& scattering, const Vertex
   step.reach = Proposal::Reach::medium;
   step.targets = TargetMask::all;
   step.within = nullptr;
+  step.continuation = 1;
   return true;
 }
 
-/// Fills in a step that the guide proposes. False for a valid sample of value zero.
-bool sample_guided_step(const LocalScattering& scattering, const GuidingDistribution& guide,
+/// Fills in a step that the guides propose. False for a valid sample of value zero.
+bool sample_guided_step(const LocalScattering& scattering, const Guidance& guidance,
                         const VertexStream& stream, ScatterStep& step);
 
 /// Draws the next step at a vertex from the one-sample mixture of unguided sampling (with
-/// probability `guidance.unguided_fraction`) and the guide. False for a valid sample of value zero.
+/// probability `guidance.unguided_share`) and the guides. False for a valid sample of value zero.
 inline bool sample_step(const LocalScattering& scattering, const Guidance& guidance,
                         const VertexStream& stream, ScatterStep& step) {
-  const bool unguided = guidance.distribution == nullptr ||
-                        stream.get_1d(Purpose::mix_choice) < guidance.unguided_fraction;
+  const bool unguided =
+      !guidance.is_guided() || stream.get_1d(Purpose::mix_choice) < guidance.unguided_share;
   return unguided ? sample_unguided_step(scattering, stream, step)
-                  : sample_guided_step(scattering, *guidance.distribution, stream, step);
+                  : sample_guided_step(scattering, guidance, stream, step);
 }
 
 /// The density of reaching `vertex`, by whichever way, in the measure of its event and kind, when
@@ -73,10 +75,10 @@ inline StepDensity step_density(const Guidance& guidance, const ResolvedVertex& 
   StepDensity density;
   density.unguided = unguided_pdf * vertex.medium_density;
   density.total = density.unguided;
-  if (guidance.distribution != nullptr) {
-    density.guided = guidance.distribution->density(vertex).value;
-    density.total = guidance.unguided_fraction * density.unguided +
-                    (1 - guidance.unguided_fraction) * density.guided;
+  if (guidance.is_guided()) {
+    density.guided = guidance.density(vertex);
+    density.total =
+        guidance.unguided_share * density.unguided + (1 - guidance.unguided_share) * density.guided;
   }
   return density;
 }

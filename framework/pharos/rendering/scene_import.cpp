@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Without the dot and in lower case: the name of the importer.
+/// Returns the name of the importer: the extension without the dot and in lower case.
 std::string importer_name(const fs::path& file) {
   std::string extension = file.extension().string();
   if (!extension.empty()) extension.erase(0, 1);

@@ -29,25 +29,9 @@ void keep_latest(std::vector<Iteration>& iterations, std::uint32_t latest) {
 
 }  // namespace
 
-void TrainingSchedule::describe(Schema<TrainingSchedule>& s) {
-  s.field("schedule", &TrainingSchedule::schedule,
-          "Sizes of the training iterations: all equal, or doubling");
-  s.field("iterations", &TrainingSchedule::iterations, "Number of training iterations")
-      .at_most(1000);
-  s.field("share", &TrainingSchedule::share, "Share of the budget spent on training")
-      .at_least(0)
-      .below(1);
-  s.field("images", &TrainingSchedule::images,
-          "What becomes of the training iterations' images: thrown away, or combined with the "
-          "final one by their samples");
-  s.field("latest_images", &TrainingSchedule::latest_images,
-          "Images that are combined at most, the final one included: the first ones, of guides "
-          "that know little, may be much noisier than the rest")
-      .at_least(1)
-      .at_most(1001);
-}
-
-std::vector<Iteration> TrainingSchedule::divide(const Budget& budget, std::uint32_t granule) const {
+std::vector<Iteration> divide(const Budget& budget, const TrainingSettings& settings,
+                              std::uint32_t granule) {
+  const auto& [schedule, iterations, share, images, latest_images] = settings;
   const bool keeps = images == TrainingImages::combine;
   std::vector<Iteration> all;
   if (budget.seconds) {

@@ -20,7 +20,7 @@ class PacketWriter {
     put(static_cast<std::uint8_t>(type));
   }
 
-  /// The bytes of an integer, the lowest first.
+  /// Appends the bytes of an integer, the lowest first.
   template <class Integer>
   void put(Integer value) {
     const auto bits = static_cast<std::make_unsigned_t<Integer>>(value);
@@ -36,7 +36,7 @@ class PacketWriter {
   }
   void reserve(std::size_t more) { bytes_.reserve(bytes_.size() + more); }
 
-  /// The packet, with its length in front.
+  /// Returns the packet with its length in front.
   std::vector<char> finish() && {
     const auto length = static_cast<std::uint32_t>(bytes_.size());
     for (std::size_t i = 0; i < sizeof(length); ++i) {

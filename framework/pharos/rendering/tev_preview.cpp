@@ -20,14 +20,16 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
 
-/// How long the viewer may take to answer, and to take more data once its buffers are full.
+/// The time limits for connecting to the viewer and for sending more data when its buffers are
+/// full.
 constexpr double kConnectSeconds = 5, kStallSeconds = 5;
-/// The pause after a failure: it doubles with each, up to the longest, until an image gets through.
+/// The pause after a failure. It doubles with each failure, up to the longest, until an image
+/// arrives.
 constexpr Seconds kFirstPause{0.25}, kLongestPause{8};
-/// Values in one packet. Older versions of tev take no packet above 1 MiB.
+/// The bytes of values in one packet. Older versions of tev accept no packet above 1 MiB.
 constexpr std::size_t kPacketValueBytes = 1u << 19;
 
-/// Whole rows that a packet holds: one at least, however wide.
+/// Returns the number of whole rows in a packet, at least one even if the row is too wide.
 int rows_per_packet(const Image& image) {
   const std::size_t row = static_cast<std::size_t>(image.width()) * 3 * sizeof(float);
   return static_cast<int>(std::max<std::size_t>(kPacketValueBytes / row, 1));
@@ -35,7 +37,7 @@ int rows_per_packet(const Image& image) {
 
 }  // namespace
 
-/// The thread that talks to the viewer, and the mailbox that feeds it.
+/// The thread that sends images to the viewer, and the mailbox that feeds it.
 class TevPreview::Sender {
  public:
   Sender(const HostPort& viewer, std::string name)
@@ -48,7 +50,7 @@ class TevPreview::Sender {
     return connected_;
   }
 
-  /// The last thing that went wrong; "" when nothing did.
+  /// The last failure; "" if there was none.
   std::string problem() const {
     const std::lock_guard lock(mutex_);
     return problem_;
@@ -60,7 +62,8 @@ class TevPreview::Sender {
     changed_.notify_all();
   }
 
-  /// Waits for the thread to send what was posted and ends it; false when not all got through.
+  /// Waits until the thread has sent all posted images and ends it. Returns false if some were not
+  /// sent.
   bool finish(Seconds most) {
     {
       std::unique_lock lock(mutex_);
@@ -93,7 +96,7 @@ class TevPreview::Sender {
     return closing_;
   }
 
-  /// Connects and sends images. Returns true when no more will come, false when that failed.
+  /// Connects and sends images. Returns true if no more images will come, false on a failure.
   bool serve_connection(const std::stop_token& stop) {
     try {
       client_.connect(stop, kConnectSeconds);
@@ -130,7 +133,7 @@ class TevPreview::Sender {
     connected_ = true;
   }
 
-  /// Waits for an image; false when there will be none.
+  /// Waits for an image. Returns false if no more images will come.
   bool take_newest(const std::stop_token& stop) {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, stop, [this] { return newest_ || closing_; });
@@ -138,7 +141,7 @@ class TevPreview::Sender {
     return sending_.has_value();
   }
 
-  /// An image that did not get through is sent again, unless there is a newer one.
+  /// Records a failure. The image that was not sent is sent again, unless there is a newer one.
   void note_failure(const std::string& why) {
     const std::lock_guard lock(mutex_);
     connected_ = false;
@@ -155,21 +158,21 @@ class TevPreview::Sender {
 
   const std::string name_;
 
-  // The thread's own.
+  // Used by the thread only.
   TcpClient client_;
   std::optional<Image> sending_;
   Seconds pause_ = kFirstPause;
 
-  mutable std::mutex mutex_;  ///< guards what follows
+  mutable std::mutex mutex_;  ///< guards the members below
   std::condition_variable_any changed_;
   std::optional<Image> newest_;
   std::string problem_;
   bool connected_ = false;
   bool closing_ = false;    ///< no more images will be posted
   bool ended_ = false;      ///< the thread is about to end
-  bool delivered_ = false;  ///< all that was posted has been sent
+  bool delivered_ = false;  ///< all posted images have been sent
 
-  std::jthread thread_;  ///< last: it uses everything above
+  std::jthread thread_;  ///< must be last: the thread uses the members above
 };
 
 TevPreview::TevPreview(const HostPort& viewer, const std::string& name, Warn warn)
@@ -185,7 +188,7 @@ void TevPreview::show(const RenderSnapshot& snapshot) {
     warn_(fmt::format("no preview for now: image viewer at {}: {}", viewer_, problem));
   }
   const double seconds = snapshot.progress.seconds;
-  // The image after the last pass is shown by show_last().
+  // show_last() shows the image after the last pass.
   if (snapshot.progress.fraction >= 1 || !sender_->connected() || !pace_.due(seconds)) return;
   const auto start = Clock::now();
   sender_->post(select_layers(snapshot.image(), {}));

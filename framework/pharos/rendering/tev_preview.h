@@ -10,31 +10,32 @@
 
 namespace pharos {
 
-/// Shows a render in the image viewer tev while it goes on:
+/// Shows a running render in the image viewer tev:
 ///
-///   1. construct it: a thread looks for the viewer, now and then until it is found;
-///   2. call show() in RenderControl::on_pass;
-///   3. call show_last() with the finished image, then finish().
+///   1. Construct a TevPreview. Its thread tries to connect to the viewer, with pauses.
+///   2. Call show() in RenderControl::on_pass.
+///   3. Call show_last() with the finished image, then finish().
 ///
-/// The thread sends the newest image only, and all of its waiting is its own: a viewer that is
-/// slow, stuck, or not there costs the render no time. Whatever goes wrong is a warning.
+/// Only the thread waits for the viewer, and it sends only the newest image. A viewer that is slow,
+/// stuck or absent therefore costs the render no time. All failures are only warnings.
 class TevPreview {
  public:
-  /// Told what goes wrong, by show() and finish() in their caller's thread: at most one message
-  /// each a render.
+  /// Receives descriptions of failures, in the thread that calls show() or finish(): at most one
+  /// message from each per render.
   using Warn = std::function<void(const std::string&)>;
 
-  /// Names the image `name` in the viewer. Returns at once, whether the viewer is there or not.
+  /// Names the image `name` in the viewer. Returns at once, even if there is no viewer.
   TevPreview(const HostPort& viewer, const std::string& name, Warn warn);
-  /// Drops what is not sent yet.
+  /// Discards images that are not sent yet.
   ~TevPreview();
 
-  /// Makes and posts the image of a render between two passes, if a viewer is there and an image is
-  /// due by PreviewPace.
+  /// Makes and posts the image of a render between two passes, if a viewer is connected and
+  /// PreviewPace says that an image is due.
   void show(const RenderSnapshot& snapshot);
-  /// Posts the image that the render ended with.
+  /// Posts the final image.
   void show_last(const Image& image);
-  /// Waits until the viewer has been sent the last image, at most kLastSeconds. Call it once, last.
+  /// Waits until the last image has been sent to the viewer, at most kLastSeconds. Call it once, at
+  /// the end.
   void finish();
 
   static constexpr double kLastSeconds = 1;

@@ -29,16 +29,16 @@ class WindowSensor final : public PreparedSensor {
   }
 
  private:
-  /// Of a position in pixels.
+  /// Whether the window contains a position in pixels.
   bool holds(Vec2 film) const {
     return film.x >= static_cast<float>(window_.x0) && film.x < static_cast<float>(window_.x1) &&
            film.y >= static_cast<float>(window_.y0) && film.y < static_cast<float>(window_.y1);
   }
 
   std::unique_ptr<const PreparedSensor> whole_;
-  Vec2 size_;  ///< of the whole film [pixels]
+  Vec2 size_;  ///< size of the whole film [pixels]
   PixelRect window_;
-  float share_;  ///< of the whole film, in (0, 1]
+  float share_;  ///< fraction of the whole film in the window, in (0, 1]
 };
 
 }  // namespace

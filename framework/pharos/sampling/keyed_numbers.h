@@ -8,14 +8,14 @@
 
 namespace pharos {
 
-/// All of a path's key in one word.
+/// Hashes all members of a path's key to one word.
 constexpr std::uint64_t hash_key(const PathKey& key) {
   return hash_combine(
       hash_combine(mix_bits(key.seed ^ (std::uint64_t{key.iteration} << 40)), key.index),
       key.sample);
 }
 
-/// Independent uniform numbers in [0,1)^2: a function of hash_key() and the dimension.
+/// Returns independent uniform numbers in [0,1)^2 as a function of hash_key() and the dimension.
 constexpr Vec2 keyed_numbers(std::uint64_t key_hash, Dimension dimension) {
   return to_unit_vec2(hash_combine(key_hash, dimension.code()));
 }

@@ -9,7 +9,8 @@
 
 namespace pharos {
 
-/// What configs and command lines call the purposes whose numbers are points of the square.
+/// The names that configs and command lines use for the purposes whose numbers are points of the
+/// square.
 template <>
 struct EnumNames<Purpose> {
   static constexpr std::array<std::pair<std::string_view, Purpose>, 5> names{

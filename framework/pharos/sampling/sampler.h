@@ -15,31 +15,31 @@ namespace pharos {
 class IntegrandProbe;
 class PreparedSampler;
 
-/// Names a path. Every number that a path sees is a function of this key and a Dimension.
+/// Names a path. Every primary number of the path is a function of this key and a Dimension.
 struct PathKey {
   std::uint64_t seed = 0;
-  std::uint32_t iteration = 0;  ///< of training; each is an independent image
+  std::uint32_t iteration = 0;  ///< training iteration; each is an independent image
   std::uint64_t index = 0;      ///< pixel (y * width + x) or path number
-  std::uint32_t sample = 0;     ///< of this pixel within the iteration, from 0 on
+  std::uint32_t sample = 0;     ///< sample of this pixel within the iteration, from 0 on
 };
 
-/// The primary numbers of one path: a small value, free to copy. Asking twice for the same
-/// dimension gives the same number; the order of asking does not matter.
+/// The primary numbers of one path: a small value that is free to copy. Repeated requests for the
+/// same dimension return the same number. The order of requests does not matter.
 class SampleStream {
  public:
   SampleStream(const PreparedSampler& sampler, const PathKey& key);
-  /// With the state that the sampler's begin() made of this key before: for samplers that ask
-  /// others and keep their state.
+  /// Makes a stream with a state that the sampler's begin() computed from this key before. For
+  /// samplers that use other samplers and keep their state.
   SampleStream(const PreparedSampler& sampler, const PathKey& key, std::uint64_t state)
       : sampler_(&sampler), key_(key), state_(state) {}
 
-  /// In [0, 1).
+  /// Returns a number in [0, 1).
   float get_1d(Dimension dimension) const;
-  /// In [0, 1)^2.
+  /// Returns a point in [0, 1)^2.
   Vec2 get_2d(Dimension dimension) const;
 
   const PathKey& key() const { return key_; }
-  /// What PreparedSampler::begin() derived from the key.
+  /// The value that PreparedSampler::begin() computed from the key.
   std::uint64_t state() const { return state_; }
 
  private:
@@ -48,7 +48,7 @@ class SampleStream {
   std::uint64_t state_;
 };
 
-/// A stream seen from one path vertex.
+/// A stream as seen from one path vertex.
 class VertexStream {
  public:
   VertexStream(const SampleStream& stream, std::uint16_t bounce)
@@ -66,57 +66,62 @@ class VertexStream {
   std::uint16_t bounce_;
 };
 
-/// An estimate of radiance at a film position, with the mean of the paths of its pixel.
+/// An estimate of radiance at a film position. Its expected value is the expected value of the
+/// paths of its pixel.
 struct FilmSample {
   Vec2 film;  ///< [pixels]
   Rgb radiance;
 };
 
-/// A sampler made ready for one render: constant, thread-safe, without memory of what was asked.
+/// A sampler that is prepared for one render. It is constant and thread-safe, and it does not
+/// remember earlier requests.
 class PreparedSampler {
  public:
   virtual ~PreparedSampler() = default;
 
-  /// Work that all numbers of a path share, such as hashing its key.
+  /// Does the work that all numbers of a path share, such as hashing its key. Returns the state of
+  /// the stream.
   virtual std::uint64_t begin(const PathKey& key) const = 0;
-  /// In [0, 1).
+  /// Returns a number in [0, 1).
   virtual float value_1d(const SampleStream& stream, Dimension dimension) const = 0;
-  /// In [0, 1)^2.
+  /// Returns a point in [0, 1)^2.
   virtual Vec2 value_2d(const SampleStream& stream, Dimension dimension) const = 0;
-  /// Estimates of the image that preparation has left over. Each counts in the color of the final
-  /// image as one path more of its pixel. How many there are of a pixel must not depend on them.
+  /// Returns estimates of the image that are left over from preparation. Each counts in the color
+  /// of the final image like one more path of its pixel. The number of estimates of a pixel must
+  /// not depend on their values.
   virtual std::span<const FilmSample> film_samples() const { return {}; }
 };
 
-/// The pixels that will be rendered.
+/// The size of the film [pixels].
 struct PixelGrid {
   int width = 0, height = 0;
 };
 
-/// How many samples will be taken.
+/// The seed and the number of samples that will be taken.
 struct SamplePlan {
   std::uint64_t seed = 0;
-  std::uint32_t samples_per_pixel = 0;  ///< of the longest iteration; 0: unknown (time budget)
+  std::uint32_t samples_per_pixel = 0;  ///< in the longest iteration; 0: unknown (time budget)
 };
 
-/// Contract: where primary numbers come from. Samplers differ in how the numbers of different
-/// samples of a pixel, and of different pixels, are arranged; each number alone is uniform.
+/// Contract: a source of primary numbers. Samplers differ in how they arrange the numbers of
+/// different samples of a pixel and of different pixels. Each number alone is uniform.
 class Sampler : public Component {
  public:
   static constexpr std::string_view contract_name = "sampler";
 
-  /// Makes the sampler ready for a render. `probe` evaluates the integrand before rendering; it
-  /// lives for this call only, and is null for integrators that offer none.
+  /// Prepares the sampler for a render. `probe` evaluates the integrand before rendering. It is
+  /// valid during this call only, and it is null if the integrator offers no probe.
   virtual std::unique_ptr<const PreparedSampler> prepare(const PixelGrid& grid,
                                                          const SamplePlan& plan,
                                                          const IntegrandProbe* probe) const = 0;
 
-  /// Size of the finite sets that a sampler works with: passes of the final image are whole sets,
-  /// but for the last one where the number of samples is no multiple. 1: any count is as good, or
-  /// sets are as long as an iteration, which any passes fill. `plan` states the samples of all
-  /// iterations together, or 0 for a time budget, as the iterations are yet to be chosen.
+  /// Returns the number of samples per pixel in the finite sets that the sampler works with. Passes
+  /// of the final image consist of whole sets, except for the last pass if the number of samples is
+  /// not a multiple. Returns 1 if any count is as good, or if sets are as long as an iteration,
+  /// because any passes then fill them. `plan` holds the samples of all iterations together,
+  /// because the iterations are chosen later, or 0 for a time budget.
   virtual std::uint32_t preferred_samples(const SamplePlan& /*plan*/) const { return 1; }
-  /// Whether prepare() needs a probe.
+  /// Returns whether prepare() needs a probe.
   virtual bool needs_probe() const { return false; }
 };
 

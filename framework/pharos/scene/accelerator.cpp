@@ -51,7 +51,8 @@ void find_any(RTCScene scene, RTCRay& query) {
 
 #endif
 
-/// Origins keep their distance themselves (SurfacePoint::origin_towards), so rays begin at 0.
+/// Rays begin at distance 0, because their origins already lie off the surface
+/// (SurfacePoint::origin_towards).
 RTCRay to_embree(const Ray& ray) {
   RTCRay r;
   r.org_x = ray.origin.x, r.org_y = ray.origin.y, r.org_z = ray.origin.z;
@@ -69,8 +70,8 @@ Ray from_embree(const RTCRay& r) {
   return {{r.org_x, r.org_y, r.org_z}, {r.dir_x, r.dir_y, r.dir_z}, r.tfar};
 }
 
-/// Within an instance directions are not of unit length, though shapes rely on it; distances are
-/// then `scale` times Embree's.
+/// A ray with a direction of unit length, as shapes require. Embree's directions within an instance
+/// are not of unit length; distances along `ray` are `scale` times Embree's.
 struct ShapeRay {
   Ray ray;
   float scale;
@@ -93,7 +94,7 @@ void analytic_bounds(const RTCBoundsFunctionArguments* args) {
   *args->bounds_o = {b.low.x, b.low.y, b.low.z, 0, b.high.x, b.high.y, b.high.z, 0};
 }
 
-/// Only single rays are ever traced, so packets have size one and plain layout.
+/// Only single rays are traced, so packets have size one and a plain layout.
 void analytic_intersect(const RTCIntersectFunctionNArguments* args) {
   if (args->valid[0] == 0) return;
   auto& query = *reinterpret_cast<RTCRayHit*>(args->rayhit);
@@ -120,8 +121,8 @@ void analytic_occluded(const RTCOccludedFunctionNArguments* args) {
 
 RTCGeometry mesh_geometry(RTCDevice device, const TriangleMesh& mesh) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  // Embree loads 16 bytes a vertex, and so past the end of a packed array: it gets a copy that it
-  // pads itself. Indices are loaded as they are.
+  // Embree loads 16 bytes per vertex, and thus reads past the end of a packed array. It therefore
+  // gets a copy, which it pads itself. Indices are loaded as they are.
   constexpr std::size_t stride = sizeof(Point3);
   static_assert(stride == 3 * sizeof(float));
   void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
@@ -152,7 +153,7 @@ RTCGeometry instance_geometry(RTCDevice device, RTCScene group, const Transform&
   return geometry;
 }
 
-/// Commits `geometry` and leaves it to `scene`.
+/// Commits `geometry` and hands it over to `scene`.
 void attach(RTCScene scene, RTCGeometry geometry, std::size_t id) {
   rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
   rtcCommitGeometry(geometry);
@@ -160,21 +161,21 @@ void attach(RTCScene scene, RTCGeometry geometry, std::size_t id) {
   rtcReleaseGeometry(geometry);
 }
 
-/// Embree's builders split their work by the concurrency of the arena they run in, and the order of
-/// primitives follows. An arena of one thread makes the hierarchy, and with it which of two
-/// coinciding surfaces is hit, a function of the scene alone.
+/// Embree's builders split their work by the concurrency of the task arena, and the order of
+/// primitives depends on the split. In an arena of one thread the hierarchy depends on the scene
+/// alone, and so does the choice between two coinciding surfaces.
 void commit(RTCScene scene) {
   tbb::task_arena one_thread(1);
   one_thread.execute([&] { rtcJoinCommitScene(scene); });
 }
 
-/// Keeps the first message of a build.
+/// Stores the first error message of a build.
 void note_error(void* first, RTCError, const char* message) {
   auto& text = *static_cast<std::string*>(first);
   if (text.empty()) text = message != nullptr && *message != '\0' ? message : "unknown reason";
 }
 
-/// Out of line, so that hits of other materials pay for no more than the question.
+/// Out of line, so that hits on other materials only pay for the test.
 [[gnu::noinline]] void add_tangents(const Shape& shape, SurfacePoint& point) {
   point.set_tangents(shape.uv_tangents(point));
 }
@@ -252,7 +253,7 @@ inline float Scene::Accelerator::intersect(const Ray& ray, SurfacePoint& point) 
     return t;
   }
   const Geometry& geometry = geometries_[query.hit.geomID];
-  // Built in place: copying this many small fields would wait for their stores.
+  // Constructed in place: copying this many small fields would stall on their stores.
   if (geometry.mesh != nullptr) {
     ::new (&point)
         SurfacePoint(geometry.mesh->surface_point(query.hit.primID, query.hit.u, query.hit.v));
@@ -296,10 +297,11 @@ inline float Scene::Accelerator::intersect(const Ray& ray, SurfacePoint& point) 
 inline bool Scene::Accelerator::occluded(const Ray& ray) const {
   RTCRay query = to_embree(ray);
   find_any(scene_.get(), query);
-  return query.tfar == -kInfinity;  // how Embree marks a blocked ray
+  return query.tfar == -kInfinity;  // Embree's mark for an occluded ray
 }
 
-// The scene's two questions stand here so that nothing lies between them and Embree.
+// Scene's two ray queries are defined here, so that the accelerator's functions are inlined in
+// them.
 
 float Scene::intersect(const Ray& ray, SurfacePoint& point) const {
   return accelerator_->intersect(ray, point);

@@ -12,18 +12,19 @@ struct RTCRayHit;
 
 namespace pharos {
 
-/// Embree behind two questions: a scene of its own for every group, and one for the world. Knows
-/// each geometry of the world by the index of its object; those of instances follow.
+/// Answers the scene's ray queries with Embree. There is one Embree scene for the world and one for
+/// each group. Geometries are numbered like Scene::objects(): the objects that stand in the world
+/// themselves come first. In the world's Embree scene, the instances follow these objects.
 class Scene::Accelerator {
  public:
-  /// Builds the hierarchies; the result does not depend on the number of threads. The shapes must
-  /// outlive it. Throws RunError when Embree cannot do it.
+  /// Builds the hierarchies. The result does not depend on the number of threads. The shapes must
+  /// outlive the accelerator. Throws RunError if Embree cannot build the scene.
   explicit Accelerator(const SceneParts& parts);
   ~Accelerator();
 
-  /// As Scene::intersect().
+  /// See Scene::intersect().
   float intersect(const Ray& ray, SurfacePoint& point) const;
-  /// As Scene::occluded().
+  /// See Scene::occluded().
   bool occluded(const Ray& ray) const;
 
  private:
@@ -31,28 +32,29 @@ class Scene::Accelerator {
     void operator()(RTCDeviceTy* device) const;
     void operator()(RTCSceneTy* scene) const;
   };
-  /// An object's geometry; `mesh` spares meshes the virtual calls.
+  /// The geometry of an object. `mesh` saves virtual calls for triangle meshes; it is null for
+  /// analytic shapes.
   struct Geometry {
     const TriangleMesh* mesh;
     const Shape* shape;
-    bool needs_tangents;  ///< its material does
+    bool needs_tangents;  ///< whether its BSDF needs tangents
   };
 
   struct Instance {
     Placement placement;
-    std::uint32_t first_object;  ///< of its group
+    std::uint32_t first_object;  ///< first object of its group in `geometries_`
   };
   using EmbreeScene = std::unique_ptr<RTCSceneTy, Release>;
 
-  /// A scene of these objects, still to be committed; adds them to `geometries_`.
+  /// Returns an uncommitted Embree scene of these objects and appends them to `geometries_`.
   EmbreeScene scene_of(const std::vector<SceneObject>& objects);
   void add_instances(const SceneParts& parts);
-  /// Fills `point` with the hit of an instance.
+  /// Fills `point` with a hit on an instance.
   void instance_point(const Ray& ray, const RTCRayHit& hit, SurfacePoint& point) const;
 
-  std::vector<Geometry> geometries_;  ///< by object
+  std::vector<Geometry> geometries_;  ///< indexed by object
   std::vector<Instance> instances_;
-  std::uint32_t world_objects_ = 0;  ///< objects that stand in the world themselves
+  std::uint32_t world_objects_ = 0;  ///< number of objects that stand in the world themselves
   std::unique_ptr<RTCDeviceTy, Release> device_;
   std::vector<EmbreeScene> groups_;
   EmbreeScene scene_;

@@ -4,7 +4,7 @@
 
 namespace pharos {
 
-/// What a path vertex lies on.
+/// The kind of place where a path vertex lies.
 enum class VertexKind : std::uint8_t {
   sensor,       ///< on the lens
   surface,      ///< on a shape
@@ -13,7 +13,7 @@ enum class VertexKind : std::uint8_t {
   light,        ///< on an emitter without extent (point, spot)
 };
 
-/// What happened to a path at a vertex. Bits, so that sets of events are masks.
+/// The event at a path vertex. Events are bits, so that sets of events are masks.
 enum class Event : std::uint8_t {
   none = 0,
   smooth_reflect = 1,     ///< has a density over directions [1/sr]
@@ -53,22 +53,22 @@ constexpr bool is_discrete(Event e) {
   return contains(EventMask::discrete, e);
 }
 
-/// What is carried along the path, and so which way light runs. Paths from the sensor carry
-/// importance backwards along radiance: they *estimate radiance*.
+/// The quantity that a path carries, and thus the direction in which light runs. A path from the
+/// sensor carries importance against the direction of light: it *estimates radiance*.
 enum class Transport : std::uint8_t {
-  radiance,    ///< the path was begun at the sensor
-  importance,  ///< the path was begun at a light
+  radiance,    ///< the path begins at the sensor
+  importance,  ///< the path begins at a light
 };
 
-/// The measure a density refers to. Densities of different measures never mix.
+/// The measure of a density. Densities of different measures are never mixed.
 enum class Measure : std::uint8_t {
-  solid_angle,         ///< [1/sr]: a direction, with the surface or environment met along it
-  solid_angle_length,  ///< [1/(sr m)]: a direction and a distance, a vertex in a medium
-  discrete,            ///< [1]: a discrete event, with the surface or environment met after it
-  discrete_length,     ///< [1/m]: a discrete event and a distance, a vertex in a medium
+  solid_angle,         ///< [1/sr]: a direction; the next vertex is on a surface or the environment
+  solid_angle_length,  ///< [1/(sr m)]: a direction and a distance; the next vertex is in a medium
+  discrete,         ///< [1]: a discrete event; the next vertex is on a surface or the environment
+  discrete_length,  ///< [1/m]: a discrete event and a distance; the next vertex is in a medium
 };
 
-/// The measure of reaching a vertex of kind `target` by `event`.
+/// Returns the measure of reaching a vertex of kind `target` by `event`.
 constexpr Measure measure_of(Event event, VertexKind target) {
   if (target == VertexKind::volume) {
     return is_discrete(event) ? Measure::discrete_length : Measure::solid_angle_length;

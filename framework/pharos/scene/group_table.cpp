@@ -9,17 +9,19 @@
 namespace pharos {
 namespace {
 
-/// Volumes that a map may multiply by: the inverse that Embree makes in float has all its terms.
+/// The range of the factor by which a map may scale volumes. Within it, all terms of the inverse
+/// that Embree computes in float are representable.
 constexpr float kSmallestVolume = 1e-30f, kLargestVolume = 1e30f;
 
-/// Where an instance stands that is listed in something placed by `outer`.
+/// Returns the place of an instance in world space. `outer` is the place of the group that lists
+/// it.
 Transform composed(const Transform& outer, const InstanceEntry& entry) {
   try {
     const Transform map = outer * entry.to_world;
     const Vec3 x = map.vector({1, 0, 0}), y = map.vector({0, 1, 0}), z = map.vector({0, 0, 1});
     const float volume = abs_dot(cross(x, y), z);
     if (volume >= kSmallestVolume && volume <= kLargestVolume) return map;
-  } catch (const InputError&) {  // elements that a float cannot hold
+  } catch (const InputError&) {  // an element is beyond the range of a float
   }
   throw InputError(entry.where, "this instance is scaled beyond what a float can hold");
 }
@@ -80,7 +82,8 @@ void GroupTable::count(std::uint32_t index) {
 void GroupTable::count_within(Group& outer, std::uint32_t index, const Location& where) {
   Group& inner = groups_[index];
   if (inner.state == Group::Count::running) fail_circle(index, where);
-  // Whichever way round the groups stand: not yet counted, or counted already.
+  // The limit holds in both cases: `chain_` limits the depth of groups that are not counted yet,
+  // and `depth` limits the depth of groups that are.
   if (chain_.size() < kDeepest) count(index);
   outer.depth = std::max(outer.depth, inner.depth + 1);
   if (inner.state != Group::Count::known || outer.depth > kDeepest) {
@@ -111,7 +114,7 @@ void GroupTable::place_instances(const EntryList& entries,
                                  const Transform& to_world, SceneParts& parts) {
   for (std::size_t i = 0; i < targets.size(); ++i) {
     Group& group = groups_[targets[i]];
-    if (group.count == 0) continue;  // nor may what is empty be walked through again and again
+    if (group.count == 0) continue;  // it may nest very many empty instances
     const Transform map = composed(to_world, entries.instances[i]);
     if (!group.entries.objects.empty()) {
       if (group.index == kUnplaced) {

@@ -10,32 +10,34 @@
 
 namespace pharos {
 
-/// `{ type: instance, group: NAME, to_world: … }` as it was written.
+/// An entry `{ type: instance, group: NAME, to_world: … }` as written in the config.
 struct InstanceEntry {
   std::string group;
   Transform to_world;
-  Location where;  ///< of the group's name
+  Location where;  ///< location of the group's name
 };
 
-/// What the list of a group, or that of the world, holds.
+/// The entries of a group or of the world.
 struct EntryList {
   std::vector<SceneObject> objects;
   std::vector<InstanceEntry> instances;
 };
 
-/// The groups of a scene by name. They may contain instances of each other; a scene may not: what
-/// comes out are instances that stand in the world.
+/// The groups of a scene by name. Groups may contain instances of each other. SceneParts may not
+/// nest instances, so the table flattens them into instances that stand in the world.
 class GroupTable {
  public:
-  /// Levels of groups within groups, and instances in the world.
+  /// Limits on the levels of nested groups and on the number of instances in the world.
   static constexpr std::size_t kDeepest = 64;
-  static constexpr std::uint64_t kMostInstances = 1u << 22;  ///< some 2 GiB
+  static constexpr std::uint64_t kMostInstances = 1u << 22;  ///< about 2 GiB of memory
 
   void add(std::string name, EntryList entries);
-  /// Takes the world's entries to `parts`, with all groups that are seen there. Throws InputError
-  /// with the location, used or not, for unknown names and groups that contain themselves or are
-  /// nested too deeply; for too many instances, and such as are scaled beyond what a float can
-  /// hold. To be called once, when all groups are known.
+  /// Moves the world's entries to `parts`, together with all groups that are visible there. Call it
+  /// once, when all groups are known. Throws InputError with the location
+  /// - for unknown group names, and for groups that contain themselves or are nested too deeply,
+  ///   whether these groups are used or not;
+  /// - for too many instances;
+  /// - for instances that are scaled beyond the range of a float.
   void place(EntryList world, SceneParts& parts);
 
  private:
@@ -44,12 +46,12 @@ class GroupTable {
   struct Group {
     std::string name;
     EntryList entries;
-    std::vector<std::uint32_t> targets = {};  ///< groups of `entries.instances`
+    std::vector<std::uint32_t> targets = {};  ///< groups of `entries.instances`, in the same order
     enum class Count { unknown, running, known } state = Count::unknown;
-    std::uint64_t count = 0;          ///< instances that one of it comes to, capped
-    std::size_t depth = 1;            ///< levels of groups, itself included
-    std::uint32_t index = kUnplaced;  ///< in SceneParts::groups
-    Bounds3 bounds;                   ///< of its own objects, once it is placed
+    std::uint64_t count = 0;  ///< instances that one instance of it becomes in the world, capped
+    std::size_t depth = 1;    ///< levels of groups, including this one
+    std::uint32_t index = kUnplaced;  ///< index in SceneParts::groups
+    Bounds3 bounds;                   ///< bounds of its own objects, once it is placed
   };
 
   std::vector<std::uint32_t> targets_of(const EntryList& entries) const;
@@ -61,7 +63,7 @@ class GroupTable {
 
   std::vector<Group> groups_;
   std::map<std::string, std::uint32_t, std::less<>> by_name_;
-  std::vector<std::uint32_t> chain_;  ///< groups that are being counted, outermost first
+  std::vector<std::uint32_t> chain_;  ///< groups whose count is in progress, outermost first
 };
 
 }  // namespace pharos

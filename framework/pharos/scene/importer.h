@@ -10,36 +10,38 @@
 
 namespace pharos {
 
-/// An object of another program's scene, and what stands for it.
+/// An object of another program's scene and the Pharos object that represents it.
 struct ImportedObject {
   Location where;
-  std::string what;    ///< in the words of that program, such as "bsdf roughplastic 'Lamp'"
-  std::string stands;  ///< in ours, such as "bsdf rough_plastic"; "nothing" for what is left out
+  std::string what;    ///< name in that program, such as "bsdf roughplastic 'Lamp'"
+  std::string stands;  ///< name in Pharos, such as "bsdf rough_plastic"; "nothing" if the object is
+                       ///< left out
 };
 
-/// Something that Pharos renders in another way than the scene says.
+/// A part of the scene that Pharos renders differently from what the file says.
 struct ImportNote {
-  Location where;       ///< the first time
-  std::string message;  ///< what is approximated or left out, and what is used instead
-  int times = 1;        ///< how often; notes of the same kind are told once
+  Location where;       ///< place of the first occurrence
+  std::string message;  ///< what is approximated or left out, and what replaces it
+  int times = 1;        ///< number of occurrences; notes of the same kind are merged
 };
 
-/// A scene of another program, as a render config of ours.
+/// A scene of another program as a Pharos render config.
 struct Import {
-  /// `scene`, `film`, `sampler`, `integrator` and `budget` as far as the file states them. Every
-  /// node stands where the file says so, so that later errors name that place.
+  /// Holds `scene`, `film`, `sampler`, `integrator` and `budget` as far as the file states them.
+  /// Every node has the location of the statement in the file, so that later errors name that
+  /// place.
   ConfigNode config;
   std::vector<ImportedObject> objects;  ///< in the order of the file
   std::vector<ImportNote> notes;
 };
 
-/// Contract: reads scenes of another program. Its name is the extension of their files, without
-/// the dot and in lower case.
+/// Contract: reads scenes of another program. The plugin's name is the extension of that program's
+/// files, without the dot and in lower case.
 class SceneImporter : public Component {
  public:
   static constexpr std::string_view contract_name = "importer";
 
-  /// Throws InputError with file, line and column for what cannot be read.
+  /// Reads the scene. Throws InputError with file, line and column if a part cannot be read.
   virtual Import import(const std::filesystem::path& file) const = 0;
 };
 

@@ -8,13 +8,14 @@
 
 namespace pharos {
 
-/// The scattering at one path vertex, BSDF or phase function alike, in world space. Directions
-/// point away from the vertex. Surfaces scatter nothing from or into directions that lie on
-/// different sides of the geometric and the shading normal, but for events that pass straight
-/// through; importance transport carries Veach's correction for shading normals (1997, eq. 5.19).
+/// The scattering at one path vertex in world space, either by a BSDF or by a phase function.
+/// Directions point away from the vertex. A surface scatters nothing from or into a direction that
+/// lies above the surface by one of the geometric and the shading normal and below it by the other.
+/// Events that pass straight through are the exception. Importance transport includes Veach's
+/// correction for shading normals (1997, eq. 5.19).
 class LocalScattering {
  public:
-  /// At a surface point; `towards_previous` is the unit direction to where the path came from.
+  /// At a surface point. `towards_previous` is the unit direction to the previous path vertex.
   LocalScattering(const SurfacePoint& point, const Bsdf& bsdf, Vec3 towards_previous,
                   Transport transport)
       : point_(&point),
@@ -29,37 +30,38 @@ class LocalScattering {
       : phase_(&phase), sigma_s_(sigma_s), wo_(towards_previous), transport_(transport) {}
 
   bool is_surface() const { return bsdf_ != nullptr; }
-  /// The surface point; surfaces only.
+  /// The surface point. Surfaces only.
   const SurfacePoint& surface() const { return *point_; }
   const Bsdf& bsdf() const { return *bsdf_; }
   Vec3 towards_previous() const { return wo_; }
   Transport transport() const { return transport_; }
 
-  /// All events possible here.
+  /// All events that are possible here.
   EventMask events() const { return is_surface() ? bsdf_->events() : mask_of(Event::scatter); }
   bool purely_discrete() const { return is_empty(events() & EventMask::smooth); }
-  /// Smallest roughness (GGX alpha) at surfaces; 1 - |mean cosine| in media.
+  /// The smallest roughness (GGX alpha) at surfaces; 1 - |mean cosine| in media.
   float roughness() const {
     return is_surface() ? bsdf_->roughness(*point_) : 1 - std::abs(phase_->mean_cosine());
   }
 
-  /// Value and density [1/sr] of the smooth events among `allowed`; both are zero for directions
-  /// into which nothing is scattered.
+  /// Returns the value and the density [1/sr] of the smooth events among `allowed`. Both are zero
+  /// if nothing is scattered into `direction`.
   ScatterValue evaluate(Vec3 direction, EventMask allowed = EventMask::all) const;
-  /// Draws an event among `allowed`; empty for a valid sample of value zero.
+  /// Draws an event among `allowed`. Returns nothing for a valid sample of value zero.
   std::optional<ScatterSample> sample(float u_choice, Vec2 u,
                                       EventMask allowed = EventMask::all) const;
-  /// The discrete events among `allowed` that scatter anything.
+  /// Returns the discrete events among `allowed` that scatter any light.
   DiscreteOutcomes discrete(EventMask allowed = EventMask::all) const;
-  /// The event that scattering into `direction` is: by side at surfaces.
+  /// Returns the smooth event of scattering into `direction`. At surfaces it depends on the sides
+  /// of the two directions.
   Event smooth_event(Vec3 direction) const;
 
  private:
   bool sides_agree(Vec3 direction, Vec3 local) const {
     return dot(direction, point_->normal) * local.z > 0;
   }
-  /// What shading normals make of light scattered into `direction`, at surfaces: 0 where sides
-  /// disagree, else 1 for radiance and the correction for importance.
+  /// The factor by which shading normals scale light scattered into `direction` at surfaces. It is
+  /// 0 if the sides disagree. Otherwise it is 1 for radiance and Veach's correction for importance.
   float normal_factor(Vec3 direction, Vec3 local) const;
 
   const SurfacePoint* point_ = nullptr;
@@ -71,8 +73,8 @@ class LocalScattering {
   Transport transport_;
 };
 
-// Every vertex of every path runs through these: inline, so that only the BSDF's own call is
-// virtual.
+// Every vertex of every path calls these functions. They are inline, so that only the BSDF's own
+// call is virtual.
 
 inline float LocalScattering::normal_factor(Vec3 direction, Vec3 local) const {
   if (!sides_agree(direction, local) || !sides_agree(wo_, wo_local_)) return 0;

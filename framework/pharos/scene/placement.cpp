@@ -7,7 +7,7 @@
 namespace pharos {
 namespace {
 
-/// The length, also where squares are beyond what a float can hold.
+/// Returns the length, even if its square is beyond the range of a float.
 double length_of(Vec3 v) {
   return std::hypot(double{v.x}, double{v.y}, double{v.z});
 }
@@ -17,7 +17,7 @@ Vec3 scaled(Vec3 v, double factor) {
           static_cast<float>(factor * v.z)};
 }
 
-/// The image of a point, rounded once.
+/// Returns the image of a point, rounded once.
 Point3 precise_point(const Transform& map, Point3 p) {
   Point3 image;
   for (int r = 0; r < 3; ++r) {
@@ -47,7 +47,7 @@ Bounds3 placed_bounds(const Bounds3& local, const Transform& to_world) {
 Placement::Placement(const Transform& to_world) : to_world_(to_world) {
   const Transform::Matrix& m = to_world.matrix();
   double permanent = 0, determinant = 0;
-  std::array<std::array<double, 3>, 3> minors;  // with all products added up
+  std::array<std::array<double, 3>, 3> minors;  // sums of the magnitudes of both products
   for (std::size_t r = 0; r < 3; ++r) {
     for (std::size_t c = 0; c < 3; ++c) {
       const auto &row1 = m[(r + 1) % 3], &row2 = m[(r + 2) % 3];
@@ -76,23 +76,29 @@ Placement::LocalRay Placement::to_local(const Ray& ray) const {
           factor};
 }
 
-// Embree meets a placed surface in local space, after it took the ray there with an inverse W of
-// its own. A point p of the surface, at x = M p + t in world space, is thus met where
-// W x differs from p, by at most
+// Embree intersects a placed surface in local space. It takes the ray there by its own inverse W of
+// the map. Let p be a point of the surface in local space, and x = M p + t the same point in world
+// space. Embree thus meets p at W x, which differs from p by at most
 //
 //     eps A ((5 + 3 k) |M p| + 2.5 (|x| + |t|))        eps = 2^-23
 //
-// component by component. A is |W|, but with the products in W's cofactors added up without their
-// signs, and k >= 1 the same for the determinant over the determinant itself: W's elements are
-// cofactors (eps A) over the determinant (3 eps k), which together with the division are off by
-// (4 + 3 k) eps A. They act on x - t = M p, because W's translation is made from them. Making that
-// translation (1.5 eps A |t|) and applying W is rounded thrice each, of which the last rounding is
-// of a sum near p (eps A (|x| + |t| + |M p| / 2)); x and the ray's origin once each (eps |x|).
+// in each component. A is |W|, except that the products in W's cofactors are added without their
+// signs. k >= 1 is the determinant with its products added without their signs, over the magnitude
+// of the determinant. The bound covers the sum of these errors:
 //
-// The part along the local normal n, over the length of W^T n, is a distance along the normal in
-// world space; so is the local error. A step of that length along the world normal may lead
-// sideways in local space where the map stretches or shears, towards neighbors at concave edges:
-// `margin` is all of it.
+// - The elements of W are cofactors (eps A) over the determinant (3 eps k). Together with the
+//   division they are off by (4 + 3 k) eps A. They act on x - t = M p, because W's translation is
+//   computed from them.
+// - Computing W's translation takes three roundings (1.5 eps A |t|).
+// - Applying W takes three roundings, the last one of a sum near p
+//   (eps A (|x| + |t| + |M p| / 2)).
+// - x and the ray's origin are rounded once each (eps |x|).
+//
+// The component of this error along the local normal n, divided by the length of W^T n, is a
+// distance along the normal in world space. The shape's local error is converted in the same way.
+// If the map stretches or shears, a step of this length along the world normal may lead sideways in
+// local space, towards neighboring triangles at concave edges. `margin` therefore covers the full
+// length of the step, in addition to the error itself.
 PlacementError Placement::error_at(const SurfacePoint& local) const {
   constexpr float epsilon = std::numeric_limits<float>::epsilon();
   const Transform::Matrix& m = to_world_.matrix();

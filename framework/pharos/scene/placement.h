@@ -9,40 +9,42 @@
 
 namespace pharos {
 
-/// How uncertain a point of a placed surface is.
+/// The uncertainty of a point on a placed surface.
 struct PlacementError {
   float world = 0;   ///< SurfacePoint::error in world space [scene units]
-  float margin = 0;  ///< what to keep from the edges in local space [local units]
+  float margin = 0;  ///< distance to keep from the edges in local space [local units]
 };
 
-/// The box of a placed box; empty for an empty one. Throws InputError where a float cannot hold it.
+/// Returns the bounding box of a placed box; empty for an empty one. Throws InputError if the box
+/// is beyond the range of a float.
 Bounds3 placed_bounds(const Bounds3& local, const Transform& to_world);
 
-/// Where a group stands: takes rays to the group's local space and surface points back to world
-/// space. The outer side of a surface stays its outer side, mirrored or not.
+/// The place of a group: takes rays to the group's local space and surface points back to world
+/// space. The outer side of a surface stays its outer side even if the map mirrors.
 class Placement {
  public:
   explicit Placement(const Transform& to_world);
 
-  /// `ray` in local space; a distance t along the one is `scale` * t along the other.
+  /// `ray` in local space. A distance t in world space is the distance `scale` * t in local space.
   struct LocalRay {
     Ray ray;
     float scale;
   };
   LocalRay to_local(const Ray& ray) const;
 
-  /// How far off a surface rays must start that leave it, given a point of it in local space.
+  /// Returns how far from the surface rays that leave it must start. `local` is a point of the
+  /// surface in local space.
   PlacementError error_at(const SurfacePoint& local) const;
-  /// The point in world space; `error` is that of error_at().
+  /// Returns the point in world space; `error` is PlacementError::world of error_at().
   SurfacePoint to_world(const SurfacePoint& local, float error) const;
-  /// Tangents in world space.
+  /// Returns the tangents in world space.
   UvTangents to_world(const UvTangents& local) const {
     return {to_world_.vector(local.du), to_world_.vector(local.dv)};
   }
 
  private:
   Transform to_world_;
-  std::array<Vec3, 3> inverse_magnitude_;  ///< columns; see error_at()
+  std::array<Vec3, 3> inverse_magnitude_;  ///< its columns; see error_at()
   float condition_;                        ///< see error_at()
 };
 

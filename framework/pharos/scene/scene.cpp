@@ -29,7 +29,7 @@ Bounds3 with_sensor(Bounds3 box, const Sensor* sensor) {
   return box;
 }
 
-/// As Scene::objects().
+/// Returns the objects in the order of Scene::objects().
 std::vector<SceneObject> all_objects(const SceneParts& parts) {
   std::vector<SceneObject> all = parts.objects;
   for (const SceneGroup& group : parts.groups) {
@@ -42,12 +42,12 @@ bool bounds_media(const SceneObject& o) {
   return o.interior != nullptr || o.exterior != nullptr;
 }
 
-/// Whether light goes through an object's surfaces as if they were not there.
+/// Whether light passes through an object's surfaces as if they were not there.
 bool only_bounds_media(const SceneObject& o) {
   return o.emitter == nullptr && o.bsdf->events() == mask_of(Event::pass_through);
 }
 
-/// Where environments stand: around the geometry, or around nothing in particular.
+/// Returns a site with the bounding sphere of the geometry; the default site if there is none.
 EmitterSite site_around(const Bounds3& geometry) {
   const float radius = geometry.diagonal() / 2;
   if (!(radius > 0)) return {};
@@ -105,7 +105,7 @@ const Medium* Scene::medium_at(Point3 point) const {
     SurfacePoint at;
     if (std::isinf(intersect(ray, at))) break;
     medium = medium_after(at, ray.direction, medium);
-    // Aimed anew: what is left may be less than a surface's error.
+    // Aims at the point again, because the remaining distance may be less than a surface's error.
     ray.origin = at.origin_towards(ray.direction);
     const Vec3 rest = point - ray.origin;
     if (!(dot(rest, ray.direction) > 0)) break;

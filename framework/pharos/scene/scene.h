@@ -15,22 +15,22 @@
 
 namespace pharos {
 
-/// A shape with what it is made of. `emitter`, `interior` and `exterior` may be null.
+/// A shape with its materials and media. `emitter`, `interior` and `exterior` may be null.
 struct SceneObject {
   Ref<Shape> shape;
   Ref<Bsdf> bsdf;
   Ref<Emitter> emitter;
-  Ref<Medium> interior;  ///< on the side away from the normal; null: empty
-  Ref<Medium> exterior;  ///< on the side of the normal; null: empty
+  Ref<Medium> interior;  ///< on the side away from the normal; null: empty space
+  Ref<Medium> exterior;  ///< on the side of the normal; null: empty space
 };
 
-/// Objects in a space of their own, to be placed as a whole any number of times. None may have an
-/// emitter.
+/// Objects in a space of their own, which can be placed as a whole any number of times. None of
+/// them may have an emitter.
 struct SceneGroup {
   std::vector<SceneObject> objects;
 };
 
-/// A group that stands somewhere. All instances of a group share its memory.
+/// A group at one place in the world. All instances of a group share its memory.
 struct SceneInstance {
   std::uint32_t group = 0;  ///< index into SceneParts::groups
   Transform to_world = {};
@@ -38,41 +38,41 @@ struct SceneInstance {
 
 /// The parts of a scene.
 struct SceneParts {
-  std::vector<SceneObject> objects;  ///< those that stand in the world themselves
-  std::vector<SceneGroup> groups;    ///< seen only where there are instances of them
+  std::vector<SceneObject> objects;  ///< objects that stand in the world themselves
+  std::vector<SceneGroup> groups;    ///< visible only through their instances
   std::vector<SceneInstance> instances;
-  std::vector<Ref<Emitter>> emitters;  ///< those that stand alone
-  Ref<Sensor> sensor;                  ///< null: none; Scene::sensor() must not be called
-  Ref<Medium> medium;                  ///< around the sensor; null: empty
+  std::vector<Ref<Emitter>> emitters;  ///< emitters without a shape
+  Ref<Sensor> sensor;                  ///< null: no sensor; Scene::sensor() must not be called
+  Ref<Medium> medium;                  ///< around the sensor; null: empty space
 };
 
-/// Geometry, materials and lights, ready for rays. Immutable and thread-safe.
+/// Geometry, materials and lights, ready for ray queries. Immutable and thread-safe.
 class Scene {
  public:
-  /// Builds the acceleration structure; the result does not depend on the number of threads. Throws
-  /// InputError when an instance lies beyond what a float can hold.
+  /// Builds the acceleration structure. The result does not depend on the number of threads. Throws
+  /// InputError if an instance lies beyond the range of a float.
   explicit Scene(SceneParts parts);
   ~Scene();
   Scene(const Scene&) = delete;
   Scene& operator=(const Scene&) = delete;
 
-  /// The nearest surface with 0 < t < ray.t_max. On success fills `point` and returns the
+  /// Finds the nearest surface with 0 < t < ray.t_max. On success fills `point` and returns the
   /// distance; otherwise returns infinity.
   float intersect(const Ray& ray, SurfacePoint& point) const;
   /// Whether anything lies on the ray before ray.t_max.
   bool occluded(const Ray& ray) const;
 
-  /// The objects that stand in the world themselves, then those of the groups, each once: the shape
-  /// of one that belongs to a group is in the group's space.
+  /// The objects that stand in the world themselves, followed by the objects of the groups, each
+  /// once. The shape of a group's object is in the group's space.
   const std::vector<SceneObject>& objects() const { return objects_; }
   const Bsdf& bsdf(const SurfacePoint& point) const { return *objects_[point.object].bsdf; }
-  /// The light on the object that `point` lies on; null when it has none.
+  /// The light on the object that `point` lies on; null if it has none.
   const Light* light_at(const SurfacePoint& point) const { return object_lights_[point.object]; }
-  /// Index into lights() of the light of an object; -1 when it has none.
+  /// The index in lights() of the light on the object that `point` lies on; -1 if it has none.
   int light_index(const SurfacePoint& point) const { return object_light_index_[point.object]; }
-  /// The medium that a ray leaving `point` towards `direction` is in (null: empty space) when the
-  /// ray that arrived there came through `current`. Only objects with an interior or exterior
-  /// bound media.
+  /// Returns the medium of a ray that leaves `point` towards `direction`; null for empty space.
+  /// `current` is the medium of the ray that arrived at `point`. Only objects with an interior or
+  /// an exterior bound media.
   const Medium* medium_after(const SurfacePoint& point, Vec3 direction,
                              const Medium* current) const {
     if (!has_media_) return nullptr;
@@ -82,27 +82,27 @@ class Scene {
   }
 
   std::span<const std::unique_ptr<const Light>> lights() const { return lights_; }
-  /// Indices into lights() of those that rays leaving the scene meet.
+  /// The indices in lights() of the lights that rays leaving the scene reach.
   std::span<const int> environment_lights() const { return environment_lights_; }
   const Sensor& sensor() const { return *sensor_; }
-  /// The medium around the sensor; null: empty.
+  /// The medium around the sensor; null for empty space.
   const Medium* sensor_medium() const { return medium_.get(); }
-  /// The medium at a point: what a walk straight from the sensor ends in.
+  /// The medium at a point. It is found by following a straight line from the sensor to the point.
   const Medium* medium_at(Point3 point) const;
   bool has_media() const { return has_media_; }
-  /// Whether a surface does nothing but let all light pass, straight on: it only bounds media.
+  /// Whether the surface only bounds media, so that all light passes straight through it.
   bool is_boundary(const SurfacePoint& point) const {
     return has_boundaries_ && object_is_boundary_[point.object] != 0;
   }
   bool has_boundaries() const { return has_boundaries_; }
 
-  /// Box of all geometry and the sensor [scene units].
+  /// The box of all geometry and the sensor [scene units].
   const Bounds3& bounds() const { return bounds_; }
-  /// The stand-in for what is infinitely far away: outside the scene, along `direction`.
+  /// The stand-in for a point infinitely far away: outside the scene, along `direction`.
   Point3 environment_point(Point3 from, Vec3 direction) const {
     return from + 2 * bounds_.diagonal() * direction;
   }
-  /// Triangles and analytic primitives together; those of a group count once.
+  /// The number of triangles and analytic primitives. Those of a group count once.
   std::size_t primitive_count() const;
 
  private:

@@ -10,7 +10,7 @@
 namespace pharos {
 namespace {
 
-/// What an entry of `shapes` may state besides the shape's own parameters.
+/// The keys that an entry of `shapes` may state besides the shape's own parameters.
 constexpr std::array<const char*, 4> kAttachments{"material", "emitter", "interior", "exterior"};
 
 std::vector<ParameterInfo> keys_of(std::span<const char* const> names) {
@@ -25,7 +25,7 @@ void check_scene_keys(const ConfigNode& scene) {
   check_keys(scene, keys_of(names));
 }
 
-/// What an entry `type: instance` states.
+/// The parameters of an entry `type: instance`.
 struct InstanceSettings {
   std::string group;
   Transform to_world = {};
@@ -50,7 +50,7 @@ void check_emitter_place(const Emitter& emitter, const ConfigNode& node, bool on
   }
 }
 
-/// Reads one scene's mapping part by part, and writes what is in force into `resolved`.
+/// Reads a scene's mapping part by part and writes the values in force into `resolved`.
 class SceneReader {
  public:
   SceneReader(const ConfigNode& scene, BuildContext& context, ConfigNode& resolved)
@@ -58,7 +58,7 @@ class SceneReader {
 
   SceneParts read() {
     resolved_ = ConfigNode::mapping();
-    context_.named.clear();  // names are those of this scene alone
+    context_.named.clear();  // names are valid in this scene only
     read_named<Texture>("textures");
     read_named<Bsdf>("materials");
     read_named<Medium>("media");
@@ -76,7 +76,7 @@ class SceneReader {
   }
 
  private:
-  /// The node under `key`; a null node when there is none.
+  /// Returns the node under `key`, or a null node if there is none.
   ConfigNode given(const char* key) const {
     const ConfigNode* node = scene_.find(key);
     return node != nullptr ? *node : ConfigNode();
@@ -87,7 +87,8 @@ class SceneReader {
     return context_.registry.build<Contract>(node, context_, resolved);
   }
 
-  /// The component at `node`, resolved under `key` of `resolved`; null for a null node.
+  /// Returns the component at `node` and resolves it under `key` of `resolved`. Returns null for a
+  /// null node.
   template <class Contract>
   Ref<Contract> read_part(const char* key, const ConfigNode& node, ConfigNode& resolved) {
     if (node.is_null()) return nullptr;
@@ -112,7 +113,7 @@ class SceneReader {
     resolved_.set(key, std::move(all));
   }
 
-  /// Reads the list at `list`, resolved under `key` of `resolved`.
+  /// Reads the entries of `list` and resolves them under `key` of `resolved`.
   template <class ReadEntry>
   void read_list(const std::string& key, const ConfigNode& list, ConfigNode& resolved,
                  const ReadEntry& read_entry) {
@@ -152,7 +153,7 @@ class SceneReader {
     resolved_.set("groups", std::move(all));
   }
 
-  /// What shines is drawn from by its place in the world, and there only once.
+  /// Refuses emitters in groups, because a light is sampled at its one place in the world.
   static void check_group_entry(const ConfigNode& entry) {
     const ConfigNode* emitter = entry.find("emitter");
     if (emitter == nullptr || emitter->is_null()) return;
@@ -177,8 +178,8 @@ class SceneReader {
     return {std::move(settings.group), settings.to_world, entry.find("group")->where()};
   }
 
-  /// The shape's plugin knows its own parameters only; the entry is checked here, so that a
-  /// mistyped key is compared with all that may be stated.
+  /// Checks the keys of an entry. The shape's plugin knows its own parameters only. The check here
+  /// compares a mistyped key with all keys that the entry may have.
   void check_object_keys(const ConfigNode& entry) const {
     const ConfigNode* type = entry.find("type");
     if (type == nullptr) return;
@@ -225,7 +226,7 @@ SceneParts Value<SceneParts>::read(const ConfigNode& node, BuildContext& context
                                    ConfigNode& resolved) {
   if (!node.is_scalar()) return read_mapping(node, context, resolved);
   const auto path = Value<std::filesystem::path>::read(node, context, resolved);
-  std::error_code failed;  // names may be too long to be asked for
+  std::error_code failed;  // checking a name that is too long fails
   if (!std::filesystem::exists(path, failed)) {
     node.fail("there is no scene file '" + path.string() + "'");
   }

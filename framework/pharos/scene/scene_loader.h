@@ -5,22 +5,22 @@
 
 namespace pharos {
 
-/// Scenes in configs: a path to a scene file, or the same mapping in place.
+/// Reads scenes in configs: either the path to a scene file, or the same mapping in place.
 ///
 ///     textures:  { name: texture, … }          # named parts, used by name below
 ///     materials: { name: bsdf, … }
 ///     media:     { name: medium, … }
 ///     shapes:    [ { type: …, material: …, emitter: …, interior: …, exterior: … }, … ]
 ///     groups:    { name: [ as shapes, … ], … }
-///     emitters:  [ emitter, … ]                # those without shape
+///     emitters:  [ emitter, … ]                # emitters without a shape
 ///     sensor:    sensor
 ///     medium:    medium                        # around the sensor
 ///
-/// Shapes without `material` get the default bsdf. Names are known within their scene only; a later
-/// part may use an earlier one's. An entry `{ type: instance, group: name, to_world: … }` among
-/// `shapes` or in a group shows all of a group once more. Groups may be used before they are
-/// defined; they have no emitters. Reading throws InputError with the location for everything that
-/// does not fit together.
+/// A shape without `material` gets the default BSDF. Names are valid within their scene only. A
+/// part may use the names of earlier parts. An entry `{ type: instance, group: name, to_world: … }`
+/// among `shapes` or in a group places a copy of a whole group. Groups may be used before they are
+/// defined, and they have no emitters. Reading throws InputError with the location if parts do not
+/// fit together.
 template <>
 struct Value<SceneParts> : PlainValue {
   static std::string type_name() { return "scene"; }

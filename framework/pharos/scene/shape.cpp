@@ -5,7 +5,7 @@
 namespace pharos {
 namespace {
 
-/// Three doubles, for the few steps where float would lose what the scene's coordinates say.
+/// Three doubles, for the few steps in which float would lose precision of the scene's coordinates.
 struct Vec3d {
   double x, y, z;
 
@@ -30,17 +30,21 @@ float sum(Vec3 v) {
   return v.x + v.y + v.z;
 }
 
-/// How far origin_towards() must step from a triangle, in units of machine epsilon eps = 2^-23.
+/// Constants of the distance that origin_towards() must step from a triangle, in units of the
+/// machine epsilon eps = 2^-23.
 ///
-/// The position is computed in double and rounded once; so is the origin. Each rounding moves it by
-/// at most eps/2 of the largest coordinate M in each of three directions, together sqrt(3) eps M:
-/// `kRounding` covers that. The stored edges are rounded once too, by eps/2 of their length. A ray
-/// leaving there must find itself on the right side in Embree's float arithmetic, which decides by
-/// the sign of dot(v0 - o, e0 x e1) with vertices taken relative to the origin o: these are at most
-/// the longest edge L away, and rounding them (eps/2), the two edges, their cross product (about 10
-/// eps/2 together) and the dot product (3 eps/2) changes the distance by about 7 eps L unless the
-/// triangle's largest angle nears 180 degrees. `kArithmetic` stands before the 1-norms of two
-/// edges, whose sum is at least L and typically 2 L or more.
+/// The position is computed in double and rounded once, and so is the origin. Each rounding moves
+/// it by at most eps/2 of the largest coordinate M in each of three directions. Together this is
+/// sqrt(3) eps M, which `kRounding` covers. The stored edges are also rounded once, by eps/2 of
+/// their length.
+///
+/// A ray that leaves the origin o must be on the right side of the triangle in Embree's float
+/// arithmetic. Embree decides by the sign of dot(v0 - o, e0 x e1), with vertices relative to o. The
+/// vertices are at most the longest edge L away. The roundings of the vertices (eps/2), of the two
+/// edges and their cross product (about 10 eps/2 together) and of the dot product (3 eps/2) change
+/// the distance by about 7 eps L, unless the triangle's largest angle approaches 180 degrees.
+/// `kArithmetic` is the factor of the 1-norms of two edges. The sum of these norms is at least L,
+/// and typically 2 L or more.
 constexpr float kEpsilon = std::numeric_limits<float>::epsilon();
 constexpr float kRounding = 2;
 constexpr float kArithmetic = 8;
@@ -49,18 +53,18 @@ float largest(Vec3 v) {
   return max_component(abs(v));
 }
 
-/// The step within the triangle's plane that takes the point of weights `b` to a distance of at
-/// least `margin` from every edge, or towards half the inradius where the triangle is narrower.
+/// Returns the step in the triangle's plane that moves the point of weights `b` at least `margin`
+/// away from every edge. In a narrower triangle the distance is only half the inradius.
 [[gnu::noinline, gnu::cold]] Vec3 step_off_edges(const std::array<Point3, 3>& p,
                                                  const std::array<float, 3>& b, Vec3 normal,
                                                  float double_area, float margin) {
-  std::array<Vec3, 3> edges;  // the one that vertex i faces
+  std::array<Vec3, 3> edges;  // edge i is opposite vertex i
   float perimeter = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     edges[i] = p[(i + 2) % 3] - p[(i + 1) % 3];
     perimeter += length(edges[i]);
   }
-  // The inradius is double_area / perimeter: with half of it no edge pushes past another.
+  // The inradius is double_area / perimeter. At half of it, no edge pushes the point past another.
   const float kept = std::min(margin, 0.5f * double_area / perimeter);
   Vec3 step;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -97,7 +101,8 @@ TriangleFacts TriangleMesh::facts_of(std::uint32_t triangle) const {
   const float coordinate = std::max(largest(p0), std::max(largest(p1), largest(p2)));
   const float edge_sum = sum(abs(record.edge1)) + sum(abs(record.edge2));
   record.error = kEpsilon * (kRounding * coordinate + kArithmetic * edge_sum);
-  // `edge_sum` is above the longest edge, so that points are seldom found near one without need.
+  // `edge_sum` is at least the longest edge, so no point close to an edge is missed. It is seldom
+  // much longer, so few other points are taken for close ones.
   record.edge_weight = record.error * edge_sum / static_cast<float>(double_area);
   return record;
 }
@@ -150,7 +155,7 @@ UvTangents TriangleMesh::uv_tangents(std::uint32_t triangle) const {
   const auto [i0, i1, i2] = triangles[triangle];
   const Vec3d origin(positions[i0]);
   const Vec3d e1 = Vec3d(positions[i1]) - origin, e2 = Vec3d(positions[i2]) - origin;
-  if (uvs.empty()) return {to_float(e1), to_float(e2)};  // the coordinates are the weights of both
+  if (uvs.empty()) return {to_float(e1), to_float(e2)};  // the coordinates are the edges' weights
   const double u1 = double{uvs[i1].x} - uvs[i0].x, v1 = double{uvs[i1].y} - uvs[i0].y;
   const double u2 = double{uvs[i2].x} - uvs[i0].x, v2 = double{uvs[i2].y} - uvs[i0].y;
   const double determinant = u1 * v2 - u2 * v1;

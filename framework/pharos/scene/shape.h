@@ -13,99 +13,103 @@
 
 namespace pharos {
 
-/// What every hit of a triangle needs, computed once and in one cache line.
+/// Precomputed data for a hit on a triangle, in one cache line.
 struct alignas(64) TriangleFacts {
   Point3 origin;          ///< vertex 0
   Vec3 edge1, edge2;      ///< from vertex 0 to vertices 1 and 2
   Vec3 normal;            ///< unit
   float error = 0;        ///< see SurfacePoint::error
-  float edge_weight = 0;  ///< barycentric weights below this may lie within `error` of an edge
+  float edge_weight = 0;  ///< barycentric weights below this may be within `error` of an edge
 };
 
 /// Indexed triangles in world space, counter-clockwise as seen from the outer side. `normals` and
-/// `uvs` are empty or one per position. Who fills it in sees to it that positions are finite,
-/// indices valid and areas positive.
+/// `uvs` are empty or have one element per position. The code that fills the mesh must ensure that
+/// positions are finite, indices are valid and areas are positive.
 struct TriangleMesh {
   std::vector<Point3> positions;
   std::vector<Vec3> normals;
   std::vector<Vec2> uvs;
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<TriangleFacts> facts;  ///< made by precompute(); empty: computed at every hit
+  std::vector<TriangleFacts> facts;  ///< filled by precompute(); if empty, computed at every hit
 
-  /// Fills `facts`; to be called when the rest is complete.
+  /// Fills `facts`. Call it when the other members are complete.
   void precompute();
 
-  /// The surface at barycentric weights (b1, b2) of `triangle`'s vertices 1 and 2. Where there are
-  /// no `uvs`, texture coordinates are those weights; where there are no `normals`, or they cancel
-  /// out, the shading normal is the geometric one. The position keeps `error` away from the edges,
-  /// so that origin_towards() does not slip past the neighbor at a concave edge.
+  /// Returns the surface at barycentric weights (b1, b2) of `triangle`'s vertices 1 and 2. Without
+  /// `uvs`, these weights are the texture coordinates. Without `normals`, or if the normals cancel
+  /// out, the shading normal is the geometric one. The position stays at least `error` away from
+  /// the edges, so that origin_towards() does not slip past the neighboring triangle at a concave
+  /// edge.
   SurfacePoint surface_point(std::uint32_t triangle, float b1, float b2) const;
-  /// The position of surface_point(), kept `margin` away from the edges instead [scene units].
+  /// Returns the position of surface_point(), but at least `margin` away from the edges [scene
+  /// units].
   Point3 position_off_edges(std::uint32_t triangle, float b1, float b2, float margin) const;
-  /// How the position moves with the texture coordinates, the same all over a triangle; zero where
-  /// these have no area in it.
+  /// Returns the derivatives of the position by the texture coordinates, which are constant on a
+  /// triangle. They are zero if the triangle has no area in texture space.
   UvTangents uv_tangents(std::uint32_t triangle) const;
-  /// [scene units^2]
+  /// The area of a triangle [scene units^2].
   float area(std::uint32_t triangle) const;
   Bounds3 bounds() const;
 
  private:
   TriangleFacts facts_of(std::uint32_t triangle) const;
-  /// Keeps a distance of `margin` times the triangle's `error` from the edges.
+  /// Keeps the position at least `margin` times the triangle's `error` away from the edges.
   Point3 position_at(std::uint32_t triangle, const std::array<float, 3>& weights,
                      const TriangleFacts& f, float margin) const;
 };
 
-/// Where a ray met a primitive, in the primitive's own terms.
+/// The hit of a ray on a primitive.
 struct PrimitiveHit {
   float t = kInfinity;  ///< distance [scene units]
-  Vec2 coordinates;     ///< meaning is the shape's own; barycentric (b1, b2) for meshes
+  Vec2 coordinates;     ///< defined by the shape; barycentric (b1, b2) for meshes
   std::uint32_t primitive = 0;
 };
 
-/// A point drawn from a shape's surface; a shape leaves `point.object` to the scene.
+/// A point drawn from a shape's surface. The scene fills in `point.object`, not the shape.
 struct ShapeSample {
   SurfacePoint point;
   float pdf = 0;  ///< [1/m^2] from sample(), [1/sr] from sample_from()
 };
 
-/// Contract: a surface in world space. Thread-safe. A shape is either a triangle mesh (mesh()
-/// not null; Embree intersects it) or analytic (intersect() is called).
+/// Contract: a surface in world space. Thread-safe. A shape is either a triangle mesh or analytic.
+/// If mesh() is not null, Embree intersects the mesh; otherwise intersect() is called.
 class Shape : public Component {
  public:
   static constexpr std::string_view contract_name = "shape";
 
   virtual Bounds3 bounds() const = 0;
-  /// Of all primitives [scene units^2], > 0.
+  /// The area of all primitives [scene units^2], > 0.
   virtual float area() const = 0;
 
-  /// The triangles, or null for an analytic shape. Lives as long as the shape.
+  /// The triangles, or null for an analytic shape. They live as long as the shape.
   virtual const TriangleMesh* mesh() const { return nullptr; }
 
-  /// Analytic shapes: bounds of a primitive.
+  /// The number of primitives and their bounds. Analytic shapes only.
   virtual std::uint32_t primitive_count() const { return 1; }
   virtual Bounds3 primitive_bounds(std::uint32_t) const { return bounds(); }
-  /// Analytic shapes: the nearest hit with 0 < t < ray.t_max; false when there is none.
+  /// Finds the nearest hit with 0 < t < ray.t_max and returns whether there is one. Analytic shapes
+  /// only.
   virtual bool intersect(const Ray&, std::uint32_t, PrimitiveHit&) const { return false; }
-  /// The surface at a hit that intersect() or Embree reported; `object` is filled in by Scene.
+  /// Returns the surface at a hit that intersect() or Embree reported. Scene fills in `object`.
   virtual SurfacePoint surface_point(const Ray& ray, const PrimitiveHit& hit) const;
 
-  /// How the position moves with the texture coordinates at a point that surface_point() gave; zero
-  /// where it has no derivative. By default that of the triangle; zero for analytic shapes.
+  /// Returns the derivatives of the position by the texture coordinates at a point from
+  /// surface_point(). They are zero if the position has no derivative. The default returns the
+  /// triangle's derivatives, and zero for analytic shapes.
   virtual UvTangents uv_tangents(const SurfacePoint& point) const;
 
-  /// Uniform over the area; pdf 1 / area() [1/m^2].
+  /// Draws a point uniformly over the area. The pdf is 1 / area() [1/m^2].
   virtual ShapeSample sample(Vec2 u) const = 0;
 
-  /// A point as seen from `from`, pdf in solid angle there [1/sr]; pdf 0 when nothing can be seen.
-  /// By default sample() converted by distance^2 / |cos|.
+  /// Draws a point as seen from `from`. The pdf is a density over solid angle at `from` [1/sr] and
+  /// 0 if nothing can be seen. The default converts the pdf of sample() by distance^2 / |cos|.
   virtual ShapeSample sample_from(Point3 from, Vec2 u) const;
   /// The density [1/sr] with which sample_from(from) yields `point`.
   virtual float pdf_from(Point3 from, const SurfacePoint& point) const;
 };
 
-/// Converts a density over area [1/m^2] at `point` into one over solid angle [1/sr] at `from`;
-/// 0 when the surface is seen edge-on.
+/// Converts a density over area [1/m^2] at `point` into a density over solid angle [1/sr] at
+/// `from`. Returns 0 if the surface is seen edge-on.
 inline float solid_angle_pdf_from_area(float area_pdf, Point3 from, Point3 point, Vec3 normal) {
   const Vec3 d = point - from;
   const float distance_squared = length_squared(d);
@@ -113,7 +117,8 @@ inline float solid_angle_pdf_from_area(float area_pdf, Point3 from, Point3 point
   return projected > 0 ? area_pdf * distance_squared * std::sqrt(distance_squared) / projected : 0;
 }
 
-/// The inverse conversion: [1/sr] at `from` into [1/m^2] at `point`; 0 where the two coincide.
+/// Converts a density over solid angle [1/sr] at `from` into a density over area [1/m^2] at
+/// `point`. Returns 0 if the two points coincide.
 inline float area_pdf_from_solid_angle(float solid_angle_pdf, Point3 from, Point3 point,
                                        Vec3 normal) {
   const Vec3 d = point - from;

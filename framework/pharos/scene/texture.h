@@ -8,16 +8,16 @@
 
 namespace pharos {
 
-/// Contract: a color that varies over surfaces. Thread-safe, free of randomness.
+/// Contract: a color that varies over surfaces. Thread-safe and free of randomness.
 class Texture : public Component {
  public:
   static constexpr std::string_view contract_name = "texture";
 
-  /// The value at a surface point; finite. Used as reflectance it must lie in [0, 1], used as
-  /// radiance [W/(m^2 sr)] in [0, inf).
+  /// The value at a surface point, which is finite. Reflectance must lie in [0, 1], radiance
+  /// [W/(m^2 sr)] in [0, inf).
   virtual Rgb evaluate(const SurfacePoint& point) const = 0;
 
-  /// The largest value of each channel anywhere, or a bound near it; for range checks.
+  /// The largest value of each channel over the texture, or a bound close to it; for range checks.
   virtual Rgb maximum() const = 0;
   /// The average over texture space; for light selection and albedo.
   virtual Rgb average() const = 0;

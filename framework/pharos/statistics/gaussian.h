@@ -6,6 +6,8 @@
 
 #include <Eigen/Dense>
 
+#include <pharos/core/archive.h>
+
 /// Normal distributions in D dimensions and the moments of points that they are made of. All in
 /// double precision.
 namespace pharos::statistics {
@@ -15,11 +17,12 @@ using Vector = Eigen::Matrix<double, D, 1>;
 template <int D>
 using Matrix = Eigen::Matrix<double, D, D>;
 
-/// A normal distribution; the covariance is symmetric and positive definite.
+/// A normal distribution. The covariance is symmetric and positive definite.
 template <int D>
 struct Gaussian {
   Vector<D> mean = Vector<D>::Zero();
   Matrix<D> covariance = Matrix<D>::Identity();
+  void archive(Archive& archive) { archive(mean, covariance); }
 };
 
 /// Weighted moments of points about a fixed origin.
@@ -28,6 +31,8 @@ struct Moments {
   double weight = 0;                     ///< sum of w
   Vector<D> first = Vector<D>::Zero();   ///< sum of w x
   Matrix<D> second = Matrix<D>::Zero();  ///< sum of w x x^T
+
+  void archive(Archive& archive) { archive(weight, first, second); }
 
   Moments& operator+=(const Moments& other) {
     weight += other.weight;
@@ -43,25 +48,26 @@ struct Moments {
   }
   friend Moments operator+(Moments a, const Moments& b) { return a += b; }
 
-  /// The weighted mean; weight > 0.
+  /// Returns the weighted mean. Requires weight > 0.
   Vector<D> mean() const { return first / weight; }
-  /// Sum of w (x - center) (x - center)^T.
+  /// Returns the sum of w (x - center) (x - center)^T.
   Matrix<D> scatter(const Vector<D>& center) const {
     const Matrix<D> mixed = first * center.transpose();
     return second - mixed - mixed.transpose() + weight * center * center.transpose();
   }
-  /// The weighted covariance about the mean; weight > 0.
+  /// Returns the weighted covariance about the mean. Requires weight > 0.
   Matrix<D> covariance() const { return scatter(mean()) / weight; }
 
-  /// Moments of points with this weight, mean and covariance.
+  /// Returns the moments of points with this weight, mean and covariance.
   static Moments of(double weight, const Vector<D>& mean, const Matrix<D>& covariance) {
     return {weight, weight * mean, weight * (covariance + mean * mean.transpose())};
   }
 };
 
-/// Two halves of points whose sum has these moments: their means lie `apart` to both sides of the
-/// mean, apart = S e / (2 sqrt(e^T S e)) for the covariance S and a direction e, which leaves each
-/// half the covariance S - apart apart^T (3/4 of the variance along e). weight > 0.
+/// Splits points with these moments into two halves whose moments add up to them. The means of the
+/// halves lie at distance `apart` on both sides of the mean, with apart = S e / (2 sqrt(e^T S e))
+/// for the covariance S and a direction e. Each half has the covariance S - apart apart^T (3/4 of
+/// the variance along e). Requires weight > 0.
 template <int D>
 std::array<Moments<D>, 2> halves(const Moments<D>& moments, const Vector<D>& direction) {
   const Matrix<D> covariance = moments.covariance();
@@ -74,7 +80,8 @@ std::array<Moments<D>, 2> halves(const Moments<D>& moments, const Vector<D>& dir
           Moments<D>::of(moments.weight / 2, mean - apart, left)};
 }
 
-/// A symmetric matrix with eigenvalues below `floor` raised to it; the eigenvectors stay.
+/// Returns the symmetric matrix with all eigenvalues below `floor` raised to `floor`. The
+/// eigenvectors stay the same.
 template <int D>
 Matrix<D> with_eigenvalues_above(double floor, const Matrix<D>& symmetric) {
   const Eigen::SelfAdjointEigenSolver<Matrix<D>> eigen(symmetric);
@@ -85,14 +92,14 @@ Matrix<D> with_eigenvalues_above(double floor, const Matrix<D>& symmetric) {
   return 0.5 * (result + result.transpose());
 }
 
-/// The unit eigenvector of the largest eigenvalue.
+/// Returns the unit eigenvector of the largest eigenvalue.
 template <int D>
 Vector<D> principal_axis(const Matrix<D>& symmetric) {
   return Eigen::SelfAdjointEigenSolver<Matrix<D>>(symmetric).eigenvectors().col(D - 1);
 }
 
-/// The logarithm of a normal density, ready to be evaluated: log N(x) = constant - |W x - center|^2
-/// / 2, W being the inverse of the covariance's lower Cholesky factor.
+/// The logarithm of a normal density, prepared for evaluation: log N(x) = constant - |W x -
+/// center|^2 / 2, where W is the inverse of the covariance's lower Cholesky factor.
 template <int D>
 class LogDensity {
  public:
@@ -105,7 +112,8 @@ class LogDensity {
     constant_ = inverse.diagonal().array().log().sum() - 0.5 * D * std::log(2 * EIGEN_PI);
   }
 
-  /// At points with these coordinates; T is a number or several side by side [log 1/unit^D].
+  /// Evaluates the logarithm at the point with these coordinates [log 1/unit^D]. T is a number, or
+  /// a vector of numbers for several points side by side.
   template <class T>
   T operator()(const std::array<T, D>& x) const {
     T squared{};

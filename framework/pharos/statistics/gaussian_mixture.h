@@ -16,7 +16,7 @@
 /// expectation-maximization.
 namespace pharos::statistics {
 
-/// sum_k weights[k] N(x; components[k]); the weights are positive and add up to one.
+/// The density sum_k weights[k] N(x; components[k]). The weights are positive and add up to one.
 template <int D>
 struct GaussianMixture {
   std::vector<double> weights;
@@ -25,8 +25,8 @@ struct GaussianMixture {
   std::size_t size() const { return weights.size(); }
 };
 
-/// Points with weights >= 0, stored coordinate by coordinate in whole registers; what fills the
-/// last one has weight 0.
+/// Points with weights >= 0, stored coordinate by coordinate in whole registers. Padding in the
+/// last register has weight 0.
 template <int D>
 class WeightedPoints {
  public:
@@ -35,7 +35,8 @@ class WeightedPoints {
   void add(const Vector<D>& x, double weight) {
     if (size_ % kWidth == 0) {
       for (auto& values : values_) values.resize(size_ + kWidth, 0);
-      // Not zero but a point: its density is as harmless as the others'.
+      // The padding repeats the point instead of zeros: its density is as harmless as the density
+      // of the other points.
       for (int axis = 0; axis < D; ++axis) {
         std::fill_n(values_[axis].end() - kWidth, kWidth, x[axis]);
       }
@@ -52,7 +53,7 @@ class WeightedPoints {
   double weight(std::size_t i) const { return values_[D][i]; }
 
   std::size_t registers() const { return (size_ + kWidth - 1) / kWidth; }
-  /// Four points and their weights.
+  /// Returns the four points of register r; weights4() returns their weights.
   std::array<Double4, D> points4(std::size_t r) const {
     std::array<Double4, D> x;
     for (int axis = 0; axis < D; ++axis) x[axis] = load4(&values_[axis][r * kWidth]);
@@ -65,39 +66,41 @@ class WeightedPoints {
   std::size_t size_ = 0;
 };
 
-/// What is believed of a mixture before any point is seen.
+/// The prior of a mixture, before any point is seen.
 struct MixturePrior {
-  double counts = 0;    ///< of points in every component: a Dirichlet prior of the weights
-  double strength = 0;  ///< in points: an inverse Wishart prior of the covariances
-  double variance = 0;  ///< the isotropic covariance that it pulls towards [unit^2]
+  double counts = 0;    ///< points in every component: a Dirichlet prior of the weights
+  double strength = 0;  ///< weight of the inverse Wishart prior of the covariances [points]
+  double variance = 0;  ///< isotropic covariance towards which this prior pulls [unit^2]
 };
 
-/// A fit: what stays, what changes, and when it ends.
+/// The settings of a fit: what stays, what changes, and when the fit ends.
 template <int D>
 struct MixtureFit {
-  /// Moments of what was seen before, one for each component; they count as they are. Empty: none.
+  /// Moments of points seen earlier, one for each component. They are added unchanged. Empty: none.
   std::span<const Moments<D>> frozen;
   MixturePrior prior;
-  /// Least eigenvalue of each component's covariance [unit^2]; empty: no limit.
+  /// The smallest eigenvalue of each component's covariance [unit^2]. Empty: no limit.
   std::span<const double> floors;
-  /// Components that are to change, as numbers; empty: all. What the others weigh stays.
+  /// The indices of the components that change. The other components keep their weights. Empty: all
+  /// components change.
   std::span<const std::size_t> changing;
   int most_iterations = 100;
-  /// Ends when a step raises objective() by less than this for each point. (Not relative to it:
-  /// that would hang on the unit of length.)
+  /// The fit ends when a step raises objective() by less than this value per point. (A tolerance
+  /// relative to objective() would depend on the unit of length.)
   double tolerance = 0.005;
 };
 
-/// What a mixture makes of points: to whom they belong, and how likely they are.
+/// The result of an E step: the assignment of points to components, and the likelihood of the
+/// points.
 template <int D>
 struct Expectation {
-  std::vector<Moments<D>> moments;  ///< of each component, points weighted by responsibility
+  std::vector<Moments<D>> moments;  ///< of the points of each component, weighted by responsibility
   double log_likelihood = 0;        ///< sum of w log p(x)
 };
 
 namespace detail {
 
-/// Moments of four streams of points side by side.
+/// Moments of four streams of points, summed side by side.
 template <int D>
 struct Moments4 {
   Double4 weight{};
@@ -125,7 +128,7 @@ struct Moments4 {
   }
 };
 
-/// The expectation over registers [begin, end) of the points.
+/// Computes the expectation over registers [begin, end) of the points.
 template <int D>
 Expectation<D> expectation_of_part(const std::vector<LogDensity<D>>& densities,
                                    const std::vector<double>& log_weights,
@@ -162,8 +165,9 @@ Expectation<D> expectation_of_part(const std::vector<LogDensity<D>>& densities,
 
 }  // namespace detail
 
-/// The E step, by log-sum-exp: no point is too far from all components. Parts of the points run
-/// concurrently and are added in order: the same for any number of threads.
+/// Computes the E step by log-sum-exp, so no point is too far from all components. Parts of the
+/// points run concurrently and are added in order, so the result is the same for any number of
+/// threads.
 template <int D>
 Expectation<D> expectation(const GaussianMixture<D>& mixture, const WeightedPoints<D>& points) {
   constexpr std::size_t kRegistersAPart = 1024;
@@ -188,8 +192,8 @@ Expectation<D> expectation(const GaussianMixture<D>& mixture, const WeightedPoin
   return all;
 }
 
-/// The most probable covariance of points with these moments about their mean, under the prior, no
-/// eigenvalue below `floor`: (strength variance I + scatter) / (strength + weight).
+/// Returns the most probable covariance of points with these moments about their mean, given the
+/// prior: (strength variance I + scatter) / (strength + weight). No eigenvalue is below `floor`.
 template <int D>
 Matrix<D> map_covariance(const Moments<D>& moments, const MixturePrior& prior, double floor) {
   const Matrix<D> scatter = moments.scatter(moments.mean());
@@ -197,14 +201,15 @@ Matrix<D> map_covariance(const Moments<D>& moments, const MixturePrior& prior, d
   return with_eigenvalues_above<D>(floor, pulled / (prior.strength + moments.weight));
 }
 
-/// The M step: the most probable components and weights for these moments, fit.frozen not added.
-/// Components without weight stay where they are.
+/// Computes the M step: sets the components and weights to the most probable ones for these
+/// moments. fit.frozen is not added to the moments. Components without weight keep their mean and
+/// covariance.
 template <int D>
 void maximize(std::span<const Moments<D>> moments, const MixtureFit<D>& fit,
               GaussianMixture<D>& mixture) {
   const bool all = fit.changing.empty();
   const std::size_t count = all ? mixture.size() : fit.changing.size();
-  double seen = 0, share = 0;  // of those that change
+  double seen = 0, share = 0;  // of the components that change
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t k = all ? i : fit.changing[i];
     seen += moments[k].weight + fit.prior.counts;
@@ -220,8 +225,9 @@ void maximize(std::span<const Moments<D>> moments, const MixtureFit<D>& fit,
   }
 }
 
-/// What expectation-maximization raises with every step: the logarithm of the points' likelihood,
-/// of the frozen moments' (each with its own component), and of the prior, up to a constant.
+/// Returns the value that expectation-maximization raises with every step: the log likelihood of
+/// the points, plus the log likelihood of the frozen moments (each under its own component), plus
+/// the logarithm of the prior, up to a constant.
 template <int D>
 double objective(const GaussianMixture<D>& mixture, double log_likelihood,
                  const MixtureFit<D>& fit) {
@@ -241,14 +247,15 @@ double objective(const GaussianMixture<D>& mixture, double log_likelihood,
   return value;
 }
 
-/// What a fit ended with.
+/// The result of a fit.
 template <int D>
 struct FitResult {
-  std::vector<Moments<D>> seen;  ///< of the points alone, by the last E step before the last M step
+  std::vector<Moments<D>> seen;  ///< of the points alone, from the E step before the last M step
   int iterations = 0;
 };
 
-/// Fits a mixture to points, from where it stands. The points' weights count as numbers of points.
+/// Fits a mixture to points, starting from its current state. The weights of the points count as
+/// numbers of points.
 template <int D>
 FitResult<D> fit_mixture(GaussianMixture<D>& mixture, const WeightedPoints<D>& points,
                          const MixtureFit<D>& fit) {

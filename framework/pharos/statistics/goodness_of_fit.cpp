@@ -16,14 +16,14 @@ struct Point {
   double x = 0, y = 0;
 };
 
-/// A cell with the pilot draws within it and the number of tested draws.
+/// A cell with its pilot draws and its number of tested draws.
 struct Cell {
   Rectangle area;
   std::span<Point> pilot;
   double observed = 0;
 };
 
-/// The area-preserving coordinates of kSphereRectangle.
+/// Returns the area-preserving coordinates of a direction in kSphereRectangle.
 Point sphere_point(Vec3 d) {
   const double x = d.x, y = d.y, z = d.z;
   const double sine_squared = (x * x + y * y) / (x * x + y * y + z * z);
@@ -33,11 +33,12 @@ Point sphere_point(Vec3 d) {
   return {z >= 0 ? near_pole : 2 - near_pole, phi < 0 ? phi + kSphereRectangle.y1 : phi};
 }
 
-/// How evenly draws fill a cell: the number of bins of a raster that hold any, over what so many
-/// even draws would be expected to hold. About 1 where they are even, small where they crowd.
+/// A measure of how evenly draws fill a cell: the number of occupied bins of a raster, divided by
+/// the expected number for as many evenly spread draws. About 1 for even draws, small for crowded
+/// ones.
 struct Filling {
-  double area = 1;      ///< over a square raster
-  double x = 1, y = 1;  ///< over its columns and rows
+  double area = 1;      ///< for a square raster
+  double x = 1, y = 1;  ///< for its columns and rows
 };
 
 Filling filling(const Rectangle& area, std::span<const Point> draws) {
@@ -62,12 +63,12 @@ Filling filling(const Rectangle& area, std::span<const Point> draws) {
           share(rows.count(), kBins)};
 }
 
-/// Bisects `area` until a cell holds at most `max_pilot` pilot draws and these fill it roughly: a
-/// cell whose draws crowd in parts of it would hide them from quadrature.
+/// Bisects `area` until each cell holds at most `max_pilot` pilot draws and these fill it roughly.
+/// If the draws crowd in parts of a cell, quadrature could miss these parts.
 void bisect(const Rectangle& area, std::span<Point> pilot, std::span<Point> tested,
             std::size_t max_pilot, int depth, std::vector<Cell>& cells) {
   constexpr double kCrowded = 0.5;
-  constexpr int kMaxDepth = 80;  // both coordinates down to the digits of a float
+  constexpr int kMaxDepth = 80;  // resolves both coordinates to float precision
   const Filling filled = pilot.size() < 2 ? Filling{} : filling(area, pilot);
   if (depth == kMaxDepth || (pilot.size() <= max_pilot && filled.area >= kCrowded)) {
     cells.push_back({area, pilot, static_cast<double>(tested.size())});
@@ -88,7 +89,7 @@ void bisect(const Rectangle& area, std::span<Point> pilot, std::span<Point> test
   bisect(high, pilot.subspan(a), tested.subspan(b), max_pilot, depth + 1, cells);
 }
 
-/// The density's integral over each cell, from patches that follow the cell's pilot draws.
+/// Integrates the density over each cell, in patches that follow the cell's pilot draws.
 template <class F>
 std::vector<Integral> integrate_density(const F& density, std::span<const Cell> cells,
                                         double tolerance) {
@@ -122,17 +123,18 @@ ChiSquareResult test_counts(std::span<const Cell> cells, std::span<const Integra
     fit.integral += integrals[i].value;
     fit.integral_error += integrals[i].error;
   }
-  // What quadrature cannot tell from nothing must not count as expected misses.
+  // A loss within the quadrature error must not count as expected misses.
   const double loss = 1 - fit.integral;
   observed.push_back(missed);
   expected.push_back(loss > fit.integral_error ? draws * loss : 0);
-  // The cells at a lobe's edge expect few draws; five would leave the test's tail too heavy for
-  // the small levels of whole suites.
+  // Cells at the edge of a lobe expect few draws. With a minimum of five, the tail of the test
+  // would be too heavy for the small significance levels of whole suites.
   constexpr double kMinExpected = 25;
   return chi_square_test(observed, expected, kMinExpected);
 }
 
-/// The common part: `to_point` lays results out on `domain`, `density_at(x, y)` is the density.
+/// The part of the test that all domains share. `to_point` maps results to `domain`, and
+/// `density_at(x, y)` evaluates the density there.
 template <class T, class ToPoint, class DensityAt>
 DensityFit fit_density(const Draw<T>& draw, const Density<T>& density, const FitOptions& options,
                        const Rectangle& domain, const ToPoint& to_point,
@@ -153,7 +155,8 @@ DensityFit fit_density(const Draw<T>& draw, const Density<T>& density, const Fit
   }
   std::vector<Cell> cells;
   bisect(domain, pilot, tested, half / static_cast<std::size_t>(options.cells), 0, cells);
-  // One infinity or NaN would hide all else: it is counted apart.
+  // Invalid values are counted separately, because a single infinity or NaN would hide everything
+  // else.
   const auto valid_density = [&](double x, double y) {
     const double value = density_at(x, y);
     if (value >= 0 && std::isfinite(value)) return value;

@@ -26,7 +26,7 @@ TestResult test_difference(double difference, double squared_error, double degre
   return result;
 }
 
-/// Satterthwaite's degrees of freedom of a sum of two squared errors.
+/// Returns Satterthwaite's degrees of freedom of a sum of two squared errors.
 double joint_degrees_of_freedom(const Estimate& a, const Estimate& b) {
   const double sum = a.squared_error + b.squared_error;
   if (sum == 0) return std::numeric_limits<double>::infinity();

@@ -10,7 +10,8 @@
 namespace pharos::statistics {
 namespace {
 
-/// The mean of channels R, G and B, their names preceded by `layer`.
+/// Returns the mean of channels R, G and B for each pixel. The names of the channels begin with
+/// `layer`.
 std::vector<double> gray_pixels(const Image& image, const std::string& layer) {
   const int r = image.channel_index(layer + "R"), g = image.channel_index(layer + "G"),
             b = image.channel_index(layer + "B");
@@ -58,7 +59,8 @@ class RegionFinder {
     return std::max(a_.effective_contributions(region), b_.effective_contributions(region)) == 0;
   }
 
-  /// The regions of the square at (x, y): those of its quarters, or itself when one falls short.
+  /// Returns the regions of the square at (x, y): the regions of its quarters, or the square itself
+  /// if a quarter has too few contributions.
   Division divide(int x, int y, int size) const {
     const Region region{x, y, std::min(x + size, a_.width()), std::min(y + size, a_.height())};
     if (region.x0 >= region.x1 || region.y0 >= region.y1 || is_dark(region)) return {};
@@ -101,7 +103,7 @@ double relative_detectable(const RegionTest& test, double significance, double p
   return difference == 0 ? 0 : difference / mean;
 }
 
-/// Completes `result` by what its tests are able to see.
+/// Sets the fields of `result` that state the power and validity of its tests.
 void judge_power(ImageAgreement& result, const AgreementOptions& options) {
   std::vector<double> biases;
   bool sufficient = !result.regions.empty();
@@ -156,7 +158,8 @@ void ImageSide::add_observation(const Image& image, const std::string& layer) {
   observations_.push_back(gray_pixels(image, layer));
 }
 
-/// For halves the observation is their mean, of unknown but large sample count.
+/// Computes the sums of each pixel. For halves, the observation is the mean of both, and its sample
+/// count is unknown but large.
 void ImageSide::finish_pixels(double samples_per_pixel) {
   const std::size_t pixels = observations_.front().size();
   pixel_mean_.resize(pixels);
@@ -208,7 +211,8 @@ Estimate ImageSide::mean_of_halves(const Region& region) const {
     }
   }
   const double n = region.pixel_count();
-  // Satterthwaite for a sum of squares with one degree of freedom each, E[d^4] = 3 sigma^4.
+  // Satterthwaite's degrees of freedom of a sum of squares with one degree of freedom each, where
+  // E[d^4] = 3 sigma^4.
   const double freedom = fourths > 0 ? 3 * squares * squares / fourths : n;
   return {sum(pixel_mean_, region) / n, squares / (n * n), std::clamp(freedom, 1.0, n)};
 }

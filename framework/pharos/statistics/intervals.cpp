@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-/// How many standard errors an interval reaches to either side.
+/// Returns how many standard errors an interval extends to either side.
 double student_factor(double degrees_of_freedom, double confidence) {
   if (!(confidence > 0 && confidence < 1)) {
     throw InputError(
@@ -49,7 +49,7 @@ std::vector<double> logarithms(std::span<const double> values) {
   return logs;
 }
 
-/// The mean of `logs` and its interval, taken back from logarithms.
+/// Returns the exponential of the mean of `logs` and of its interval.
 Bounded exponential_of_mean(std::span<const double> logs, double confidence) {
   const Bounded mean = arithmetic_mean(logs, confidence);
   return {std::exp(mean.value), {std::exp(mean.interval.low), std::exp(mean.interval.high)}};

@@ -21,12 +21,12 @@ void check_points(std::span<const Vec2> points) {
   }
 }
 
-/// The cell of u in [0,1) among 2^bits equal ones.
+/// Returns the index of the cell of u in [0,1) among 2^bits equal cells.
 std::size_t cell_of(float u, int bits) {
   return static_cast<std::size_t>(std::ldexp(u, bits));
 }
 
-/// Whether each of the 2^a by 2^b cells holds as many points as any other.
+/// Returns whether all of the 2^a by 2^b cells hold the same number of points.
 bool fills_evenly(std::span<const Vec2> points, int a, int b, std::vector<std::uint32_t>& counts) {
   const std::size_t share = points.size() >> (a + b);
   counts.assign(std::size_t{1} << (a + b), 0);
@@ -36,11 +36,12 @@ bool fills_evenly(std::span<const Vec2> points, int a, int b, std::vector<std::u
   return true;
 }
 
-/// Points whose waves are multiplied at once: few enough to stay in the cache.
+/// The number of points whose waves are multiplied at once. They are few enough to stay in the
+/// cache.
 constexpr std::size_t kBlock = 64;
 
-/// Cosines and sines of 2 pi f u for u of a block of points (rows) and f from 0 to the largest
-/// (columns).
+/// The cosines and sines of 2 pi f u. Rows are the u of a block of points, columns are the
+/// frequencies f from 0 to the largest.
 struct Waves {
   std::size_t columns;
   std::vector<double> cosines, sines;
@@ -50,7 +51,7 @@ struct Waves {
         cosines(kBlock * columns),
         sines(kBlock * columns) {}
 
-  /// Each frequency's waves are those before times the first.
+  /// Computes the waves of each frequency as the product of the previous and the first waves.
   void fill(std::span<const Vec2> points, float Vec2::*component) {
     for (std::size_t i = 0; i < points.size(); ++i) {
       const double angle = 2 * std::numbers::pi * points[i].*component;
@@ -66,7 +67,8 @@ struct Waves {
   }
 };
 
-/// Sums over points of the products of the waves of x (rows: frequencies) and y (columns).
+/// Sums over points of the products of the waves of x (rows: frequencies) and y (columns:
+/// frequencies).
 struct Products {
   std::size_t edge;
   std::vector<double> cos_cos, sin_sin, cos_sin, sin_cos;
@@ -90,7 +92,8 @@ struct Products {
       }
     }
   }
-  /// The squared modulus of the sum of exp(-2 pi i (x, y).p) for x >= 0, by the angle sum formulas.
+  /// Returns the squared modulus of the sum of exp(-2 pi i (x, y).p) for x >= 0, by the angle sum
+  /// formulas.
   double power(int x, int y) const {
     const std::size_t place =
         static_cast<std::size_t>(x) * edge + static_cast<std::size_t>(std::abs(y));
@@ -108,7 +111,7 @@ double star_discrepancy(std::span<const Vec2> points) {
   std::vector<Vec2> by_x(points.begin(), points.end());
   std::ranges::sort(by_x, {}, &Vec2::x);
   const double share = 1.0 / static_cast<double>(points.size());
-  // The y of the points taken so far, sorted, between 0 and 1.
+  // The sorted y coordinates of the points taken so far, between 0 and 1.
   std::vector<double> heights{0, 1};
   double largest = 0;
   for (std::size_t taken = 0; taken <= by_x.size(); ++taken) {

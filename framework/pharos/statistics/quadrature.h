@@ -10,7 +10,7 @@
 
 #include <pharos/core/vec.h>
 
-/// Deterministic integration over rectangles and the sphere, for tests of densities.
+/// Deterministic integration over rectangles and over the sphere, for tests of densities.
 namespace pharos::statistics {
 
 /// An axis-aligned rectangle of integration variables.
@@ -18,7 +18,7 @@ struct Rectangle {
   double x0 = 0, x1 = 1, y0 = 0, y1 = 1;
 };
 
-/// Both halves of a rectangle, the lower one first.
+/// Returns both halves of a rectangle, the lower one first.
 inline std::array<Rectangle, 2> bisected(const Rectangle& r, bool along_x) {
   Rectangle low = r, high = r;
   (along_x ? low.x1 : low.y1) = along_x ? 0.5 * (r.x0 + r.x1) : 0.5 * (r.y0 + r.y1);
@@ -27,22 +27,22 @@ inline std::array<Rectangle, 2> bisected(const Rectangle& r, bool along_x) {
 }
 
 /// A computed integral with an estimate of its error, both in the unit of the integral. The
-/// estimate is too large for smooth integrands and fair along discontinuities.
+/// estimate is too large for smooth integrands and realistic along discontinuities.
 struct Integral {
   double value = 0;
   double error = 0;
 };
 
 struct QuadratureOptions {
-  double tolerance = 1e-5;                  ///< of the sum of all errors [unit of the integral]
-  std::size_t max_evaluations = 2'000'000;  ///< beyond, the error stays as large as it is
+  double tolerance = 1e-5;  ///< bound on the sum of all errors [unit of the integral]
+  std::size_t max_evaluations = 2'000'000;  ///< integration then stops, whatever its error
 };
 
-/// The rectangle on which the sphere is laid out, area-preserving: x = 1 - cos(theta) in [0, 2],
-/// y = phi in [0, 2 pi). A density in these variables is one per steradian.
+/// The rectangle that parametrizes the sphere and preserves area: x = 1 - cos(theta) in [0, 2], y =
+/// phi in [0, 2 pi). A density in these variables is a density per steradian.
 inline constexpr Rectangle kSphereRectangle{0, 2, 0, 2 * 3.14159265358979323846};
 
-/// The direction at (1 - cos(theta), phi). Directions near the poles keep all their digits.
+/// Returns the direction at (1 - cos(theta), phi). Directions near the poles keep all their digits.
 inline Vec3 direction_at(double one_minus_cos, double phi) {
   const double sine = std::sqrt(std::max(0.0, one_minus_cos * (2 - one_minus_cos)));
   return {static_cast<float>(sine * std::cos(phi)), static_cast<float>(sine * std::sin(phi)),
@@ -52,7 +52,7 @@ inline Vec3 direction_at(double one_minus_cos, double phi) {
 namespace detail {
 
 struct GaussNode {
-  double position, weight;  // on [-1, 1]; the weights add up to 1, for a mean
+  double position, weight;  // on [-1, 1]; the weights add up to 1 and give a mean
 };
 inline constexpr std::array<GaussNode, 3> kGauss3{
     {{-0.7745966692414834, 5.0 / 18}, {0, 4.0 / 9}, {0.7745966692414834, 5.0 / 18}}};
@@ -65,7 +65,7 @@ inline constexpr std::array<GaussNode, 5> kGauss5{{{-0.9061798459386640, 0.11846
 template <std::size_t N>
 using GaussGrid = std::array<std::array<double, N>, N>;
 
-/// The values of f at the rule's nodes; the first index runs along x.
+/// Returns the values of f at the nodes of the rule. The first index runs along x.
 template <class F, std::size_t N>
 GaussGrid<N> sample_nodes(const F& f, const Rectangle& r, const std::array<GaussNode, N>& nodes) {
   const double cx = 0.5 * (r.x0 + r.x1), hx = 0.5 * (r.x1 - r.x0);
@@ -88,7 +88,7 @@ double mean_of(const GaussGrid<N>& values, const std::array<GaussNode, N>& nodes
   return mean;
 }
 
-/// Mean sizes of the fourth differences along x and along y: they vanish quickly where the
+/// Mean sizes of the fourth differences along x and along y. They vanish quickly where the
 /// integrand is smooth, and stay as large as the jump along a discontinuity.
 struct Roughness {
   double along_x = 0, along_y = 0;
@@ -123,8 +123,8 @@ Patch integrate_patch(const F& f, const Rectangle& r, std::size_t cell) {
   const double fine = mean_of(values, kGauss5);
   const double coarse = mean_of(sample_nodes(f, r, kGauss3), kGauss3);
   const double area = (r.x1 - r.x0) * (r.y1 - r.y0);
-  // Along a discontinuity both rules may agree by accident: a jump across the patch has fourth
-  // differences of some three times its height, and moves the integral by a tenth of it.
+  // Both rules may agree by accident along a discontinuity. A jump across the patch has fourth
+  // differences of about three times its height and changes the integral by a tenth of its height.
   constexpr double kJump = 0.03;
   const Roughness rough = roughness(values);
   const double jump = kJump * std::max(rough.along_x, rough.along_y);
@@ -136,10 +136,10 @@ Patch integrate_patch(const F& f, const Rectangle& r, std::size_t cell) {
 
 }  // namespace detail
 
-/// Integrates f(x, y) over each of `cells`. Tensor Gauss rules of three and five points, the worst
-/// patch of all cells bisected first, along the axis of larger fourth differences, until the errors
-/// add up to less than the tolerance or the evaluations are used up. A peak that falls between all
-/// nodes of a cell is not seen: callers that know where the peaks are should hand over cells of
+/// Integrates f(x, y) over each of `cells` by tensor Gauss rules of three and five points.
+/// Repeatedly bisects the worst patch of all cells, along the axis of larger fourth differences,
+/// until the errors add up to less than the tolerance or the evaluations are used up. A peak that
+/// falls between all nodes of a cell is missed, so callers that know the peaks should pass cells of
 /// their size.
 template <class F>
 std::vector<Integral> integrate_cells(const F& f, std::span<const Rectangle> cells,
@@ -175,7 +175,7 @@ Integral integrate(const F& f, const Rectangle& area, const QuadratureOptions& o
   return integrate_cells(f, std::span(&area, 1), options).front();
 }
 
-/// Integrates f(direction) over the sphere [unit of f times sr]. Starts from `rows` x `columns`
+/// Integrates f(direction) over the sphere [unit of f times sr], starting from `rows` x `columns`
 /// cells of equal solid angle.
 template <class F>
 Integral integrate_sphere(const F& f, const QuadratureOptions& options = {}, int rows = 16,

@@ -6,15 +6,17 @@
 #include <utility>
 #include <vector>
 
+#include <pharos/core/archive.h>
 #include <pharos/core/random.h>
 
 namespace pharos::statistics {
 
-/// A sample of at most `capacity` items of a weighted stream: VAROPT (Cohen et al. 2009, "Stream
-/// sampling for variance-optimal estimation of subset sums", algorithm 1). Items stay with output
-/// weights whose expectations are the weights that they came with, and whose sum is that of all
-/// weights so far, to rounding, whatever the order. Heavy items keep their own weights; all others
-/// share one, the threshold. Memory is constant once `capacity` items are in.
+/// A sample of at most `capacity` items of a weighted stream, by VAROPT (Cohen et al. 2009, "Stream
+/// sampling for variance-optimal estimation of subset sums", algorithm 1). The items in the sample
+/// have output weights. The expected output weight of an item is the weight that it came with. The
+/// sum of the output weights is the sum of all weights so far, to rounding, whatever the order.
+/// Heavy items keep their own weights; all other items share one weight, the threshold. Memory is
+/// constant once the sample holds `capacity` items.
 template <class Item>
 class VarOptReservoir {
  public:
@@ -22,23 +24,11 @@ class VarOptReservoir {
   struct Entry {
     Item item;
     double weight;
+    void archive(Archive& archive) { archive(item, weight); }
   };
 
-  /// `capacity` > 0.
+  /// Makes an empty reservoir. Requires `capacity` > 0.
   explicit VarOptReservoir(std::size_t capacity) : capacity_(capacity) {}
-  /// As it was: with what the functions of these names returned.
-  VarOptReservoir(std::size_t capacity, double threshold, double total_weight,
-                  std::vector<Entry> heavy, std::vector<Item> light)
-      : capacity_(capacity),
-        heavy_(std::move(heavy)),
-        light_(std::move(light)),
-        threshold_(threshold),
-        total_(total_weight) {
-    // A heap stays as it is: making it anew would exchange equals.
-    if (std::is_heap(heavy_.begin(), heavy_.end(), is_heavier)) return;
-    std::make_heap(heavy_.begin(), heavy_.end(), is_heavier);
-  }
-
   /// Takes an item; weights that are not positive and finite are ignored. Draws at most one number.
   void insert(const Item& item, double weight, RandomStream& random) {
     if (!(weight > 0) || !std::isfinite(weight)) return;
@@ -47,8 +37,8 @@ class VarOptReservoir {
       push_heavy({item, weight});
       return;
     }
-    // What is up for being dropped: the light items, of one weight, and the candidates, each below
-    // the new threshold, once it is found.
+    // One item will be dropped: a light item or a candidate. Light items share one weight.
+    // Candidates have weights below the new threshold, which is not known yet.
     candidates_.clear();
     double sum = threshold_ * static_cast<double>(light_.size());
     if (weight > threshold_) {
@@ -69,13 +59,25 @@ class VarOptReservoir {
 
   std::size_t capacity() const { return capacity_; }
   std::size_t size() const { return heavy_.size() + light_.size(); }
-  /// The sum of all weights that came.
+  /// The sum of the weights of all items that were inserted.
   double total_weight() const { return total_; }
 
-  /// The items that keep their own weights, and those that share one, the threshold.
+  /// The items that keep their own weights, the items that share one weight, and this shared
+  /// weight, the threshold.
   const std::vector<Entry>& heavy() const { return heavy_; }
   const std::vector<Item>& light() const { return light_; }
   double threshold() const { return threshold_; }
+
+  /// Saves the sample, or loads it into a reservoir of the same capacity.
+  void archive(Archive& archive) {
+    archive(threshold_, total_, heavy_, light_);
+    if (!archive.loads()) return;
+    bool is_sound = threshold_ >= 0 && total_ >= 0 && size() <= capacity_ &&
+                    (light_.empty() || threshold_ > 0) &&
+                    std::is_heap(heavy_.begin(), heavy_.end(), is_heavier);
+    for (const Entry& entry : heavy_) is_sound &= entry.weight > threshold_;
+    archive.expect(is_sound, "the reservoir");
+  }
 
   /// Calls `visit(item, output weight)` for every item.
   template <class Visit>
@@ -98,8 +100,8 @@ class VarOptReservoir {
     return entry;
   }
 
-  /// Drops one item: each with the probability that its weight lacks to the new threshold. All of
-  /// them together lack one.
+  /// Drops one item. The probability of dropping an item is one minus the ratio of its weight to
+  /// the new threshold. These probabilities add up to one.
   void drop_one(double old_threshold, RandomStream& random) {
     double u = static_cast<double>(random() >> 11) * 0x1p-53;
     for (Entry& candidate : candidates_) {
@@ -110,7 +112,8 @@ class VarOptReservoir {
         return;
       }
     }
-    // Of the light items, all alike; nothing is left to divide where only rounding came this far.
+    // All light items have the same probability. The divisor may be zero if only rounding led here,
+    // so the index is clamped.
     const double share = u / (1 - old_threshold / threshold_);
     const double last = static_cast<double>(light_.size()) - 1;
     const auto index = static_cast<std::size_t>(std::min(std::max(0.0, share), last));
@@ -119,9 +122,9 @@ class VarOptReservoir {
   }
 
   std::size_t capacity_;
-  std::vector<Entry> heavy_;       ///< a heap, the lightest first; above the threshold
-  std::vector<Item> light_;        ///< of weight `threshold_`
-  std::vector<Entry> candidates_;  ///< scratch
+  std::vector<Entry> heavy_;       ///< a heap with the lightest item first; above the threshold
+  std::vector<Item> light_;        ///< all have the weight `threshold_`
+  std::vector<Entry> candidates_;  ///< scratch memory of insert()
   double threshold_ = 0;
   double total_ = 0;
 };

@@ -12,7 +12,7 @@ TEST_CASE("adam: the first step has the length of the learning rate, whatever th
     CHECK(Adam().step(gradient, {.learning_rate = 0.3}) == doctest::Approx(-0.3).epsilon(1e-3));
     CHECK(Adam().step(-gradient, {.learning_rate = 0.3}) == doctest::Approx(0.3).epsilon(1e-3));
   }
-  // A gradient as large as epsilon: half a step.
+  // A gradient as large as epsilon causes half a step.
   CHECK(Adam().step(1e-8, {.learning_rate = 0.3}) == doctest::Approx(-0.15));
 }
 

@@ -1,4 +1,4 @@
-// BSDFs: a planted fault turns exactly the checks red that are there to find it.
+// BSDFs: a planted fault makes exactly the checks fail that are meant to find it.
 
 #include <atomic>
 #include <cmath>
@@ -34,7 +34,7 @@ enum class BsdfFault {
   memory
 };
 
-/// A matt surface.
+/// A matte surface.
 class FaultyBsdf final : public Bsdf {
  public:
   using Settings = FaultSettings<BsdfFault>;
@@ -83,7 +83,8 @@ class FaultyBsdf final : public Bsdf {
 
 TEST_CASE("conformance: faults of a BSDF") {
   CHECK(red_with<FaultyBsdf>(BsdfFault::none) == "");
-  // Too large a density may show in the counts as well: they expect more draws than there are.
+  // A density that is too large may also fail the test of counts, which then expects more draws
+  // than there are.
   CHECK(red_with<FaultyBsdf>(BsdfFault::pdf_scale).ends_with("integral"));
   CHECK(red_with<FaultyBsdf>(BsdfFault::pdf_scale_of_half).ends_with("integral"));
   CHECK(red_with<FaultyBsdf>(BsdfFault::pdf_shape) == "chi_square");
@@ -112,7 +113,7 @@ TEST_CASE("conformance: the report does not depend on the number of threads") {
 
 enum class GlassFault { none, no_scaling, probability };
 
-/// An interface that refracts with the share 0.8 wherever it can.
+/// An interface that refracts the share 0.8, except under total reflection.
 class FaultyGlass final : public Bsdf {
  public:
   using Settings = FaultSettings<GlassFault>;

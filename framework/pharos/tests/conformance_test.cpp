@@ -1,4 +1,4 @@
-// Which cases a plugin is tested in, and what a report says.
+// The cases in which a plugin is tested, and the content of a report.
 
 #include <filesystem>
 #include <set>
@@ -33,7 +33,7 @@ struct EnumNames<Mode> {
 
 namespace {
 
-/// A texture with a file that must be given, a choice and a switch.
+/// A texture with a required file, a choice and a boolean.
 class FileTexture final : public Texture {
  public:
   struct Settings {

@@ -32,7 +32,7 @@ class Box final : public Filter {
 constexpr int kSize = 8;
 constexpr PixelRect kAll{0, 0, kSize, kSize};
 
-/// One pass of `n` samples a pixel, of value value(film position, random).
+/// Adds one pass of `n` samples per pixel with the values value(film position, random).
 template <class Value>
 void add_pass(Film& film, int n, std::uint64_t seed, Value&& value) {
   FilmTile tile = film.make_tile(kAll);
@@ -88,7 +88,7 @@ TEST_CASE("splats keep their sum, and are divided by all paths") {
     RandomStream random(3);
     for (int i = 0; i < 20000; ++i) {
       const Vec2 u = random.next_2d();
-      // Anywhere on the film but near its edge, where filters lose a part.
+      // Splats fall anywhere on the film except near its edge, where filters lose a part of them.
       tile.add_splat({2 + 4 * u.x, 2 + 4 * u.y}, Rgb(8));
     }
     tile.count_paths(1000);
@@ -175,7 +175,8 @@ TEST_CASE("selected layers follow the color") {
   CHECK(image.pixel(0, 0)[4] == 2);
 }
 
-/// An image of mean one whose noise has the given standard deviation, of so many passes.
+/// Returns a film of mean one after `passes` passes. The noise of one pass has the standard
+/// deviation `sigma`.
 Film noisy(float sigma, std::uint64_t passes, std::uint64_t seed) {
   Film film(kSize, kSize, std::make_shared<Box>());
   for (std::uint64_t pass = 0; pass < passes; ++pass) {

@@ -10,7 +10,7 @@
 
 namespace pharos::test {
 
-/// A folder that lives as long as the object.
+/// A temporary folder that exists as long as the object.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -37,7 +37,7 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-/// The message of the InputError that `run` throws; "no error" when it throws none.
+/// Returns the message of the InputError that `run` throws, or "no error" if it throws none.
 template <class Run>
 std::string input_error(Run&& run) {
   try {
@@ -48,7 +48,8 @@ std::string input_error(Run&& run) {
   return "no error";
 }
 
-/// The same without the folder's name, so that messages can be compared as a whole.
+/// Returns the same message without the path of the folder, so that messages can be compared as a
+/// whole.
 template <class Run>
 std::string input_error_in(const TemporaryFolder& folder, Run&& run) {
   std::string message = input_error(run);

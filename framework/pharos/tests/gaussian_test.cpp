@@ -17,7 +17,7 @@ Vector<D> normal_point(RandomStream& random) {
   return x;
 }
 
-/// A needle or pancake somewhere, with axes in the ratio `flat` at most.
+/// Returns a needle or pancake at a random place. The ratio of its axes is at most `flat`.
 template <int D>
 Gaussian<D> random_gaussian(RandomStream& random, double flat) {
   Matrix<D> m;
@@ -64,7 +64,7 @@ double normal_density(const Gaussian<D>& g, const Vector<D>& x) {
          std::sqrt(std::pow(2 * EIGEN_PI, D) * g.covariance.determinant());
 }
 
-/// Moments that something earlier left behind.
+/// Returns random moments, as if they came from earlier points.
 template <int D>
 std::vector<Moments<D>> random_moments(std::size_t count, RandomStream& random) {
   std::vector<Moments<D>> all;

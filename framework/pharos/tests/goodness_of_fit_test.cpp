@@ -11,7 +11,7 @@
 namespace pharos::statistics {
 namespace {
 
-/// A von Mises-Fisher lobe about `frame.n`, in the form that is stable for sharp ones.
+/// A von Mises-Fisher lobe about `frame.n`, in a form that is stable for sharp lobes.
 struct Lobe {
   Frame frame;
   double sharpness;
@@ -36,7 +36,7 @@ struct Lobe {
 }  // namespace
 
 TEST_CASE("chi-square: textbook value") {
-  // A die thrown 60 times: sum of (o - 10)^2 / 10 = 13.4 with five degrees of freedom.
+  // A die is thrown 60 times: the sum of (o - 10)^2 / 10 is 13.4, with five degrees of freedom.
   const std::vector<double> observed{5, 8, 9, 8, 10, 20}, expected(6, 10);
   const ChiSquareResult result = chi_square_test(observed, expected);
   CHECK(result.statistic == doctest::Approx(13.4));
@@ -107,8 +107,8 @@ TEST_CASE("density fit: faults are seen") {
 }
 
 TEST_CASE("density fit: scattered supports with sharp edges are integrated whole") {
-  // The square [-1,1]^2 at height h below the origin, uniform over its area: near the horizon it
-  // shows as four spikes about the corners, from the azimuth 0 to 2 pi.
+  // Draws are uniform over the area of the square [-1,1]^2 at height h below the origin. Near the
+  // horizon, the directions form four spikes about the corners, at azimuths from 0 to 2 pi.
   std::vector<double> p_values;
   for (const double height : {0.5, 0.1, 0.03}) {
     const auto draw = [&](RandomStream& random) -> std::optional<Vec3> {
@@ -141,7 +141,7 @@ TEST_CASE("density fit: draws without a result are part of the test") {
   CHECK(fit.is_density());
   CHECK(fit.missed == doctest::Approx(1 - fit.integral).epsilon(0.05));
   CHECK(fit.chi_square.p_value > 0.01);
-  // Claiming that nothing is lost must fail.
+  // A density that claims that nothing is lost must fail.
   const double kept = fit.integral;
   const auto renormalized = [&](Vec3 d) { return clipped(d) / kept; };
   CHECK(fit_direction_density(draw, renormalized).chi_square.p_value < 1e-6);

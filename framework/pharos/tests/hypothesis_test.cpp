@@ -11,7 +11,7 @@
 namespace pharos::statistics {
 namespace {
 
-/// `n` normal observations about `mean` with standard deviation `sigma`.
+/// Returns the estimate from `n` normal observations about `mean` with standard deviation `sigma`.
 Estimate normal_estimate(RandomStream& random, int n, double mean, double sigma) {
   std::vector<double> values;
   for (int i = 0; i < n; ++i) {
@@ -34,14 +34,15 @@ TEST_CASE("Welch's test: a worked example") {
   const Estimate a = estimate({.mean = 20.82, .variance = 7.92, .count = 15});
   const Estimate b = estimate({.mean = 22.99, .variance = 3.79, .count = 15});
   const TestResult result = welch_test(a, b);
-  // By hand: standard error sqrt(0.528 + 0.252667) = 0.883553.
+  // Computed by hand: the standard error is sqrt(0.528 + 0.252667) = 0.883553.
   CHECK(result.statistic == doctest::Approx(-2.17 / 0.883553).epsilon(1e-5));
   CHECK(result.degrees_of_freedom == doctest::Approx(24.9).epsilon(1e-2));
   CHECK(result.p_value == doctest::Approx(0.0214).epsilon(2e-2));
 }
 
 TEST_CASE("one-sample tests: tabulated quantiles") {
-  // 2.262 is the 97.5 % point of Student's t with nine degrees of freedom, 1.959964 the normal's.
+  // 2.262 is the 97.5 % point of Student's t with nine degrees of freedom, and 1.959964 is the 97.5
+  // % point of the normal distribution.
   const Estimate t{.mean = 2.262157, .squared_error = 1, .degrees_of_freedom = 9};
   CHECK(one_sample_test(t, 0).p_value == doctest::Approx(0.05).epsilon(1e-5));
   const Estimate z{.mean = 1 + 2 * 1.959964, .squared_error = 4};
@@ -86,7 +87,8 @@ TEST_CASE("Welch's test holds its level and finds the detectable difference") {
     moved.mean += difference;
     found += welch_test(a, moved).p_value < kLevel;
   }
-  // Four standard errors of a share, plus the slight optimism of the central approximation.
+  // The tolerances are four standard errors of a share, plus the slight optimism of the central
+  // approximation.
   CHECK(alarms / double{kTrials} == doctest::Approx(kLevel).epsilon(4 * 0.0034 / kLevel));
   CHECK(found / double{kTrials} == doctest::Approx(0.9).epsilon(0.03));
 }

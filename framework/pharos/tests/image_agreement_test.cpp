@@ -12,7 +12,7 @@
 namespace pharos::statistics {
 namespace {
 
-/// Synthetic renders of a gradient: each pixel is a sum of rare contributions of log-normal size.
+/// Synthetic renders of a gradient. Each pixel is a sum of rare contributions of log-normal size.
 struct Noise {
   int size = 32;
   int samples = 16;       ///< per pixel
@@ -58,7 +58,7 @@ TEST_CASE("images agree: false alarms come at the nominal rate") {
         compare_images(noise.side(2 * family), noise.side(2 * family + 1));
     alarms += !result.agree;
   }
-  // Binomial with 1 %: more than seven have a probability of 0.1 %.
+  // The number of alarms is binomial with 1 %. More than seven alarms have a probability of 0.1 %.
   CHECK(alarms <= 7);
 }
 
@@ -98,7 +98,7 @@ TEST_CASE("images agree: a local fault is found") {
 TEST_CASE("images agree: heavy tails need large regions, and too few samples are admitted") {
   const Noise rare{.samples = 16, .hit_rate = 0.01, .spread = 1};
   const ImageSide a = rare.side(1), b = rare.side(2);
-  // About 64 * 16 * 0.01 / e contributions in a block: far too few, so that blocks are merged.
+  // A block has about 64 * 16 * 0.01 / e contributions. They are far too few, so blocks are merged.
   CHECK(a.effective_contributions({0, 0, 8, 8}) == doctest::Approx(4).epsilon(0.6));
   const ImageAgreement result = compare_images(a, b);
   INFO(result.summary());

@@ -35,7 +35,7 @@ std::string bytes_of(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// An uncompressed gray 8-bit TIFF of 64 x 64 pixels in one strip, which comes last.
+/// Returns an uncompressed gray 8-bit TIFF of 64 x 64 pixels. Its only strip comes last.
 std::string tiff_bytes() {
   std::string bytes = "II*";
   bytes += '\0';
@@ -52,9 +52,9 @@ std::string tiff_bytes() {
                                           {258, kShort, 8},      // bits per sample
                                           {259, kShort, 1},      // no compression
                                           {262, kShort, 1},      // black is zero
-                                          {273, kLong, 110},     // where the strip begins
-                                          {278, kShort, 64},     // rows in it
-                                          {279, kLong, 4096}}};  // bytes in it
+                                          {273, kLong, 110},     // start of the strip
+                                          {278, kShort, 64},     // rows in the strip
+                                          {279, kLong, 4096}}};  // bytes in the strip
   put(8, 4);
   put(entries.size(), 2);
   for (const Entry& entry : entries) {
@@ -124,7 +124,7 @@ TEST_CASE("PNG: exposure, the filmic curve and values out of range") {
   CHECK(shown(-1, 0, false) == 0);
   CHECK(shown(NAN, 0, true) == 0);
   CHECK(shown(kInfinity, 0, true) == 255);
-  // The fit at 1: 2.54 / 3.16.
+  // The fit at 1 is 2.54 / 3.16.
   CHECK(shown(1, 0, true) == std::lround(255 * srgb_from_linear(2.54f / 3.16f)));
   CHECK(shown(0, 0, true) == 0);
 }

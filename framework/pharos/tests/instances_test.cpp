@@ -1,4 +1,4 @@
-// Groups placed in the world: what rays find on them, next to the same surfaces placed one by one.
+// Groups placed in the world: rays must find the same surfaces as if these were placed one by one.
 
 #include <chrono>
 #include <fstream>
@@ -23,7 +23,7 @@ double dot(const Vec3d& a, const Vec3d& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// The unit ball about the origin, analytic; insists that directions have unit length.
+/// The unit ball about the origin, as an analytic shape. It requires directions of unit length.
 class Ball : public Shape {
  public:
   Bounds3 bounds() const override { return {{-1, -1, -1}, {1, 1, 1}}; }
@@ -79,7 +79,7 @@ std::vector<Transform> maps() {
           sheared() * Transform::scale({-1, 0.2f, 3})};
 }
 
-/// As shapes do it: the outer side stays the outer side.
+/// Transforms a mesh like a shape does: the outer side stays the outer side.
 TriangleMesh transformed(TriangleMesh mesh, const Transform& map) {
   for (Point3& p : mesh.positions) p = map.point(p);
   for (Vec3& n : mesh.normals) n = normalize(map.normal(n));
@@ -107,7 +107,8 @@ Ref<Shape> shape_of(TriangleMesh mesh) {
   return std::make_shared<const test::MeshShape>(std::move(mesh));
 }
 
-/// Towards random points of a ball of radius 1.3 about the local origin, from outside it.
+/// Returns a ray from outside towards a random point of a ball of radius 1.3 about the local
+/// origin.
 Ray random_ray(RandomStream& random, const Transform& map) {
   const Point3 origin = map.point(3 * test::random_direction(random));
   const Point3 target = map.point(1.3f * random.next_1d() * test::random_direction(random));
@@ -132,7 +133,7 @@ TEST_CASE("an instance is met like the same meshes placed one by one") {
       if (t == kInfinity && u == kInfinity) continue;
       ++hits;
       if (p.object != q.object || p.primitive != q.primitive) {
-        ++other_triangles;  // at an edge
+        ++other_triangles;  // the ray meets an edge
         continue;
       }
       const float cosine = abs_dot(ray.direction, q.normal);
@@ -140,7 +141,7 @@ TEST_CASE("an instance is met like the same meshes placed one by one") {
       CHECK(std::abs(t - u) < apart);
       CHECK(length(p.position - q.position) < apart);
       CHECK(abs_dot(p.position - q.position, q.normal) < p.error + q.error);
-      // Vertices that were placed one by one are rounded, by more than all else.
+      // Vertices that were placed one by one are rounded, which causes the largest difference.
       CHECK(length(p.normal - q.normal) < 1e-5f + 100 * q.error);
       CHECK(dot(p.shading.n, p.normal) > 0);
       CHECK(length(cross(p.shading.s, p.shading.t) - p.shading.n) < 1e-5f);
@@ -227,7 +228,7 @@ TEST_CASE("an analytic ball in an instance is the ellipsoid that the map makes o
       const Vec3 local = map.inverse_point(p.position);
       CHECK(std::abs(length(local) - 1) < p.error * length(map.normal(local)));
       CHECK(dot(p.normal, normalize(map.normal(local))) == doctest::Approx(1));
-      CHECK(dot(p.normal, ray.direction) < 0.01f);  // met from outside, mirrored or not
+      CHECK(dot(p.normal, ray.direction) < 0.01f);  // the ray comes from outside, mirrored or not
       ray.t_max = t * 1.001f;
       CHECK(scene.intersect(ray, p) == t);
       CHECK(scene.occluded(ray));
@@ -258,8 +259,8 @@ struct Faults {
   int leaks = 0, self_hits = 0, blocked = 0;
 };
 
-/// Walks from wall to wall within a closed surface about the local origin. `convex`: also sends
-/// rays off its outer side, which meet nothing.
+/// Walks from wall to wall inside a closed surface about the local origin. If `convex` is set, also
+/// sends rays away from the outer side, which must meet nothing.
 Faults walk(const Scene& scene, const Transform& map, bool convex) {
   Faults faults;
   RandomStream random(3);
@@ -306,7 +307,7 @@ TEST_CASE("rays neither leak from instances nor meet the surface they leave, nea
   }
 }
 
-/// Resident memory of this process [MiB].
+/// Returns the resident memory of this process [MiB].
 double resident_mebibytes() {
   std::ifstream statm("/proc/self/statm");
   std::size_t whole = 0, resident = 0;
@@ -328,7 +329,7 @@ TEST_CASE("ten thousand instances cost little next to the triangles that they sh
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   const double memory = resident_mebibytes() - before;
   MESSAGE("98 million triangles in ", memory, " MiB and ", seconds.count(), " s");
-  CHECK(memory < 200);  // placed one by one they take more than 10,000
+  CHECK(memory < 200);  // placed one by one, they take more than 10,000 MiB
   CHECK(scene.primitive_count() == ball.triangles.size());
   SurfacePoint p;
   CHECK(scene.intersect({{297, 9, 150}, {0, -1, 0}}, p) == doctest::Approx(8).epsilon(0.02));

@@ -22,7 +22,7 @@ bool holds(const Interval& interval, double value) {
   return interval.low <= value && value <= interval.high;
 }
 
-/// The share of `trials` for which `covered(random)` holds.
+/// Returns the share of `trials` for which `covered(random)` holds.
 template <class Covered>
 double coverage(std::uint64_t seed, int trials, Covered&& covered) {
   RandomStream random(seed);
@@ -32,7 +32,7 @@ double coverage(std::uint64_t seed, int trials, Covered&& covered) {
 }
 
 constexpr int kTrials = 20'000;
-/// Four standard errors of a share of 95 % or less in kTrials: 0.62 % at 95 %, 1.1 % at 80 %.
+/// Returns four standard errors of a share in kTrials: 0.62 % for a share of 95 %, 1.1 % for 80 %.
 double tolerance(double share) {
   return 4 * std::sqrt(share * (1 - share) / kTrials);
 }
@@ -40,7 +40,8 @@ double tolerance(double share) {
 }  // namespace
 
 TEST_CASE("arithmetic mean: a worked example, one value, none") {
-  // Standard deviation 1; 4.302653 is the 97.5 % point of Student's t with two degrees of freedom.
+  // The standard deviation is 1, and 4.302653 is the 97.5 % point of Student's t with two degrees
+  // of freedom.
   const Bounded mean = arithmetic_mean(Values{-1, 0, 1});
   CHECK(mean.value == doctest::Approx(0));
   CHECK(mean.interval.high == doctest::Approx(4.302653 / std::sqrt(3.0)));
@@ -50,8 +51,8 @@ TEST_CASE("arithmetic mean: a worked example, one value, none") {
 }
 
 TEST_CASE("geometric mean: a worked example") {
-  // Logarithms 0, 1 and 2: mean 1, standard deviation 1; 4.302653 is the 97.5 % point of Student's
-  // t with two degrees of freedom.
+  // The logarithms 0, 1 and 2 have mean 1 and standard deviation 1. The 97.5 % point of Student's t
+  // with two degrees of freedom is 4.302653.
   const Bounded mean = geometric_mean(Values{1, std::exp(1.0), std::exp(2.0)});
   CHECK(mean.value == doctest::Approx(std::exp(1.0)));
   CHECK(std::log(mean.interval.low) == doctest::Approx(1 - 4.302653 / std::sqrt(3.0)));
@@ -73,7 +74,7 @@ TEST_CASE("geometric mean: equal values are known exactly, one value not at all"
 }
 
 TEST_CASE("ratios are taken pair by pair") {
-  // Whatever spreads both alike does not widen the interval.
+  // A factor that both values share does not widen the interval.
   const Bounded ratio = mean_ratio(Values{2, 200, 0.02}, Values{1, 100, 0.01});
   CHECK(ratio.value == doctest::Approx(2));
   CHECK(ratio.interval.low == doctest::Approx(2));

@@ -18,7 +18,8 @@ TEST_CASE("items are sorted by their keys and keep their order within") {
   CHECK(first == std::vector<std::size_t>{0, 0, 3, 4, 6, 6});
 }
 
-/// A tree of four cells: x below and above 0, the upper part by y = 1, that one's by z = 2.
+/// Returns a tree of four cells. It is divided at x = 0, its upper part at y = 1, and the upper
+/// part of the upper part at z = 2.
 KdTree small_tree() {
   KdTree tree;
   auto halves = tree.divide(0, 0, 0);
@@ -68,7 +69,7 @@ struct Step {
   Point3 origin;
 };
 
-/// Counts what it is taught.
+/// Counts the steps from which it learns.
 struct Counter {
   double seen = 0;
   bool knows = false;
@@ -92,7 +93,7 @@ void count(Counter& counter, std::span<const Step> steps, std::size_t) {
   counter.knows = counter.knows || !steps.empty();
 }
 
-/// Steps along x, from 0 to 1.
+/// Returns steps along x, from 0 to 1.
 std::vector<Step> steps_along_x(int count) {
   std::vector<Step> steps;
   for (int i = 0; i < count; ++i) steps.push_back({{(i + 0.5f) / static_cast<float>(count), 0, 0}});
@@ -116,7 +117,7 @@ TEST_CASE("cells are divided where samples are many, and all samples count once"
   steps = steps_along_x(80);
   cells.learn(steps, rule, count);
   CHECK(cells.size() == 2);
-  // Both halves keep a quarter of what was known, and learn from their own.
+  // Both halves keep a quarter of the old count and learn from their own steps.
   CHECK(cells[0].seen == doctest::Approx(20 + 40));
   CHECK(cells[1].seen == doctest::Approx(20 + 40));
   CHECK(cells.tree().cell_at({0.49f, 0, 0}) != cells.tree().cell_at({0.51f, 0, 0}));
@@ -184,7 +185,7 @@ TEST_CASE("guidable steps: with what came along them, each once where paths bran
                             .unguided_pdf = 0.25f,
                             .guidable = true};
   log.add(matt);
-  // The next vertex stands twice, once for each of the steps that it takes.
+  // The next vertex is recorded twice, once for each step that it takes.
   for (int copy = 0; copy < 2; ++copy) {
     RecordedVertex next = matt;
     next.parent = 1;
@@ -202,7 +203,8 @@ TEST_CASE("guidable steps: with what came along them, each once where paths bran
   for_each_guidable_step(log[0], incident, [&](const GuidableStep& step) {
     numbers.push_back(step.number);
     CHECK(step.pdf == 0.25f);
-    CHECK(step.radiance.r == doctest::Approx(4));  // 2 x 0.5 x 4 at the first, 4 at the copies
+    CHECK(step.radiance.r ==
+          doctest::Approx(4));  // 2 x 0.5 x 4 at the first vertex, 4 at the copies
     CHECK(step.reflected.r == doctest::Approx(2));
   });
   CHECK(numbers == std::vector<std::uint32_t>{1, 2, 4});

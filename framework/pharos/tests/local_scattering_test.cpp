@@ -8,7 +8,7 @@
 namespace pharos {
 namespace {
 
-/// A white diffuse surface on both sides that also mirrors and lets light straight through.
+/// A surface that is white and diffuse on both sides, mirrors light and also lets it pass straight.
 class EverythingBsdf : public Bsdf {
  public:
   EventMask events() const override { return EventMask::all; }
@@ -54,7 +54,7 @@ class ForwardPhase : public PhaseFunction {
   float mean_cosine() const override { return -0.75f; }
 };
 
-/// A surface facing +z whose shading normal leans towards +x.
+/// Returns a point of a surface that faces +z. Its shading normal leans towards +x.
 SurfacePoint leaning(float degrees) {
   SurfacePoint p;
   p.normal = {0, 0, 1};
@@ -94,10 +94,10 @@ TEST_CASE("the density is that of the samples, and none go where sides disagree"
       [&](Vec3 direction) -> double { return s.evaluate(direction, kSmooth).pdf; },
       {.draws = 40'000, .cells = 60, .quadrature_tolerance = 1e-3});
   CHECK(fit.outside_support == 0);
-  CHECK(fit.missed > 0.05);  // the cosine lobe's part below the surface: (1 - cos 50) / 2
+  CHECK(fit.missed > 0.05);  // share of the cosine lobe below the surface: (1 - cos 50) / 2
   CHECK(fit.integral + fit.missed == doctest::Approx(1).epsilon(0.01));
   CHECK(fit.chi_square.p_value > 1e-4);
-  // Above the shading surface and below the geometric one, and the other way round:
+  // The directions lie above the shading surface and below the geometric one, or vice versa.
   CHECK(is_black(s.evaluate(normalize({0.9f, 0, -0.1f})).value));
   CHECK(s.evaluate(normalize({0.9f, 0, -0.1f})).pdf == 0);
   CHECK(s.evaluate(normalize({-0.9f, 0, 0.1f})).pdf == 0);

@@ -1,4 +1,4 @@
-// Files of learned models: what is written is read back, and every damage is told of.
+// Files of learned models: a model is read back as it was written, and all damage is reported.
 
 #include <fstream>
 #include <istream>
@@ -15,7 +15,7 @@
 namespace pharos::test {
 namespace {
 
-/// A model that is one number.
+/// A model that consists of one number.
 class NumberModel final : public GuidingModel {
  public:
   explicit NumberModel(std::uint32_t number) : number_(number) {}
@@ -33,7 +33,7 @@ class NumberModel final : public GuidingModel {
   std::uint32_t number_;
 };
 
-/// Reads such models; of those it does not like, nothing.
+/// Reads such models. Returns null for the number zero.
 class NumberLearner final : public Learner {
  public:
   struct Settings {
@@ -71,20 +71,20 @@ std::string content(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// The message for a file of these bytes.
+/// Returns the error message for a file of these bytes.
 std::string refusal(const TemporaryFolder& folder, const std::string& bytes,
                     const std::string& learner = "counting") {
   const std::filesystem::path path = folder.write("changed.model", bytes);
   return input_error_in(folder, [&] { read_model_file(path, *learner_from(learner)); });
 }
 
-/// The bytes of a file with the model 7 of the learner 'counting'.
+/// Returns the bytes of a file with the model `number` of the learner 'counting'.
 std::string sound_file(const TemporaryFolder& folder, std::uint32_t number = 7) {
   write_model_file(NumberModel(number), "counting", folder / "sound.model");
   return content(folder / "sound.model");
 }
 
-/// Where the fields after the names begin.
+/// The offsets of the fields after the names [bytes].
 constexpr std::size_t kVersionAt = 8 + 4 + (4 + 8) + (4 + 8), kLengthAt = kVersionAt + 4,
                       kModelAt = kLengthAt + 8;
 

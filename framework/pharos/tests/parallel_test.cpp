@@ -12,7 +12,7 @@ using namespace pharos;
 
 namespace {
 
-/// A sum whose rounding depends on the order of its terms.
+/// Returns a sum whose rounding depends on the order of its terms.
 float ordered_sum(std::size_t count) {
   float sum = 0;
   parallel_ordered(

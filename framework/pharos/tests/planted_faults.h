@@ -4,24 +4,24 @@
 
 #include <pharos/conformance/conformance.h>
 
-/// Planted faults: a plugin whose settings name the fault that it is built with.
+/// Planted faults: plugins whose settings name the fault with which they are built.
 namespace pharos::test {
 
-/// The settings of a plugin that is sound but for the fault `planted`.
+/// The settings of a plugin that is sound except for the fault `planted`.
 template <class Fault>
 struct FaultSettings {
   static inline Fault planted = Fault::none;
   static void describe(Schema<FaultSettings>&) {}
 };
 
-/// The names of the checks that failed, in one text.
+/// Returns the names of the checks that failed, in one text.
 inline std::string red(const conformance::Report& report) {
   std::string text;
   for (const std::string& name : failed_checks(report)) text += (text.empty() ? "" : " ") + name;
   return text;
 }
 
-/// The report on the plugin P with a fault.
+/// Returns the conformance report on the plugin P with a fault.
 template <class P, class Fault>
 conformance::Report report_with(Fault fault) {
   FaultSettings<Fault>::planted = fault;

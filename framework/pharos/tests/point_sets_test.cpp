@@ -26,7 +26,7 @@ Points independent(std::size_t count, std::uint64_t seed) {
   return points;
 }
 
-/// 2^bits by 2^bits points, each at `offset` [1] within its cell.
+/// Returns 2^bits by 2^bits points, each at `offset` [1] within its cell.
 Points grid(int bits, float offset) {
   Points points;
   const int edge = 1 << bits;
@@ -39,7 +39,7 @@ Points grid(int bits, float offset) {
   return points;
 }
 
-/// The digits of the radical inverse of `i` in base 2, as a fraction.
+/// Returns the radical inverse of `i` in base 2.
 float radical_inverse(std::uint32_t i) {
   float value = 0, digit = 0.5f;
   for (; i > 0; i >>= 1, digit /= 2) value += (i & 1) != 0 ? digit : 0;
@@ -54,8 +54,8 @@ Points hammersley(std::uint32_t count) {
   return points;
 }
 
-/// The first two dimensions of Sobol's sequence; the second by its direction numbers
-/// v_(j+1) = v_j xor (v_j >> 1).
+/// Returns the first two dimensions of the Sobol sequence. The second dimension uses the direction
+/// numbers v_(j+1) = v_j xor (v_j >> 1).
 Points sobol(std::uint32_t count) {
   Points points;
   for (std::uint32_t i = 0; i < count; ++i) {
@@ -68,8 +68,8 @@ Points sobol(std::uint32_t count) {
   return points;
 }
 
-/// The definition: all boxes whose sides end at a point or at 1, with their upper edges and
-/// without.
+/// Computes the star discrepancy by its definition, from all boxes whose sides end at a point or at
+/// 1, with and without their upper edges.
 double star_discrepancy_by_definition(const Points& points) {
   std::vector<double> xs{1}, ys{1};
   for (const Vec2 p : points) {
@@ -107,16 +107,16 @@ double sinc_squared(double v) {
 }  // namespace
 
 TEST_CASE("star discrepancy: one point") {
-  // The box up to the point is empty, of area x y; the one that just holds it is too small by
-  // 1 - x y; the slabs beside the point are empty, of area max(x, y).
+  // The box up to the point is empty and has the area x y. The box that just holds the point is too
+  // small by 1 - x y. The slabs beside the point are empty and have areas of up to max(x, y).
   CHECK(star_discrepancy(Points{{0.5f, 0.5f}}) == doctest::Approx(0.75));
   CHECK(star_discrepancy(Points{{0.75f, 0.875f}}) == doctest::Approx(0.875));
   CHECK(star_discrepancy(Points{{0, 0}}) == doctest::Approx(1));
 }
 
 TEST_CASE("star discrepancy: a grid's is known") {
-  // Of m x m points at the corners of their cells: the closed box to the last holds all, and its
-  // area is (1 - 1/m)^2. At the centres: (1 - 1/(2 m))^2.
+  // For m x m points at the corners of their cells, the closed box up to the last point holds all
+  // points and has the area (1 - 1/m)^2. For points at the centers, its area is (1 - 1/(2 m))^2.
   for (const int bits : {1, 2, 4}) {
     const double edge = 1 << bits;
     CHECK(star_discrepancy(grid(bits, 0)) == doctest::Approx(1 - std::pow(1 - 1 / edge, 2)));
@@ -125,8 +125,8 @@ TEST_CASE("star discrepancy: a grid's is known") {
 }
 
 TEST_CASE("star discrepancy: Hammersley's points have the published value") {
-  // Theorem of Halton and Zaremba (1969): of 2^m points, m from 2 on,
-  // D* = (m / 3 + 13 / 9 - (-1)^m 4 / 9 / 2^m) / 2^m.
+  // Theorem of Halton and Zaremba (1969): 2^m points with m >= 2 have D* = (m / 3 + 13 / 9 - (-1)^m
+  // 4 / 9 / 2^m) / 2^m.
   for (const int m : {2, 3, 5, 8}) {
     const double n = std::exp2(m);
     const double expected = (m / 3.0 + 13.0 / 9 - (m % 2 == 0 ? 4.0 : -4.0) / 9 / n) / n;
@@ -153,14 +153,15 @@ TEST_CASE("net quality: Sobol' points are perfect nets, and so are their aligned
 }
 
 TEST_CASE("net quality: of a regular grid of 2^(2k) points it is k") {
-  // The slabs of 2^k points each are the thinnest that all hold the same number.
+  // The thinnest slabs that all hold the same number of points hold 2^k points each.
   for (int k = 0; k <= 5; ++k) CHECK(net_quality(grid(k, 0.5f)) == k);
 }
 
 TEST_CASE("net quality: points at one place, one point moved to another cell") {
   CHECK(net_quality(Points(64, Vec2{0.3f, 0.6f})) == 6);
   CHECK(fills_elementary_intervals(sobol(64)));
-  // To the other half of its column or row of 2/64: only the thinnest intervals of one axis notice.
+  // Moves a point to the other half of its column or row of width 2/64. Only the thinnest intervals
+  // of one axis detect this.
   for (float Vec2::*axis : {&Vec2::x, &Vec2::y}) {
     Points points = sobol(64);
     float& value = points[10].*axis;
@@ -171,7 +172,7 @@ TEST_CASE("net quality: points at one place, one point moved to another cell") {
 }
 
 TEST_CASE("power spectrum: that of the definition, symmetric") {
-  const Points points = independent(300, 3);  // more than one block, the last not full
+  const Points points = independent(300, 3);  // more than one block, and the last is not full
   PowerSpectrum spectrum(9);
   CHECK(spectrum.at(1, 1) == 0);
   spectrum.add(points);
@@ -210,7 +211,8 @@ TEST_CASE("power spectrum: independent points have a power of 1 at every frequen
     means.push_back(sum / (17 * 17 - 1));
     corner.push_back(one.at(8, -8));
   }
-  // The mean of 144 unrelated powers of standard deviation 1, of 400 realizations: known to 0.4 %.
+  // The mean of 144 unrelated powers of standard deviation 1 over 400 realizations is known to 0.4
+  // %.
   const Bounded mean = arithmetic_mean(means, 0.999);
   CHECK(mean.interval.low < 1);
   CHECK(mean.interval.high > 1);
@@ -226,7 +228,8 @@ TEST_CASE("power spectrum: independent points have a power of 1 at every frequen
 }
 
 TEST_CASE("power spectrum: a lattice has all its power on the dual lattice") {
-  // Points (i / 64, i 11 / 64 mod 1): waves (x, y) with x + 11 y divisible by 64 are in phase.
+  // For the points (i / 64, i 11 / 64 mod 1), waves (x, y) with x + 11 y divisible by 64 are in
+  // phase.
   Points points;
   for (int i = 0; i < 64; ++i) {
     points.push_back({static_cast<float>(i) / 64, static_cast<float>(i * 11 % 64) / 64});
@@ -246,9 +249,9 @@ TEST_CASE("power spectrum: a lattice has all its power on the dual lattice") {
 }
 
 TEST_CASE("power spectrum: a jittered grid's is 1 - sinc^2 but for its own frequencies") {
-  // m x m cells, a uniform point in each: the variance of exp(-2 pi i f.p) within a cell is
-  // 1 - sinc^2(f_x / m) sinc^2(f_y / m), and the means add up only where m divides both f_x and
-  // f_y, where they are zero.
+  // Each of m x m cells holds a uniform point. The variance of exp(-2 pi i f.p) within a cell is 1
+  // - sinc^2(f_x / m) sinc^2(f_y / m). The means add up only if m divides both f_x and f_y, and
+  // then they are zero.
   constexpr int kEdge = 8, kRealizations = 2000, kHighest = 16;
   PowerSpectrum spectrum(kHighest);
   RandomStream random(5);
@@ -265,7 +268,7 @@ TEST_CASE("power spectrum: a jittered grid's is 1 - sinc^2 but for its own frequ
       if (x == 0 && y == 0) continue;
       const double expected = 1 - sinc_squared(static_cast<double>(x) / kEdge) *
                                       sinc_squared(static_cast<double>(y) / kEdge);
-      // The power is spread like an exponential distribution; five standard errors.
+      // The power is distributed like an exponential variable. The bound is five standard errors.
       CHECK(std::abs(spectrum.at(x, y) - expected) < 5 * expected / std::sqrt(kRealizations));
     }
   }

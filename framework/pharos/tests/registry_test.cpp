@@ -14,7 +14,7 @@ using namespace pharos;
 
 namespace {
 
-/// A contract, three plugins that meet it, and one that holds another.
+/// A contract, three plugins that meet it, and one plugin that holds another.
 struct Paint : Component {
   static constexpr std::string_view contract_name = "paint";
   virtual float value() const = 0;
@@ -111,7 +111,7 @@ std::string error(const std::string& yaml, std::vector<BuildContext::Named> name
   return test::input_error([&] { build(yaml, std::move(named)); });
 }
 
-/// A component named in the scene.
+/// Returns a component that is named in the scene.
 BuildContext::Named named(const std::string& name, float value) {
   return {"paint", name, std::make_shared<const Plain>(Plain::Settings{value})};
 }

@@ -1,4 +1,4 @@
-// Samplers and guides: a planted fault turns exactly the checks red that are there to find it.
+// Samplers and guides: a planted fault makes exactly the checks fail that are meant to find it.
 
 #include <atomic>
 #include <cmath>
@@ -82,7 +82,7 @@ TEST_CASE("conformance: faults of a sampler") {
 
 enum class GuideFault { none, pdf, fog_pdf, forgets, moods, declines, no_model };
 
-/// Knows nothing but how often it was saved.
+/// Knows only whether it was loaded.
 class BlankModel final : public GuidingModel {
  public:
   explicit BlankModel(bool loaded) : loaded_(loaded) {}
@@ -124,7 +124,7 @@ class BlankLearner final : public Learner {
   };
 };
 
-/// Directions uniform over the sphere.
+/// Samples directions uniformly over the sphere.
 class FaultyGuider final : public Guider {
  public:
   using Settings = FaultSettings<GuideFault>;
@@ -172,7 +172,8 @@ class FaultyGuider final : public Guider {
   GuideFault fault_;
 };
 
-/// What is red of the guider, or of the learner and so of their pair.
+/// Returns the failed checks of the guider. If `tested` is the learner, returns the failed checks
+/// of the learner and of the pair of both.
 std::string red_guide(GuideFault fault, const char* tested = "faulty") {
   FaultSettings<GuideFault>::planted = fault;
   Registry registry;

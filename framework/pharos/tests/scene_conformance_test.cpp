@@ -1,4 +1,4 @@
-// Parts of scenes: a planted fault turns exactly the checks red that are there to find it.
+// Parts of scenes: a planted fault makes exactly the checks fail that are meant to find it.
 
 #include <cmath>
 #include <cstdlib>
@@ -25,7 +25,7 @@ using test::red_with;
 
 enum class SkyFault { none, pdf, radiance, power, emission, emission_pdf };
 
-/// The same radiance from everywhere.
+/// Emits the same radiance from all directions.
 class FaultySky final : public Emitter {
  public:
   using Settings = FaultSettings<SkyFault>;
@@ -91,7 +91,7 @@ TEST_CASE("conformance: faults of an emitter") {
 
 enum class SpotFault { none, none_far_away, direction, pdf, dark };
 
-/// Light from one point into a cone of one degree.
+/// Emits light from one point into a cone of one degree.
 class FaultySpot final : public Emitter {
  public:
   using Settings = FaultSettings<SpotFault>;
@@ -153,7 +153,8 @@ TEST_CASE("conformance: faults of a narrow spot") {
 
 enum class SensorFault { none, inverse, pdf, lens, rim, silent, claims_parallel };
 
-/// A thin lens of radius 0.1 in focus at infinity, so that directions alone tell the film.
+/// A thin lens of radius 0.1 that is focused at infinity, so the direction alone determines the
+/// film position.
 class FaultyLens final : public Sensor {
  public:
   using Settings = FaultSettings<SensorFault>;
@@ -207,7 +208,7 @@ TEST_CASE("conformance: faults of a sensor") {
 
 enum class FilterFault { none, support, integral, symmetry };
 
-/// A tent of radius one.
+/// A tent filter of radius one.
 class FaultyFilter final : public Filter {
  public:
   using Settings = FaultSettings<FilterFault>;
@@ -243,7 +244,7 @@ class FaultyTexture final : public Texture {
     const float x = p.uv.x - std::floor(p.uv.x);
     return Rgb(x < 0.25f ? 0.8f : 0.4f);
   }
-  // The other channels' bounds hold: a bound is one of its channel.
+  // Each bound limits its own channel, so the bounds of the other channels still hold.
   Rgb maximum() const override { return {0.8f, fault_ == TextureFault::range ? 0.7f : 0.8f, 0.8f}; }
   Rgb average() const override { return Rgb(fault_ == TextureFault::average ? 0.6f : 0.5f); }
 
@@ -277,7 +278,8 @@ class FaultySquare final : public Shape {
   ShapeSample sample(Vec2 u) const override {
     if (fault_ == ShapeFault::uniform) u.x = std::pow(u.x, 1.2f);
     const std::uint32_t upper = u.y > u.x ? 1 : 0;
-    // Triangle 0 has the corners (0,0), (1,0), (1,1), triangle 1 (0,0), (1,1), (0,1).
+    // Triangle 0 has the corners (0,0), (1,0), (1,1). Triangle 1 has the corners (0,0), (1,1),
+    // (0,1).
     const SurfacePoint p =
         upper ? mesh_.surface_point(1, u.x, u.y - u.x) : mesh_.surface_point(0, u.x - u.y, u.y);
     return {p, 1 / area()};
@@ -302,7 +304,7 @@ TEST_CASE("conformance: faults of a shape") {
 
 enum class PhaseFault { none, pdf, one_way, mean_cosine, length };
 
-/// Isotropic.
+/// An isotropic phase function.
 class FaultyPhase final : public PhaseFunction {
  public:
   using Settings = FaultSettings<PhaseFault>;
@@ -331,7 +333,7 @@ TEST_CASE("conformance: faults of a phase function") {
 
 enum class MediumFault { none, scatter_pdf, shares, transmittance, never, beyond };
 
-/// Two channels scatter, one more than the other, and none in the third.
+/// A medium that scatters in two channels, in one more than in the other, and not in the third.
 class FaultyMedium final : public Medium {
  public:
   using Settings = FaultSettings<MediumFault>;

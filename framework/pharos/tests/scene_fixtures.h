@@ -11,7 +11,7 @@
 #include <pharos/scene/scene.h>
 #include <pharos/scene/texture.h>
 
-/// The smallest parts that a scene can be made of.
+/// The smallest parts from which a scene can be made.
 namespace pharos::test {
 
 class BlackBsdf : public Bsdf {
@@ -31,7 +31,7 @@ class BlackBsdf : public Bsdf {
   Rgb albedo(const SurfacePoint&) const override { return {}; }
 };
 
-/// Asks for tangents, as brushed metal does.
+/// Needs tangents, like brushed metal.
 class BrushedBsdf : public BlackBsdf {
  public:
   bool needs_tangents() const override { return true; }
@@ -50,7 +50,7 @@ class MeshShape : public Shape {
   TriangleMesh mesh_;
 };
 
-/// An area light or an environment that remembers where it was placed.
+/// An area light or an environment that records where it was placed.
 class PlacedEmitter : public Emitter {
  public:
   class PlacedLight : public Light {
@@ -115,7 +115,8 @@ inline SceneParts parts_of(std::vector<TriangleMesh> meshes) {
   return parts;
 }
 
-/// The square [-1,1]^2 at height z that faces up, as triangles 0 (below the diagonal) and 1.
+/// Returns the square [-1,1]^2 at height z. It faces up and consists of triangle 0, below the
+/// diagonal, and triangle 1.
 inline TriangleMesh square_at(float z) {
   TriangleMesh mesh;
   mesh.positions = {{-1, -1, z}, {1, -1, z}, {1, 1, z}, {-1, 1, z}};
@@ -123,7 +124,7 @@ inline TriangleMesh square_at(float z) {
   return mesh;
 }
 
-/// A bumpy ball about the origin with smooth normals: closed, and concave in places.
+/// Returns a bumpy ball about the origin with smooth normals. It is closed, and concave in places.
 inline TriangleMesh bumpy_ball(std::uint32_t rings, float scale, Vec3 offset) {
   TriangleMesh mesh;
   const std::uint32_t spokes = 2 * rings;

@@ -23,7 +23,7 @@ class Gray : public Texture {
   float value_;
 };
 
-/// Black, yet it has a texture to show.
+/// A black BSDF that has a texture.
 class Painted : public test::BlackBsdf {
  public:
   struct Settings {
@@ -173,7 +173,7 @@ const char* const kGroups =
 TEST_CASE("instances are read, nested ones flattened, and groups that nobody sees left out") {
   const SceneParts parts = load(kGroups).parts;
   CHECK(parts.objects.size() == 1);
-  REQUIRE(parts.groups.size() == 2);  // in the order in which they are met
+  REQUIRE(parts.groups.size() == 2);  // in the order in which the loader meets them
   REQUIRE(parts.instances.size() == 3);
   CHECK(parts.groups[0].objects[0].shape->bounds().low.z == 7);
   CHECK(reflectance(parts.groups[1].objects[0]) == 0.25f);
@@ -256,7 +256,8 @@ TEST_CASE("groups that contain themselves are named, used or not") {
       "scene.yaml:5:33: error: groups go in a circle: 'a' contains 'b' contains 'c' contains 'a'");
 }
 
-/// `levels` groups, each of two instances of the next; the last holds `last`.
+/// Returns a scene of `levels` groups. Each group holds two instances of the next group, and the
+/// last group holds `last`.
 std::string doubling(int levels, const std::string& last, bool outermost_first) {
   std::string text;
   for (int i = 0; i < levels; ++i) {

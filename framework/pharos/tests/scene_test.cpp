@@ -9,7 +9,7 @@
 namespace pharos {
 namespace {
 
-/// Everything below height 0 and above height -1, met from above or from within.
+/// A slab between the heights -1 and 0. Rays meet it from above or from within.
 class Slab : public Shape {
  public:
   Bounds3 bounds() const override { return {{-1, -1, -1}, {1, 1, 0}}; }
@@ -39,7 +39,7 @@ class Slab : public Shape {
   static float height(std::uint32_t i) { return i == 0 ? 0.0f : -1.0f; }
 };
 
-/// Small triangles at random places in the unit cube, `copies` times each.
+/// Returns `copies` copies of a mesh of small triangles at random places in the unit cube.
 std::vector<TriangleMesh> soup(int triangles, int copies) {
   TriangleMesh mesh;
   RandomStream random(11);
@@ -71,7 +71,7 @@ TEST_CASE("the nearest surface is found, with its object and primitive") {
   CHECK(p.primitive == 1);
   CHECK(scene.intersect({{-0.5f, 0.5f, -3}, {0, 0, 1}}, p) == doctest::Approx(3));
   CHECK(p.object == 0);
-  CHECK(p.normal.z == 1);  // of the surface, not of the side that was met
+  CHECK(p.normal.z == 1);  // the normal of the surface, not of the side that was met
   CHECK(scene.intersect({{3, 0, 5}, {0, 0, -1}}, p) == kInfinity);
   CHECK(scene.primitive_count() == 6);
 }
@@ -215,7 +215,7 @@ TEST_CASE("lights stand where their emitters were given, numbered objects first"
   CHECK(area.site.object == 1);
   const auto& sky = dynamic_cast<const Placed&>(*scene.lights()[1]);
   CHECK(sky.site.shape == nullptr);
-  CHECK(sky.site.scene_center == Point3{0, 0, 1});  // of the geometry, without the sensor
+  CHECK(sky.site.scene_center == Point3{0, 0, 1});  // the center of the geometry without the sensor
   CHECK(sky.site.scene_radius == doctest::Approx(std::sqrt(3.0)));
   REQUIRE(scene.environment_lights().size() == 1);
   CHECK(scene.environment_lights()[0] == 1);
@@ -253,7 +253,7 @@ TEST_CASE("media are known on both sides of the objects that bound them") {
   p.normal = {0, 0, 1};
   CHECK(scene.medium_after(p, {0, 0, -1}, around.get()) == inside.get());
   CHECK(scene.medium_after(p, {0, 0, 1}, inside.get()) == nullptr);
-  p.object = 1;  // bounds nothing
+  p.object = 1;  // this object bounds no medium
   CHECK(scene.medium_after(p, {0, 0, 1}, around.get()) == around.get());
 }
 

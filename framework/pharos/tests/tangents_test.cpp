@@ -1,4 +1,4 @@
-// Tangents of triangles and the frames made of them.
+// Tangents of triangles and the frames made from them.
 
 #include <limits>
 

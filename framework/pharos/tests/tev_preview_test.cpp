@@ -1,4 +1,4 @@
-// What is sent to the image viewer, byte by byte, and how often an image is made for it.
+// The bytes that are sent to the image viewer, and how often an image is made for it.
 
 #include <string>
 

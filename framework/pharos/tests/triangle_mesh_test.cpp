@@ -16,7 +16,7 @@ TriangleMesh one_triangle(Point3 a, Point3 b, Point3 c) {
   return mesh;
 }
 
-/// Signed distance of a point from the triangle's plane, in double.
+/// Returns the signed distance of a point from the plane of the triangle, in double precision.
 double plane_distance(const TriangleMesh& mesh, Point3 p) {
   using Row = std::array<double, 3>;
   const auto minus = [](Point3 a, Point3 b) {
@@ -109,7 +109,7 @@ TEST_CASE("texture coordinates are interpolated, or barycentric where there are 
 }
 
 TEST_CASE("densities over area and over solid angle convert into each other") {
-  const Point3 from{1, 2, 3}, point{4, 6, 3};  // 5 apart
+  const Point3 from{1, 2, 3}, point{4, 6, 3};  // their distance is 5
   const Vec3 normal = normalize({-3, -4, 5});  // at 45 degrees
   const float pdf = solid_angle_pdf_from_area(2, from, point, normal);
   CHECK(pdf == doctest::Approx(2 * 25 / std::sqrt(0.5)));

@@ -19,7 +19,7 @@ std::vector<double> heavy_tailed_weights(int count) {
   return weights;
 }
 
-/// The items by number, of weights in this order.
+/// Returns a reservoir of item numbers, which were inserted with these weights in this order.
 Reservoir filled(const std::vector<double>& weights, const std::vector<int>& order,
                  std::size_t capacity, std::uint64_t seed) {
   Reservoir reservoir(capacity);
@@ -114,7 +114,7 @@ TEST_CASE("VAROPT: a reservoir of a reservoir has the same expectations") {
     filled(weights, ascending(30), 12, 500000 + run).for_each([&](int i, double weight) {
       second.insert(i, weight, random);
     });
-    double part = 0;  // of the first half of the items
+    double part = 0;  // output weight of the first half of the items
     second.for_each([&](int i, double weight) { part += i < 15 ? weight : 0; });
     sum += part;
     squares += part * part;

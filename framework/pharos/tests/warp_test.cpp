@@ -12,12 +12,13 @@ using namespace pharos::warp;
 
 namespace {
 
-/// Below this a fit is refused; the seeds are fixed and eight fits are tested.
+/// A fit with a smaller p-value is refused. The seeds are fixed, and eight fits are tested.
 constexpr double kSignificance = 1e-3;
-/// Enough to tell u from u^1.03 in one coordinate of a warp, which a test below holds.
+/// The number of draws. It is large enough to distinguish u from u^1.03 in one coordinate of a
+/// warp, as a test below verifies.
 constexpr std::size_t kDraws = 400'000;
 
-/// Points of the square: random ones, and corners and edges.
+/// Visits random points of the square and points on its corners and edges.
 template <class Visit>
 void for_square_points(Visit&& visit) {
   RandomStream random(7);
@@ -109,7 +110,7 @@ TEST_CASE("octahedral hemisphere: unit length, inverse, density") {
 }
 
 TEST_CASE("octahedral hemisphere: straight lines become great circles") {
-  // Within one face; the concentric map bends the same line.
+  // The line lies within one face. The concentric map bends the same line.
   const auto bend = [](auto&& warp) {
     const Vec3 from = warp(Vec2{0.6f, 0.55f}), to = warp(Vec2{0.95f, 0.8f});
     return std::abs(dot(normalize(cross(from, to)), warp(Vec2{0.775f, 0.675f})));
@@ -180,7 +181,7 @@ TEST_CASE("triangle: inside, and uniform") {
     const double moments[5] = {b.x, b.y, b.x * b.x, b.y * b.y, b.x * b.y};
     for (int i = 0; i < 5; ++i) sum[i] += moments[i];
   }
-  // E[b^k] over a triangle: 1/3, 1/6, and 1/12 for the product.
+  // The moments over a triangle are E[b] = 1/3, E[b^2] = 1/6, and 1/12 for the product.
   const double expected[5] = {1.0 / 3, 1.0 / 3, 1.0 / 6, 1.0 / 6, 1.0 / 12};
   for (int i = 0; i < 5; ++i) CHECK(sum[i] / count == doctest::Approx(expected[i]).epsilon(0.01));
 }

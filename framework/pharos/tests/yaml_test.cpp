@@ -36,7 +36,7 @@ std::string repeated(const std::string& text, int count) {
   return all;
 }
 
-/// A tree of random shape with texts that tempt a writer to leave out quotes.
+/// Returns a tree of random shape with texts for which a writer may wrongly leave out quotes.
 ConfigNode random_node(RandomStream& random, int depth) {
   const auto pick = [&](std::uint64_t n) { return static_cast<int>(random() % n); };
   const auto text = [&] {

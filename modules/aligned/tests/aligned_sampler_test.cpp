@@ -19,7 +19,7 @@
 namespace pharos::aligned {
 namespace {
 
-/// Independent numbers, in passes of a given size.
+/// A sampler of independent numbers with a given pass size.
 class BaseSampler final : public Sampler {
  public:
   explicit BaseSampler(std::uint32_t pass = 1) : pass_(pass) {}
@@ -72,7 +72,7 @@ std::vector<Vec2> points_of(const PreparedSampler& sampler, PathKey key, Dimensi
 
 using Steps = std::pair<std::uint32_t, std::uint32_t>;
 
-/// In steps of 2^-24.
+/// Returns the positions in steps of 2^-24.
 std::multiset<Steps> steps_of(const std::vector<Vec2>& points) {
   std::multiset<Steps> steps;
   for (const Vec2 p : points) {
@@ -82,7 +82,7 @@ std::multiset<Steps> steps_of(const std::vector<Vec2>& points) {
   return steps;
 }
 
-/// Whether the points are those of a set, moved by one offset on the torus.
+/// Returns whether the points are the points of a set, moved by one toroidal shift.
 bool is_shifted_set(const std::vector<Vec2>& points, const PointSet& set) {
   const std::multiset<Steps> found = steps_of(points);
   const Steps first = *found.begin();
@@ -129,7 +129,7 @@ TEST_CASE("aligned: pixels, sets, lights, seeds and iterations have other offset
       points_of(*sampler, key, {Purpose::light_position, 1, 1})};
   for (const auto& other : others) {
     CHECK_FALSE(steps_of(other) == steps_of(here));
-    // In the same order all differences modulo one would be the same.
+    // If the orders were the same, all differences modulo one would be the same.
     std::set<Steps> differences;
     for (std::size_t i = 0; i < here.size(); ++i) {
       const Vec2 d = other[i] - here[i];

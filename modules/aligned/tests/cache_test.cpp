@@ -1,4 +1,4 @@
-// Sets that are synthesized on demand: what the cache holds never changes them.
+// Tests that the content of the cache never changes sets that are synthesized on demand.
 
 #include <cstdint>
 #include <fstream>
@@ -60,7 +60,7 @@ TEST_CASE("point set files: what is saved is loaded") {
 
 TEST_CASE("point set files: every byte is guarded") {
   const std::string good = saved(two_sets());
-  const std::size_t key = good.find('\n') + 1;  // anyone's own: not part of the checksum
+  const std::size_t key = good.find('\n') + 1;  // chosen by the writer and not part of the checksum
   for (std::size_t i = 0; i < good.size(); ++i) {
     if (i >= key && i < key + sizeof(std::uint64_t)) continue;
     CAPTURE(i);
@@ -94,10 +94,10 @@ TEST_CASE("cache: made once, found again, and never the reason for other points"
   REQUIRE(files.size() == 1);
   const std::string good = content(files.front());
   CHECK(library.find(kPair, 64) == made);
-  // Symmetric directions share the file.
+  // Symmetric directions share one file.
   CHECK(library.find(std::vector<double>{20, 60}, 64).size() == 64);
   CHECK(files_in(folder / "sets").size() == 1);
-  // Damaged, cut off, another set, no file at all.
+  // A damaged file, a truncated file, a file with other sets, and an empty file.
   for (const std::string& bad : {good.substr(0, good.size() - 1) + '\x55', good.substr(0, 50),
                                  saved(two_sets()), std::string()}) {
     folder.write("sets/" + files.front().filename().string(), bad);

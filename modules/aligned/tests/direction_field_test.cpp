@@ -17,8 +17,8 @@ namespace {
 constexpr PixelGrid kFilm{64, 32};
 constexpr Dimension kFirst{Purpose::light_position, 1, 0}, kSecond{Purpose::light_position, 1, 1};
 
-/// The first light is covered along lines whose normal turns from block to block, the farther to
-/// the right the more; the second has no edge.
+/// An occluder covers the first light. The normal of its edge turns from block to block: the
+/// further right the block, the larger the angle. The second light has no edge.
 test::FunctionProbe turning_edges() {
   return {kFilm,
           [](int x, int y, Dimension dimension, Vec2 u) {
@@ -64,7 +64,8 @@ TEST_CASE("direction field: the same for any number of threads, another for anot
   };
   const auto one = with_threads(1);
   for (const int threads : {2, 3, 7}) CHECK(with_threads(threads) == one);
-  // Directions are whole degrees, which seeds seldom tell apart: the numbers that are asked for do.
+  // Directions are whole degrees, which rarely differ between seeds. The probed points differ
+  // between seeds.
   const auto asked = [](std::uint64_t seed) {
     std::vector<Vec2> points;
     const test::FunctionProbe listening({16, 16}, [&](int, int, Dimension, Vec2 u) {
@@ -90,7 +91,7 @@ TEST_CASE("direction field: nothing is asked of regions that are not rendered") 
 }
 
 TEST_CASE("direction field: what is left over of lights has the mean of the pixels' paths") {
-  // Brighter towards one corner of the square, so that tiles differ.
+  // The integrand is brighter toward one corner of the square, so tiles differ.
   const test::FunctionProbe probe(
       {8, 8}, [](int, int, Dimension, Vec2 u) { return u.x * u.x * (u.y < 0.3f ? 1.0f : 0.0f); });
   const Dimension lens{Purpose::lens};
@@ -101,7 +102,7 @@ TEST_CASE("direction field: what is left over of lights has the mean of the pixe
   };
   CHECK(left_over(kFirst, false, 1).empty());
   CHECK(left_over(lens, true, 1).empty());
-  // Of the pixels of each half: every pixel may get any tile.
+  // The samples of each half of the pixels: every pixel may get any tile.
   std::vector<double> halves[2];
   for (std::uint64_t seed = 0; seed < 2000; ++seed) {
     const std::vector<FilmSample> samples = left_over(kFirst, true, seed);
@@ -113,7 +114,7 @@ TEST_CASE("direction field: what is left over of lights has the mean of the pixe
   for (const auto& values : halves) {
     const auto moments = statistics::moments(values);
     const double deviation = std::sqrt(moments.variance / static_cast<double>(values.size()));
-    CHECK(std::abs(moments.mean - 0.1) < 4 * deviation);  // 1/3 of 0.3
+    CHECK(std::abs(moments.mean - 0.1) < 4 * deviation);  // mean of u.x^2 (1/3) times 0.3
     CHECK(deviation < 3e-3);
   }
 }

@@ -16,7 +16,7 @@ TEST_CASE("direction pictures: segments at the directions' angles, nothing where
   REQUIRE(picture.height() == 64);
   const Rgb beneath = picture.rgb(0, 0);
   CHECK(beneath.r < 0.5f);
-  // Up to the right: rows count downwards.
+  // The segment rises to the right, because row numbers increase downward.
   for (const int along : {0, 10, -10}) {
     CHECK_FALSE(picture.rgb(32 + along, 31 - along) == beneath);
   }

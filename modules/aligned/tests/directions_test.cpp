@@ -1,4 +1,4 @@
-// Principal directions of integrands whose edges are known.
+// Tests of the principal directions of integrands with known edges.
 #include <string>
 #include <vector>
 
@@ -27,7 +27,7 @@ bool has_near(const FreeDirections& found, int direction, int degrees = 2) {
   return false;
 }
 
-/// Draws integrands of one kind and counts those that have a principal direction.
+/// Draws integrands of one kind and returns how many have a principal direction.
 template <class Draw>
 int accepted(int count, const Draw& draw) {
   int found = 0;
@@ -120,7 +120,7 @@ TEST_CASE("principal directions: two edges, and an edge beside one along an axis
 }
 
 TEST_CASE("principal directions: of three edges two, the stronger ones") {
-  // A triangle; its third side is between two levels that differ by less.
+  // The edges form a triangle. Its third side separates two levels with a smaller difference.
   const Vec2 center{0.5f, 0.45f};
   const Integrand wedge =
       test::product(test::half_plane(30, {0.25f, 0.5f}), test::half_plane(150, {0.75f, 0.5f}));

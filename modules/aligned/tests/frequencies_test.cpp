@@ -1,4 +1,4 @@
-// Which frequencies are suppressed.
+// Tests of the selection of suppressed frequencies.
 
 #include "../frequencies.h"
 
@@ -25,8 +25,9 @@ bool holds(const std::vector<TargetPower>& all, int x, int y) {
   return std::ranges::any_of(all, [&](const TargetPower& v) { return v.x == x && v.y == y; });
 }
 
-/// The energy of an edge through the unit square at a frequency, by adding up waves along it: of
-/// length l, about the middle, with the normal at an angle. Relative to edge_energy()'s factor.
+/// Computes the energy of an edge in the unit square at a frequency by summing waves along the
+/// edge. The edge has length `length`, its midpoint is the center, and its normal has the angle
+/// `degrees`. The result is relative to the constant factor of edge_energy().
 double energy_by_definition(const TargetPower& v, double degrees, double length) {
   constexpr int kParts = 4000;
   const Direction n = direction_of(degrees);
@@ -48,14 +49,14 @@ TEST_CASE("energy: an edge's, with its waves smoothed") {
   for (const auto& [x, y] : {std::pair{4, 1}, {7, 4}, {-5, 12}, {40, 21}, {33, 60}}) {
     CAPTURE(x);
     CAPTURE(y);
-    // Lengths about the rule's put the waves at all phases.
+    // Lengths around the rule's length produce all phases of the waves.
     double mean = 0;
     constexpr int kLengths = 200;
     for (int i = 0; i < kLengths; ++i) {
       mean += energy_by_definition({x, y}, 30, 0.7 * (0.5 + (i + 0.5) / kLengths)) / kLengths;
     }
     const double ratio = edge_energy(x, y, d, rule) / mean;
-    // Where a wave fits about once into the edge the smoothed one is half too low.
+    // If about one wave fits into the edge, the smoothed energy is half too low.
     CHECK(ratio > 0.45);
     CHECK(ratio < 1.6);
   }
@@ -81,11 +82,11 @@ TEST_CASE("energy: the mean over the normals within the half angle") {
     CHECK(edge_energy(x, y, direction_of(30), mixed) ==
           doctest::Approx(both).epsilon(1e-9).scale(0));
   }
-  // However narrow, there is a mean.
+  // The mean exists for any width.
   const SuppressionRule narrow{.exact = 0, .half_angle = 1e-13};
   CHECK(edge_energy(17, 10, direction_of(30), narrow) ==
         doctest::Approx(edge_energy(17, 10, direction_of(30), sharp)).epsilon(1e-9).scale(0));
-  // Those of an axis are exact.
+  // The normals of an axis are exact.
   CHECK(edge_energy(20, 1, direction_of(0), spread) == edge_energy(20, 1, direction_of(0), sharp));
 }
 
@@ -133,7 +134,8 @@ TEST_CASE("frequencies: a half plane, each but once, those of most energy, weigh
       if (!holds(all, x, y)) CHECK(energy(x, y) <= least * (1 + 1e-8));
     }
   }
-  // Far along each line, not far across: 30 degrees is (1.732, 1).
+  // The frequencies reach far along each line and not far across it: the direction of 30 degrees is
+  // (1.732, 1).
   CHECK(holds(all, 26, 15));
   CHECK(holds(all, 0, 40));
   CHECK_FALSE(holds(all, -26, 15));
@@ -152,7 +154,7 @@ TEST_CASE("frequencies: none beyond the radius, symmetric where the directions a
     rule.share = 0.4;
     const auto few = suppressed_frequencies(points, axes_and({45}), rule);
     CHECK(few.size() < all.size());
-    // The axes may change places.
+    // The frequencies remain the same if the axes are swapped.
     for (const TargetPower& v : few) {
       CHECK((v.x >= 0 ? holds(few, v.y, v.x) : holds(few, -v.y, -v.x)));
     }

@@ -1,4 +1,4 @@
-// Which set serves which directions, and what the shipped ones are.
+// Tests which set serves which directions, and tests the shipped sets.
 
 #include <algorithm>
 #include <array>
@@ -22,8 +22,8 @@ namespace {
 
 using pharos::test::TemporaryFolder;
 
-/// Root mean square distance of projections along a direction from the middles of their strata [the
-/// mean width of a stratum].
+/// Returns the root mean square distance of projections along a direction from the centers of their
+/// strata [mean width of a stratum].
 double unevenness(const PointSet& set, double degrees) {
   Coordinates points(set.size()), unused(set.size());
   for (std::size_t i = 0; i < set.size(); ++i) {
@@ -40,7 +40,7 @@ TEST_CASE("grid points: cells of 2^-16 and their middles") {
   CHECK(grid_point(0, 0) == GridPoint{0, 0});
   CHECK(grid_point(0.5, 1 - 0x1p-20) == GridPoint{0x8000, 0xffff});
   CHECK(grid_point(-0x1p-16, 1.25) == GridPoint{0xffff, 0x4000});
-  CHECK(grid_point(-1e-300, 1) == GridPoint{0, 0});  // modulo one this is one
+  CHECK(grid_point(-1e-300, 1) == GridPoint{0, 0});  // modulo one, this number rounds to one
   CHECK(GridPoint{0xffff, 0}.position().x == 1 - 0x1p-17f);
   CHECK(GridPoint{0xffff, 0}.position().y == 0x1p-17f);
 }
@@ -53,7 +53,7 @@ TEST_CASE("symmetries: points and directions are turned alike, and back by the s
         const int turned = symmetry(degrees);
         CHECK((turned >= 0 && turned < 180));
         CHECK(symmetry(turned) == degrees);
-        // A step along the direction becomes one along the turned direction.
+        // The symmetry maps a step along the direction to a step along the turned direction.
         const Direction d = direction_of(degrees), t = direction_of(turned);
         const Vec2 from = symmetry(grid_point(0.5, 0.5)).position();
         const Vec2 to = symmetry(grid_point(0.5 + 0.25 * d.x, 0.5 + 0.25 * d.y)).position();
@@ -75,7 +75,7 @@ TEST_CASE("library: as many sets as there are directions that no symmetry joins"
   }
   CHECK(by_five.names(2, 64).size() == 153);
   CHECK(by_one.names(2, 64).size() == 4005);
-  // Every pair of the grid is served by one of these.
+  // Each pair of directions on the grid is served by one of these sets.
   const std::vector<SetName> pairs = by_five.names(2, 64);
   for (int a = 0; a < 180; a += 5) {
     for (int b = 0; b < 180; b += 5) {
@@ -100,7 +100,7 @@ TEST_CASE("library: directions are rounded to those that there are") {
   CHECK(snapped({377}) == std::vector{17});
   CHECK(snapped({112, 31.4}) == std::vector{30, 110});
   CHECK(snapped({177, 41.6}) == std::vector{40, 175});
-  CHECK(snapped({178, 41.6}) == std::vector{42});  // the axis is in every set
+  CHECK(snapped({178, 41.6}) == std::vector{42});  // every set contains the axis
   CHECK(snapped({31.4, 32}) == std::vector{31});
   CHECK(snapped({91, 178}) == std::vector{0});
   CHECK_THROWS_AS(snapped({10, 20, 30}), InputError);
@@ -120,13 +120,13 @@ TEST_CASE("library: sets are stratified along their angles and the axes, and the
       REQUIRE(set.size() == points);
       const double own = unevenness(set, degrees);
       const double most =
-          points == 64 ? 1.1 : 0.8;  // most of their few frequencies are of no direction
+          points == 64 ? 1.1 : 0.8;  // most of their few frequencies belong to no direction
       CHECK(unevenness(set, 0) < most);
       CHECK(unevenness(set, 90) < most);
       CHECK(own < 1.7);
       if (points >= 1024 && degrees % 90 != 0) CHECK(own < 0.6 * unevenness(grid, degrees));
       along += square(own);
-      // As far from the set's own directions as there is room.
+      // A direction as far from the set's own directions as possible.
       elsewhere += square(unevenness(set, degrees + (degrees % 45 < 22 ? 11 : -11)));
     }
     CHECK(along < square(points < 1024 ? 0.8 : 0.5) * elsewhere);

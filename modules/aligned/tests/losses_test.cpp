@@ -1,4 +1,4 @@
-// The losses against closed forms, brute force and finite differences.
+// Compares the losses with closed forms, brute force and finite differences.
 
 #include <algorithm>
 #include <cmath>
@@ -17,12 +17,12 @@
 namespace pharos::aligned {
 namespace {
 
-/// Frequencies of all signs, with targets and weights.
+/// Frequencies with different signs, with targets and weights.
 const std::vector<TargetPower> kFrequencies{{1, 0, 0, 1},     {0, 3, 0.5, 2}, {-4, 7, 0, 1},
                                             {5, -2, 1, 0.5},  {9, 9, 0, 3},   {0, -6, 2, 1.5},
                                             {-11, 0, 0.2, 1}, {5, 4, 0, 1}};
 
-/// The loss as it is written down, in double precision.
+/// Evaluates the loss by its definition, in double precision.
 double spectrum_by_definition(const Coordinates& points,
                               const std::vector<TargetPower>& frequencies) {
   double loss = 0, weights = 0;
@@ -39,7 +39,7 @@ double spectrum_by_definition(const Coordinates& points,
   return loss / weights;
 }
 
-/// Compares the gradient with central differences of `value` at some coordinates.
+/// Compares the gradient with central differences of `value` at some of the coordinates.
 template <class Value>
 void check_gradient(const Coordinates& points, const Coordinates& gradient, double width,
                     double tolerance, Value&& value) {
@@ -61,7 +61,7 @@ void check_gradient(const Coordinates& points, const Coordinates& gradient, doub
 }  // namespace
 
 TEST_CASE("power spectrum loss: value and gradient by definition") {
-  // Less than a block of points, a whole one, and one with a rest.
+  // Fewer points than a block, exactly one block, and two blocks with a remainder.
   for (const std::size_t count : {60u, 128u, 300u}) {
     CAPTURE(count);
     const Coordinates points = testing::random_points(count);
@@ -84,7 +84,7 @@ TEST_CASE("power spectrum loss: high frequencies keep their digits") {
 }
 
 TEST_CASE("power spectrum loss: gradients are added, and a lattice has no power to take away") {
-  // 8 x 8 points in a grid: powers are zero at (1, 0), (0, 3), and 64 at (8, 0).
+  // 8 x 8 points in a grid: the power is zero at (1, 0) and (0, 3), and 64 at (8, 0).
   Coordinates grid(64);
   for (std::size_t i = 0; i < 64; ++i) {
     grid.x[i] = static_cast<double>(i % 8) / 8 + 0.3;
@@ -105,7 +105,7 @@ TEST_CASE("power spectrum loss: what cannot be descended on is refused") {
 }
 
 TEST_CASE("targets: equal shares of a square lie between them") {
-  // By counting the middles of cells of a fine grid below each quantile.
+  // Counts the centers of the cells of a fine grid below each quantile.
   constexpr int kEdge = 1000;
   for (const double degrees : {0.0, 3.0, 20.0, 45.0, 61.0, 90.0, 117.5, 135.0, 179.0}) {
     CAPTURE(degrees);

@@ -9,12 +9,13 @@
 
 #include "../probe_grid.h"
 
-/// Integrands of known edges, as probes see them.
+/// Integrands with known edges, as probes evaluate them.
 namespace pharos::aligned::test {
 
 using Integrand = std::function<float(Vec2)>;
 
-/// One beyond the line through `through` with this normal, zero before it.
+/// Returns an integrand that is one beyond the line through `through` with this normal, and zero
+/// before the line.
 inline Integrand half_plane(double degrees, Vec2 through) {
   const double angle = degrees * 3.14159265358979323846 / 180;
   const auto x = static_cast<float>(std::cos(angle)), y = static_cast<float>(std::sin(angle));
@@ -32,7 +33,7 @@ inline Integrand disk(Vec2 center, float radius) {
   };
 }
 
-/// Its values at the points of a grid.
+/// Returns the values of an integrand at the points of a grid.
 inline std::vector<float> values_of(const Integrand& integrand, const ProbeGrid& grid,
                                     std::uint64_t seed) {
   std::vector<float> values;
@@ -42,8 +43,8 @@ inline std::vector<float> values_of(const Integrand& integrand, const ProbeGrid&
   return values;
 }
 
-/// Each pixel's integrand is a function of it, the dimension and the numbers; what it sees is
-/// `hit_at`.
+/// A probe whose integrand is a function of the pixel, the dimension and the two numbers. `hit_at`
+/// provides the first hit of each pixel.
 class FunctionProbe final : public IntegrandProbe {
  public:
   using Values = std::function<float(int x, int y, Dimension dimension, Vec2 u)>;
@@ -58,7 +59,7 @@ class FunctionProbe final : public IntegrandProbe {
 
   PixelGrid grid() const override { return grid_; }
   PixelRect window() const override { return window_; }
-  /// Lets only these pixels be rendered.
+  /// Restricts rendering to these pixels.
   void set_window(const PixelRect& window) { window_ = window; }
   int light_branches() const override { return lights_; }
   void evaluate(const ProbeQuery& query, std::span<const Vec2> points,
@@ -73,7 +74,7 @@ class FunctionProbe final : public IntegrandProbe {
   }
   FirstHit first_hit(int x, int y) const override { return hit_at_(x, y); }
 
-  /// What whole paths have beside the part that depends on the number.
+  /// The radiance of whole paths in addition to the part that depends on the dimension.
   static constexpr float kRest = 0.5f;
 
  private:

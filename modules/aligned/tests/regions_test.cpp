@@ -9,14 +9,14 @@
 namespace pharos::aligned {
 namespace {
 
-/// Regions of a film of which only the first hits matter.
+/// Returns the regions of a film for which only the first hits matter.
 PixelRegions regions_of(PixelGrid grid, int edge, const SurfaceSettings& settings,
                         const test::FunctionProbe::Hits& hit_at) {
   const test::FunctionProbe probe(grid, {}, hit_at);
   return surface_regions(probe, edge, settings);
 }
 
-/// Each pixel stands once, in the region that it belongs to.
+/// Checks that each pixel occurs exactly once, in its own region.
 void check_partition(const PixelRegions& regions) {
   std::vector<int> counts(regions.pixel_count());
   for (std::size_t region = 0; region < regions.count(); ++region) {
@@ -79,17 +79,17 @@ TEST_CASE("regions: blocks are divided by object, normal and depth") {
 }
 
 TEST_CASE("regions: few pixels join the same surface next door, or their block") {
-  // The second object reaches two columns into the left block, and fills the right one.
+  // The second object covers two columns of the left block and all of the right block.
   const auto two = [](int x, int) { return FirstHit{1, {0, 0, 1}, x < 14 ? 1u : 2u}; };
   const PixelRegions joined = regions_of({32, 16}, 16, {.fewest = 33}, two);
   CHECK(joined.count() == 2);
   CHECK(joined.of(14) == joined.of(20));
   CHECK(joined.of(13) != joined.of(14));
   CHECK(regions_of({32, 16}, 16, {.fewest = 32}, two).count() == 3);
-  // A small thing that no neighbor has.
+  // A small object that no neighboring block sees.
   const auto dot = [](int x, int y) { return FirstHit{1, {0, 0, 1}, x == 5 && y == 5 ? 2u : 1u}; };
   CHECK(regions_of({32, 16}, 16, {}, dot).count() == 2);
-  // Nothing but small things: the block keeps one region.
+  // The block contains only small objects and remains one region.
   const auto many = [](int x, int y) {
     return FirstHit{1, {0, 0, 1}, static_cast<std::uint32_t>(y * 16 + x)};
   };

@@ -68,7 +68,7 @@ TEST_CASE("set order: aligned runs of samples have a point in each cell") {
 }
 
 TEST_CASE("set order: orders of different seeds are unrelated") {
-  // How often sample i is in half a of one order and in half b of another.
+  // Counts how often sample i lies in the same half in two orders.
   const SetOrders orders(kBits);
   int same = 0, count = 0;
   RandomStream random(2);

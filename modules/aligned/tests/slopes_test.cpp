@@ -1,5 +1,5 @@
-// How the variance of integrals of edges falls with the number of points, along the directions that
-// sets are made for, and how for points that know no direction.
+// Tests how the variance of integrals of edges falls with the number of points, for sets that are
+// made for the edge's direction and for points without directions.
 
 #include <cmath>
 #include <cstdint>
@@ -22,7 +22,7 @@ namespace {
 constexpr int kShifts = 400;
 const std::vector<double> kAngles{7, 14, 23, 31, 38, 52, 66, 74, 108, 121, 139, 157};
 
-/// The mean squared error of the edge's integral over random shifts of the points on the torus.
+/// Returns the mean squared error of the edge's integral over random toroidal shifts of the points.
 double variance(const PointSet& set, double degrees, std::uint64_t seed) {
   laboratory::Edge::Settings settings;
   settings.angles = {degrees};
@@ -44,7 +44,7 @@ double variance(const PointSet& set, double degrees, std::uint64_t seed) {
 
 using MakeSet = std::function<PointSet(double degrees, std::uint32_t points)>;
 
-/// By shipped size, the mean over all angles.
+/// Returns the mean over all angles for each shipped size.
 std::vector<double> variances(const MakeSet& make) {
   std::vector<double> all;
   for (const std::uint32_t points : kShippedSizes) {
@@ -58,7 +58,8 @@ std::vector<double> variances(const MakeSet& make) {
   return all;
 }
 
-/// Of log variance over log number, by least squares.
+/// Returns the slope of the logarithm of the variance over the logarithm of the number of points,
+/// by least squares.
 double slope(const std::vector<double>& variances) {
   double xy = 0, xx = 0;
   for (std::size_t i = 0; i < variances.size(); ++i) {

@@ -1,4 +1,4 @@
-// Synthesized sets: spectra, stratification, determinism, refusals.
+// Tests of synthesized sets: spectra, stratification, determinism and errors.
 
 #include "../synthesis.h"
 
@@ -43,7 +43,7 @@ Coordinates coordinates_of(const PointSet& set) {
   return points;
 }
 
-/// The mean power over the frequencies that the settings suppress, by their weights.
+/// Returns the weighted mean power over the frequencies that the settings suppress.
 double suppressed_power(const PointSet& set, const SynthesisSettings& settings) {
   const PowerSpectrumLoss loss(
       suppressed_frequencies(settings.points, directions_of(settings), settings.rule));
@@ -51,7 +51,7 @@ double suppressed_power(const PointSet& set, const SynthesisSettings& settings) 
   return loss.evaluate(coordinates_of(set), 1, unused);
 }
 
-/// The mean squared distance of projections from the middles of their strata [1/N^2].
+/// Returns the mean squared distance of projections from the centers of their strata [1/N^2].
 double unevenness(const PointSet& set, const SynthesisSettings& settings) {
   Coordinates unused(set.size());
   const WassersteinLoss loss(directions_of(settings), set.size());
@@ -100,7 +100,8 @@ TEST_CASE("synthesis: each loss alone does its part and not the other's") {
 }
 
 TEST_CASE("synthesis: any other target by a mask") {
-  // As much power as in four independent points at one frequency, none in a row of others.
+  // The target is the power of four independent points at one frequency, and zero in a row of other
+  // frequencies.
   SynthesisSettings settings = small({});
   settings.wasserstein = 0;
   settings.mask = {{5, 3, 4, 4}};

@@ -15,7 +15,7 @@
 
 namespace pharos::aligned::testing {
 
-/// Independent points in the unit square.
+/// Returns independent random points in the unit square.
 inline Coordinates random_points(std::size_t count) {
   RandomStream random(11, count);
   Coordinates points(count);
@@ -26,7 +26,7 @@ inline Coordinates random_points(std::size_t count) {
   return points;
 }
 
-/// The mean power of points over frequencies (independent points: 1).
+/// Returns the mean power of points over frequencies. Independent points have 1.
 inline double mean_power(std::span<const Vec2> points, std::span<const TargetPower> frequencies,
                          int highest) {
   statistics::PowerSpectrum spectrum(highest);

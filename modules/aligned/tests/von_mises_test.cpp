@@ -11,13 +11,14 @@ namespace {
 
 constexpr double kRadians = 3.14159265358979323846 / 180;
 constexpr double kFloor = 1e-2;
-constexpr int kNoAxes = -1;  ///< a width that leaves nothing out
+constexpr int kNoAxes = -1;  ///< a width that includes all directions
 
 double unscaled(int direction, double mean, double kappa) {
   return std::exp(kappa * (std::cos(2 * kRadians * (direction - mean)) - 1));
 }
 
-/// A mixture of a share of the first and the rest of the second.
+/// Returns a mixture of two distributions. The first has the weight `share`, and the second has the
+/// rest.
 DirectionHistogram mixture(double share, VonMises first, VonMises second = {}) {
   DirectionHistogram histogram{};
   double sum_first = 0, sum_second = 0;
@@ -33,7 +34,7 @@ DirectionHistogram mixture(double share, VonMises first, VonMises second = {}) {
   return histogram;
 }
 
-/// Of no particular shape, with bins that are empty.
+/// Returns a histogram without a particular shape and with empty bins.
 DirectionHistogram rough_histogram(std::uint64_t seed) {
   RandomStream random(seed);
   DirectionHistogram histogram{};
@@ -41,7 +42,8 @@ DirectionHistogram rough_histogram(std::uint64_t seed) {
   return histogram;
 }
 
-/// D(q || p) by its definition, over the directions farther than `width` from the axes.
+/// Computes D(q || p) by its definition, over the directions more than `width` degrees away from
+/// the axes.
 double divergence_of(const VonMises& q, const DirectionHistogram& histogram, int width) {
   double q_sum = 0, p_sum = 0;
   for (int k = 0; k < kDirections; ++k) {
@@ -76,7 +78,8 @@ TEST_CASE("von Mises: of a distribution from itself there is none") {
   const DirectionDistribution p(mixture(1, {70, 20}), kNoAxes, 1e-30);
   CHECK(std::abs(p.divergence({70, 20})) < 1e-12);
   CHECK(p.divergence({72, 20}) > 1e-3);
-  // The distribution of doubled angles as in eq. 18: kappa I1/I0 - log(I0) against a uniform one.
+  // The divergence from a uniform distribution, with doubled angles as in eq. 18: kappa I1/I0 -
+  // log(I0).
   const DirectionDistribution uniform(mixture(1, {0, 1e-9}), kNoAxes, kFloor);
   const double i0 = std::cyl_bessel_i(0.0, 20.0), i1 = std::cyl_bessel_i(1.0, 20.0);
   CHECK(uniform.divergence({70, 20}) == doctest::Approx(20 * i1 / i0 - std::log(i0)).epsilon(1e-6));
@@ -122,7 +125,7 @@ TEST_CASE("von Mises: the best mean is that of a search through all") {
 }
 
 TEST_CASE("von Mises: one mode is found beside another, without and with its concentration") {
-  // Figure 4 of the paper in axial directions: half its angles.
+  // Figure 4 of the paper, with axial directions: half its angles.
   const DirectionDistribution p(mixture(0.75, {45, 10}, {135, 30}), kNoAxes, 1e-6);
   CHECK(degrees_between(best_mean(p, 50, 50, 10), 45) <= 1);
   CHECK(degrees_between(best_mean(p, 50, 130, 10), 135) <= 1);

@@ -8,7 +8,7 @@
 namespace pharos::focal::plane {
 namespace {
 
-/// The share of pixel `i`, from i to i + 1, that lies between `low` and `high`.
+/// Returns the share of pixel `i`, from i to i + 1, that lies between `low` and `high`.
 double overlap(int i, double low, double high) {
   return std::clamp(std::min(i + 1.0, high) - std::max<double>(i, low), 0.0, 1.0);
 }
@@ -46,7 +46,8 @@ void Canvas::rectangle(Point2 corner, Point2 opposite, const Ink& ink) {
 void Canvas::line(Point2 from, Point2 to, double width, const Ink& ink) {
   const double reach = 0.5 * width + 1;
   const bool steep = std::abs(to.y - from.y) > std::abs(to.x - from.x);
-  // Walks along the longer axis, `u`; across it, `v`, only what the stroke can cover.
+  // Walks along the longer axis `u`. For each u, it visits only the pixels across, `v`, that the
+  // stroke can cover.
   const auto along = [steep](Point2 p) { return steep ? p.y : p.x; };
   const auto across = [steep](Point2 p) { return steep ? p.x : p.y; };
   if (along(to) < along(from)) std::swap(from, to);

@@ -10,29 +10,29 @@
 
 namespace pharos::focal::plane {
 
-/// A stroke or a filling. Colors are sRGB-encoded, as colors of drawings are chosen.
+/// The color of a stroke or a filling. Colors are sRGB-encoded, as is common for drawings.
 struct Ink {
   Rgb color;
   double opacity = 1;
 };
 
-/// A picture that is drawn on: positions in pixels from the upper left corner, y downwards, edges
-/// smoothed by the share of each pixel that is covered. Later strokes cover earlier ones.
+/// A picture to draw on. Positions are in pixels from the upper left corner, with y downward. Edges
+/// are smoothed by the covered share of each pixel. Later strokes cover earlier strokes.
 class Canvas {
  public:
   Canvas(int width, int height, Rgb background);
 
-  /// Between two corners, the upper left one first.
+  /// Fills the rectangle between two corners. The upper left corner comes first.
   void rectangle(Point2 corner, Point2 opposite, const Ink& ink);
   void line(Point2 from, Point2 to, double width, const Ink& ink);
-  /// Through all points; where lines join, translucent ink is doubled.
+  /// Draws a line through all points. At joints of lines, translucent ink is applied twice.
   void polyline(std::span<const Point2> points, double width, const Ink& ink);
-  /// Letters of a plain stroke font, `height` pixels from the base line to the top of 'l'; `at` is
-  /// the left end of the base line. Returns the width. Throws InputError for a letter that the
-  /// font lacks.
+  /// Draws letters of a plain stroke font, `height` pixels high from the base line to the top of
+  /// 'l'. `at` is the left end of the base line. Returns the width. Throws InputError for a letter
+  /// that the font lacks.
   double text(Point2 at, std::string_view letters, double height, const Ink& ink);
 
-  /// The picture as linear colors, for write_png() without exposure and tone curve.
+  /// Returns the picture with linear colors, for write_png() without exposure and tone curve.
   Image image() const;
 
  private:
@@ -41,7 +41,7 @@ class Canvas {
   Image encoded_;
 };
 
-/// The width of Canvas::text() [pixels].
+/// Returns the width of Canvas::text() [pixels].
 double text_width(std::string_view letters, double height);
 
 }  // namespace pharos::focal::plane

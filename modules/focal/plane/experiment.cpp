@@ -40,7 +40,7 @@ MonteCarloMean estimate_irradiance(const GapScene& scene, const Technique& techn
 }
 
 double local_variance(const GapScene& scene, const Technique& technique, double x) {
-  constexpr int kPoints = 32;  // of the midpoint rule, in each gap
+  constexpr int kPoints = 32;  // number of points of the midpoint rule in each gap
   const MixedDensity density = technique.at(x);
   double second_moment = 0;
   for (const Interval& lit : scene.lit_angles(x)) {

@@ -8,14 +8,14 @@
 
 namespace pharos::focal::plane {
 
-/// How a guide is trained.
+/// The schedule of a guide's training.
 struct TrainingPlan {
   int iterations = 6;
-  int samples = 4096;            ///< of each iteration, spread evenly by chance over the floor
-  double guided_fraction = 0.5;  ///< from the second iteration on
+  int samples = 4096;  ///< number of samples per iteration, uniformly random over the floor
+  double guided_fraction = 0.5;  ///< share of guided samples from the second iteration on
 };
 
-/// How densities are mixed: those of `guide`, which may be null, and uniform ones.
+/// A mixture of the densities of `guide`, which may be null, and uniform densities.
 struct Technique {
   const Guide* guide = nullptr;
   double guided_fraction = 0;
@@ -25,35 +25,38 @@ struct Technique {
   }
 };
 
-/// Draws `count` paths from random points of the floor and returns those that found light.
+/// Draws `count` paths from random points of the floor and returns the paths that found light.
 std::vector<Path> draw_paths(const GapScene& scene, const Technique& technique, int count,
                              RandomStream& random);
 
-/// Trains `guide` from its initial state; the paths are a function of `seed`.
+/// Trains `guide` from its initial state. The paths are a function of `seed`.
 void train(Guide& guide, const GapScene& scene, const TrainingPlan& plan, std::uint64_t seed);
 
-/// A mean with its standard error [both unit of irradiance].
+/// A mean and its standard error [both in the unit of irradiance].
 struct MonteCarloMean {
   double value = 0, standard_error = 0;
 };
-/// The floor's mean irradiance from `count` paths, with the error that they show.
+/// Estimates the mean irradiance of the floor from `count` paths, and the standard error from the
+/// same paths.
 MonteCarloMean estimate_irradiance(const GapScene& scene, const Technique& technique, int count,
                                    RandomStream& random);
 
-/// The variance of the estimator of one sample for the irradiance at `x`. By quadrature over the
-/// angles that are lit, so that it has no noise of its own: it sees outliers before they occur.
+/// Returns the variance of the one-sample estimator of the irradiance at `x`. The variance is
+/// computed by quadrature over the lit angles and therefore has no noise: it includes outliers
+/// before they occur.
 double local_variance(const GapScene& scene, const Technique& technique, double x);
 
-/// local_variance() over the floor at `positions` evenly spaced points, from left to right.
+/// Returns local_variance() at `positions` evenly spaced points of the floor, from left to right.
 std::vector<double> variance_profile(const GapScene& scene, const Technique& technique,
                                      int positions);
 
-/// What a profile says of a technique.
+/// The summary of a variance profile.
 struct Evenness {
   double mean = 0;
   double worst_to_median = 0;
 };
-/// The mean is proportional to the expected squared error of an image of the floor.
+/// Summarizes a profile. The mean is proportional to the expected squared error of an image of the
+/// floor.
 Evenness evenness(std::vector<double> profile);
 
 }  // namespace pharos::focal::plane

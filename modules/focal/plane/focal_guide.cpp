@@ -9,7 +9,7 @@ Cell region_of(const GapScene& scene) {
   return {{-scene.half_width(), 0}, {2 * scene.half_width(), scene.light_height}};
 }
 
-/// Directions from a point of the floor to points of the tree.
+/// The density of directions from a point of the floor toward points of the tree.
 class TowardsTree final : public DirectionDensity {
  public:
   TowardsTree(double x, const Quadtree& tree) : origin_{x, 0}, tree_(tree) {}

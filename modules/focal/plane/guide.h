@@ -9,43 +9,45 @@
 
 namespace pharos::focal::plane {
 
-/// Uniform in [0, 1), 53 bits: cells of the quadtree are finer than what 24 bits tell apart.
+/// Returns a uniform number in [0, 1) with 53 bits. 24 bits do not suffice, because cells of the
+/// quadtree are finer.
 inline double uniform_number(RandomStream& random) {
   return static_cast<double>(random() >> 11) * 0x1p-53;
 }
 
 /// A path from the floor that found light.
 struct Path {
-  double x = 0;      ///< where on the floor it starts [scene units]
-  double angle = 0;  ///< of its direction, from the normal [rad]
-  double pdf = 0;    ///< with which the direction was drawn, of all techniques together [1/rad]
-  double value = 0;  ///< radiance times cosine over `pdf`: the estimator's value
+  double x = 0;      ///< position on the floor where the path starts [scene units]
+  double angle = 0;  ///< angle between its direction and the normal [rad]
+  double pdf = 0;    ///< density of the sampled direction, all techniques together [1/rad]
+  double value = 0;  ///< value of the estimator: radiance times cosine over `pdf`
 };
 
 /// A density of directions at one point of the floor, over angles in (-pi/2, pi/2).
 class DirectionDensity {
  public:
   virtual ~DirectionDensity() = default;
-  /// An angle [rad] with density pdf().
+  /// Samples an angle [rad] with density pdf().
   virtual double sample(RandomStream& random) const = 0;
-  /// [1/rad]; integrates to one.
+  /// Returns the density [1/rad], which integrates to one.
   virtual double pdf(double angle) const = 0;
 };
 
-/// What learns from paths where to send the next ones.
+/// Learns from paths how to sample the directions of the next paths.
 class Guide {
  public:
   virtual ~Guide() = default;
-  /// Takes in the paths that found light in training iteration `iteration`, counted from 0.
+  /// Learns from the paths that found light in training iteration `iteration`, counted from 0.
   virtual void learn(std::span<const Path> paths, int iteration) = 0;
-  /// The density at a point of the floor; null where the guide knows nothing. The guide must
-  /// outlive it, and learn nothing meanwhile.
+  /// Returns the density at a point of the floor, or null if the guide has not learned anything.
+  /// The guide must outlive the density and must not learn while the density is in use.
   virtual std::unique_ptr<DirectionDensity> at(double x) const = 0;
 };
 
-/// Uniform directions and a guide's, as one density: the share of guided ones is
-/// `guided_fraction`, and none without a guide. Sampling one of both by chance and dividing by the
-/// density of the mixture is multiple importance sampling with the balance heuristic.
+/// A mixture of uniform directions and the directions of a guide. The share of guided directions is
+/// `guided_fraction`, or zero without a guide. Each sample comes from one of both techniques,
+/// selected at random, and is divided by the density of the mixture. This is multiple importance
+/// sampling with the balance heuristic.
 class MixedDensity final : public DirectionDensity {
  public:
   MixedDensity(std::unique_ptr<DirectionDensity> guided, double guided_fraction)

@@ -1,4 +1,5 @@
-// pharos-focal-plane: figure 8 of Rath et al. 2023 and its numbers (see README.md).
+// pharos-focal-plane: reproduces figure 8 of Rath et al. 2023 and measures its variances (see
+// README.md).
 #include <cmath>
 #include <exception>
 #include <filesystem>
@@ -90,7 +91,7 @@ void print_table(const Options& options, const std::vector<SeedResult>& seeds) {
 }
 
 void check_range(const char* option, double value, double least, double most) {
-  if (value >= least && value <= most) return;  // not for NaN
+  if (value >= least && value <= most) return;  // false for NaN
   throw InputError(fmt::format("{}: error: expected a number from {} to {}, found {}", option,
                                least, most, value));
 }
@@ -98,7 +99,7 @@ void check_range(const char* option, double value, double least, double most) {
 void check(const Options& options) {
   const GapScene& scene = options.study.scene;
   check_range("--gap-width", scene.gap_width, 1e-6, scene.gap_distance);
-  // The ends of the floor see nothing of a smaller light than 0.6.
+  // If the half-width of the light is below 0.6, the ends of the floor do not see it.
   check_range("--light", scene.light_half_width, 0.65, 100);
   const std::filesystem::path output = options.output;
   if (!output.empty() && output.extension() != ".png") {

@@ -15,7 +15,7 @@ double normal_density(double offset, double deviation) {
 class ConditionalMixture final : public DirectionDensity {
  public:
   struct Component {
-    double cumulative;  ///< weight of this one and all before
+    double cumulative;  ///< sum of the weights of this component and all previous components
     double weight, mean, deviation;
   };
 
@@ -37,7 +37,7 @@ class ConditionalMixture final : public DirectionDensity {
     for (const Component& c : components_) {
       sum += c.weight * normal_density(target - c.mean, c.deviation);
     }
-    // From points on the light to angles: d target / d angle = height / cos^2.
+    // Change of variables from points on the light to angles: d target / d angle = height / cos^2.
     return sum / total() * light_height_ * (1 + slope * slope);
   }
 
@@ -67,7 +67,8 @@ void PathSpaceGuide::learn(std::span<const Path> paths, int) {
   for (const GuidePath& path : paths_) kernels_.push_back(kernel_of(path, order));
 }
 
-/// `order` holds all paths; the nearest come first afterwards.
+/// Returns the kernel of a guide path. `order` holds all paths; the call moves the nearest paths to
+/// the front.
 PathSpaceGuide::Kernel PathSpaceGuide::kernel_of(const GuidePath& path,
                                                  std::vector<const GuidePath*>& order) const {
   const auto distance = [&path](const GuidePath* other) {

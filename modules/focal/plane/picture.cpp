@@ -10,25 +10,27 @@ namespace {
 
 constexpr Rgb kPaper{1, 1, 1}, kDark{0.11f, 0.13f, 0.18f}, kGray{0.52f, 0.54f, 0.58f};
 constexpr Rgb kLight{0.96f, 0.73f, 0.18f};
-// All in pixels.
-constexpr double kUnit = 240;  // a scene unit
+// All lengths are in pixels.
+constexpr double kUnit = 240;  // length of a scene unit
 constexpr double kMargin = 22, kTitleHeight = 56, kFloorSpace = 40, kStripHeight = 168;
 constexpr double kLetters = 17, kSmallLetters = 13;
 
-/// Of what the picture shows [scene units]: all, and room for letters on both sides of the floor.
+/// Returns half of the width that the picture shows [scene units]: the whole scene, with space for
+/// labels on both sides of the floor.
 double seen_half_width(const GapScene& scene) {
   return std::max(scene.half_width(), scene.floor_half_width + 0.42);
 }
 
-/// The strips' logarithmic scale.
+/// The logarithmic scale of the strips.
 struct Scale {
-  double low = 0, high = 1;  ///< decimal logarithms of its ends
+  double low = 0, high = 1;  ///< decimal logarithms of both ends
 
-  /// 0 at the lower end, 1 at the upper one.
+  /// Returns the position of a value: 0 at the lower end, 1 at the upper end.
   double position(double value) const { return (std::log10(value) - low) / (high - low); }
 };
 
-/// From the decade below the least variance to a little above the largest.
+/// Returns a scale from the decade below the smallest variance to slightly above the largest
+/// variance.
 Scale scale_of(std::span<const Panel> panels, std::span<const double> uniform) {
   const auto [least, most] = std::minmax_element(uniform.begin(), uniform.end());
   double low = *least, high = *most;
@@ -38,7 +40,7 @@ Scale scale_of(std::span<const Panel> panels, std::span<const double> uniform) {
   return {std::floor(std::log10(low)), std::log10(high) + 0.2};
 }
 
-/// Draws one panel, its scene's upper left corner at (left, top).
+/// Draws one panel. The upper left corner of its scene is at (left, top).
 class PanelDrawing {
  public:
   PanelDrawing(Canvas& canvas, const GapScene& scene, const Panel& panel, double left, double top)
@@ -76,7 +78,8 @@ class PanelDrawing {
     return {floor_left() + position * (floor_right() - floor_left()), strip_bottom() - height};
   }
 
-  /// Each doubling of the density above a sixteenth of the mean is one step darker.
+  /// Tints the leaves. Each doubling of the density above a sixteenth of the mean is one step
+  /// darker.
   void tint() {
     const double area = panel_.tree->region().area();
     panel_.tree->for_each_leaf([&](const Quadtree::Child& leaf, const Cell& cell, std::size_t) {

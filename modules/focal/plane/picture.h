@@ -12,19 +12,19 @@
 
 namespace pharos::focal::plane {
 
-/// What one half of the picture shows.
+/// The content of one half of the picture.
 struct Panel {
-  std::string title;               ///< lower-case, of the letters in stroke_font.cpp
-  std::vector<Path> paths;         ///< that found light
-  std::vector<double> variances;   ///< over the floor, from left to right
-  const Quadtree* tree = nullptr;  ///< its density tints the scene; null for none
-  Rgb color;                       ///< of its curve and tint, sRGB-encoded
+  std::string title;               ///< in lower case, with letters of stroke_font.cpp only
+  std::vector<Path> paths;         ///< paths that found light
+  std::vector<double> variances;   ///< variances over the floor, from left to right
+  const Quadtree* tree = nullptr;  ///< quadtree whose density tints the scene; null for none
+  Rgb color;                       ///< color of the curve and the tint, sRGB-encoded
 };
 
-/// Figure 8: panels side by side, each the scene with its paths, their opacity in proportion to
-/// their value (1 at `full_value`), and below the floor the variance there, on a logarithmic scale
-/// that all panels share, with `uniform`, that of uniform sampling, as a dashed line. Linear
-/// colors.
+/// Draws figure 8: panels side by side. Each panel shows the scene with its paths. The opacity of a
+/// path is proportional to its value and reaches 1 at `full_value`. Below the floor, the panel
+/// shows the variance along the floor on a logarithmic scale that all panels share. The dashed line
+/// is `uniform`, the variance of uniform sampling. Colors are linear.
 Image draw_picture(const GapScene& scene, std::span<const Panel> panels,
                    std::span<const double> uniform, double full_value);
 

@@ -10,8 +10,9 @@
 namespace pharos::focal::plane {
 namespace {
 
-/// Where a ray is between two parallel lines, `low` and `low + size` along one axis. A ray along
-/// the axis' lines that lies on one counts to what is above it, never to both sides.
+/// Returns the interval of a ray between two parallel lines, at `low` and `low + size` along one
+/// axis. If the ray is parallel to these lines and lies on one of them, it belongs to the side
+/// above the line only.
 Stretch between(double origin, double direction, double low, double size) {
   if (direction == 0) {
     const bool inside = low <= origin && origin < low + size;
@@ -44,13 +45,13 @@ struct Quadtree::Refinement {
   double total;
   Quadtree result{old.region_};
 
-  /// What a new node is made of: a node of the old tree, or an even spread of `mass`.
+  /// The source of a new node: a node of the old tree, or a uniform distribution of `mass`.
   struct Source {
     std::optional<std::uint32_t> node;
     double mass = 0;
   };
 
-  /// Returns the new node's index; its children have `depth`.
+  /// Adds a node and returns its index. The children of the node have `depth`.
   std::uint32_t add(const Source& source, int depth) {
     const auto index = static_cast<std::uint32_t>(result.nodes_.size());
     result.nodes_.emplace_back();

@@ -18,12 +18,12 @@ struct Cell {
   Point2 low, size;
 
   double area() const { return size.x * size.y; }
-  /// Child `c` of four: bit 0 of `c` is set in the right half, bit 1 in the upper half.
+  /// Returns child `c` of four. Bit 0 of `c` is set for the right half, bit 1 for the upper half.
   Cell child(unsigned c) const;
 };
 
-/// The part of a ray within a cell, as distances from its origin [scene units]; empty unless
-/// begin < end.
+/// The interval of a ray within a cell, as distances from the ray's origin [scene units]. It is
+/// empty unless begin < end.
 struct Stretch {
   double begin = 0, end = 0;
 };
@@ -36,48 +36,50 @@ struct Ray {
   Point2 origin, direction;
 };
 
-/// A density over a rectangle, constant in each leaf of an adaptive quadtree: the octree of the
-/// focal guide one dimension lower. Immutable.
+/// A density over a rectangle, constant in each leaf of an adaptive quadtree. It is the octree of
+/// the focal guide with one dimension less. Immutable.
 class Quadtree {
  public:
-  /// One of the four children of a node: a leaf where `node` is 0 (no child is the root).
+  /// One of the four children of a node. The child is a leaf if `node` is 0, because no child is
+  /// the root.
   struct Child {
     std::uint32_t node = 0;
-    double mass = 0;  ///< of everything below [1]
+    double mass = 0;  ///< mass of all leaves below [1]
   };
   using Node = std::array<Child, 4>;
-  /// Something collected in leaves: for child c of node i at [4 i + c].
+  /// Sums collected in leaves: index [4 i + c] belongs to child c of node i.
   using Sums = std::vector<double>;
-  /// When leaves become nodes and nodes leaves (section 5, "Data structure").
+  /// The rule by which leaves become nodes and nodes become leaves (section 5, "Data structure").
   struct SplitRule {
-    double threshold = 1e-3;  ///< a child with more than this share of the mass is a node
-    int max_depth = 12;       ///< of leaves; the root's own children have depth 0
+    double threshold = 1e-3;  ///< a child with a larger share of the mass becomes a node
+    int max_depth = 12;       ///< maximum depth of leaves; the children of the root have depth 0
   };
 
-  /// The uniform density over `region`, refined by the normal rule.
+  /// Makes the uniform density over `region`, refined by the same rule.
   Quadtree(const Cell& region, const SplitRule& rule);
 
   const Cell& region() const { return region_; }
   std::size_t leaf_count() const { return 3 * nodes_.size() + 1; }
   Sums empty_sums() const { return Sums(4 * nodes_.size()); }
 
-  /// The tree whose masses are in proportion to `sums`, split by `rule`: a leaf that splits shares
-  /// out its mass evenly, over as many levels as it needs; a node below the threshold becomes a
-  /// leaf with all its mass. This tree itself where all sums are zero.
+  /// Returns a tree whose masses are proportional to `sums`, split by `rule`. A leaf that is split
+  /// distributes its mass uniformly, over as many levels as necessary. A node below the threshold
+  /// becomes a leaf with all of its mass. If all sums are zero, returns a copy of this tree.
   Quadtree refined(const Sums& sums, const SplitRule& rule) const;
 
-  /// A point with density mass / area of its leaf.
+  /// Samples a point. The density is the mass divided by the area of the leaf.
   Point2 sample(RandomStream& random) const;
 
-  /// The density of the directions from `ray`'s origin to points of sample() [1/rad].
+  /// Returns the density of the directions from `ray`'s origin to points of sample() [1/rad].
   ///
-  /// In polar coordinates about the origin an area element is t dt d(angle), so that the density of
-  /// a direction is the integral of density(origin + t direction) t dt: one power of t less than in
-  /// space (eq. 4). Within a leaf of mass m and area A the density is m / A, and its part of the
-  /// ray from t0 to t1 gives m (t1^2 - t0^2) / (2 A), which replaces eq. 7.
+  /// In polar coordinates about the origin, an area element is t dt d(angle). The density of a
+  /// direction is therefore the integral of density(origin + t direction) t dt, with one power of t
+  /// less than in space (eq. 4). Within a leaf of mass m and area A, the density is m / A. The ray
+  /// crosses the leaf from t0 to t1, and the leaf adds m (t1^2 - t0^2) / (2 A), which replaces eq.
+  /// 7.
   double directional_density(const Ray& ray) const;
 
-  /// What a leaf adds to directional_density() [1/rad].
+  /// Returns the contribution of a leaf to directional_density() [1/rad].
   static double directional_term(const Child& leaf, const Cell& cell, const Stretch& stretch) {
     return leaf.mass * (stretch.end - stretch.begin) * (stretch.end + stretch.begin) /
            (2 * cell.area());
@@ -106,7 +108,8 @@ class Quadtree {
   double total_below(std::uint32_t node, const Sums& sums) const;
   struct Refinement;
 
-  /// Visits the leaves below `node` whose cells, and those of all nodes above, `enter` accepts.
+  /// Visits the leaves below `node` for which `enter` accepts the cell of the leaf and the cells of
+  /// all nodes above it.
   template <class Enter, class Visit>
   void walk(std::uint32_t node, const Cell& cell, const Enter& enter, Visit&& visit) const {
     for (unsigned c = 0; c < 4; ++c) {

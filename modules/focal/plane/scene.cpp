@@ -42,7 +42,7 @@ double GapScene::irradiance(double x) const {
 }
 
 double GapScene::mean_irradiance() const {
-  constexpr int kPoints = 4096;  // of the midpoint rule
+  constexpr int kPoints = 4096;  // number of points of the midpoint rule
   double sum = 0;
   for (int i = 0; i < kPoints; ++i) {
     sum += irradiance(floor_half_width * (2 * (i + 0.5) / kPoints - 1));

@@ -10,8 +10,8 @@
 namespace pharos::focal::plane {
 namespace {
 
-/// Strokes as control points of two characters: x as a digit, y as a letter, 'd' being the base
-/// line. Corners between them are rounded; sharp ones are ends of strokes.
+/// Strokes as control points of two characters each: x as a digit and y as a letter, where 'd' is
+/// the base line. Inner corners are rounded. A sharp corner consists of two strokes that end there.
 const std::map<char, std::string_view>& strokes() {
   static const std::map<char, std::string_view> all{
       {' ', ""},
@@ -51,7 +51,8 @@ const std::map<char, std::string_view>& strokes() {
   return all;
 }
 
-/// Chaikin's corner cutting (1974), which ends in a quadratic B-spline; ends stay.
+/// Applies one step of Chaikin's corner cutting (1974), which converges to a quadratic B-spline.
+/// End points do not move.
 std::vector<Point2> rounded(const std::vector<Point2>& corners) {
   if (corners.size() < 3) return corners;
   const auto between = [](Point2 a, Point2 b, double t) {
@@ -59,7 +60,8 @@ std::vector<Point2> rounded(const std::vector<Point2>& corners) {
   };
   std::vector<Point2> cut{corners.front()};
   for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
-    // The first and last edges are cut at their middles, as the spline's ends are fixed there.
+    // The first and last edges are cut at their midpoints, because the ends of the spline are
+    // fixed.
     cut.push_back(between(corners[i - 1], corners[i], i == 1 ? 0.5 : 0.75));
     cut.push_back(between(corners[i], corners[i + 1], i + 2 == corners.size() ? 0.5 : 0.25));
   }

@@ -6,17 +6,17 @@
 
 namespace pharos::focal::plane {
 
-/// From the base line to the top of 'l' [font units].
+/// The height from the base line to the top of 'l' [font units].
 inline constexpr double kCapHeight = 10;
 
-/// A letter as lines [font units], y upwards from the base line.
+/// A letter as a set of polylines [font units], with y upward from the base line.
 struct Glyph {
   std::vector<std::vector<Point2>> strokes;
-  double advance = 0;  ///< to the next letter
+  double advance = 0;  ///< distance to the next letter
 };
 
-/// A letter of the font, which has those that the picture's labels need. Throws InputError for
-/// others.
+/// Returns a letter of the font, which contains the letters of the picture's labels. Throws
+/// InputError for other letters.
 Glyph glyph_of(char letter);
 
 }  // namespace pharos::focal::plane

@@ -8,12 +8,12 @@
 namespace pharos::focal::plane {
 namespace {
 
-// What random numbers are for, beside training: keys that no iteration has.
+// Keys of random numbers that are not for training. No iteration has these numbers.
 constexpr std::uint64_t kEstimateKey = 1'000'000, kPictureKey = 1'000'001;
 
 constexpr Rgb kVermilion{0.84f, 0.33f, 0.16f}, kTeal{0.0f, 0.53f, 0.53f};
 
-/// Both guides, trained.
+/// Both guides after training.
 struct TrainedGuides {
   TrainedGuides(const StudySettings& settings, std::uint64_t seed)
       : path_space(settings.scene.light_height, settings.path_space),
@@ -67,8 +67,8 @@ Image draw_seed(const StudySettings& settings, std::uint64_t seed) {
   };
   const Panel panels[] = {panel("(a) path-space guiding", guides.path_space, nullptr, kVermilion),
                           panel("(b) focal guiding", guides.focal, &guides.focal.tree(), kTeal)};
-  // What upright paths are worth that only uniform sampling finds: half of that is drawn with full
-  // ink.
+  // The value of a path along the normal that only uniform sampling finds. Half of this value is
+  // drawn with full opacity.
   const double unguided_value = std::numbers::pi / (1 - settings.plan.guided_fraction);
   return draw_picture(settings.scene, panels,
                       variance_profile(settings.scene, {}, settings.positions),

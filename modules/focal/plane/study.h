@@ -11,22 +11,22 @@
 
 namespace pharos::focal::plane {
 
-/// Everything that one comparison depends on, but for the seed.
+/// All settings of a comparison, except the seed.
 struct StudySettings {
   GapScene scene;
   TrainingPlan plan;
   PathSpaceSettings path_space;
-  int positions = 512;           ///< on the floor, at which variances are computed
-  int estimate_samples = 16384;  ///< of the estimate of the mean irradiance
+  int positions = 512;           ///< number of points of the floor at which variances are computed
+  int estimate_samples = 16384;  ///< number of samples of the estimate of the mean irradiance
 };
 
-/// What one technique gives, trained with one seed.
+/// The result of one technique, trained with one seed.
 struct MethodResult {
   MonteCarloMean estimate;
-  std::vector<double> variances;  ///< over the floor
-  double efficiency = 1;          ///< uniform sampling's mean variance over this one's
-  double worst_to_median = 0;     ///< of the variances
-  double least_efficiency = 1;    ///< the same ratio at the point of the floor where it is least
+  std::vector<double> variances;  ///< variances over the floor
+  double efficiency = 1;          ///< uniform sampling's mean variance over the technique's
+  double worst_to_median = 0;     ///< largest variance divided by the median variance
+  double least_efficiency = 1;    ///< efficiency at the point of the floor where it is smallest
 };
 
 struct SeedResult {
@@ -36,7 +36,7 @@ struct SeedResult {
 /// Trains both guides with one seed and measures them.
 SeedResult run_seed(const StudySettings& settings, std::uint64_t seed);
 
-/// The same, as figure 8 with as many fresh paths as a training iteration has.
+/// Trains both guides and draws figure 8, with as many new paths as a training iteration has.
 Image draw_seed(const StudySettings& settings, std::uint64_t seed);
 
 }  // namespace pharos::focal::plane

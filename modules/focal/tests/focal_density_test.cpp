@@ -16,7 +16,8 @@ struct Origin {
   Point3 point;
 };
 
-/// Inside, on faces, edges and corners of the box and of cells, in the hot cells, and outside.
+/// Origins inside the box; on faces, edges and corners of the box and of cells; in the hot cells;
+/// and outside.
 std::vector<Origin> origins() {
   const Box box = test_box();
   const auto at = [&](float x, float y, float z) {
@@ -49,7 +50,7 @@ TEST_CASE("focal density: directions fit their density, which integrates to one"
           draw, density, {.draws = 40'000, .seed = 9, .cells = 60, .quadrature_tolerance = 2e-4});
       CHECK(fit.is_density());
       CHECK(fit.integral == doctest::Approx(1).epsilon(1e-3 + fit.integral_error));
-      // 48 fits: at this level a correct sampler fails one run in 2,000.
+      // The test makes 48 fits. At this level, a correct sampler fails one run in 2,000.
       CHECK(fit.chi_square.p_value > 1e-5);
       CHECK(fit.missed == 0);
     }

@@ -16,12 +16,12 @@ namespace {
 
 using namespace testing;
 
-/// Half-width of the hole through which all light comes, and where it is.
+/// Half of the width of the hole through which all light passes, and the hole's center.
 constexpr float kHole = 0.01f;
 constexpr Point3 kCenter{0.1f, 1.1f, 3.9f};
 
-/// Paths of one guidable step each, from random points through the hole, as a camera obscura has
-/// them; every coordinate times `scale`.
+/// Returns paths like those in a camera obscura. Each path has one guidable segment, from a random
+/// point through the hole. Every coordinate is multiplied by `scale`.
 PathLog hole_paths(int count, std::uint64_t seed, float scale = 1, Point3 center = kCenter,
                    float unguided_fraction = 0.5f) {
   PathLog log;
@@ -62,7 +62,7 @@ LearningContext context(float scale = 1, std::uint32_t iterations = 10) {
   return {region, 1, iterations};
 }
 
-/// Trains on `hole_paths` for all of the iterations.
+/// Trains on `hole_paths` for all iterations.
 std::shared_ptr<const FocalModel> trained(const FocalSettings& settings, float scale = 1,
                                           Point3 center = kCenter) {
   constexpr std::uint32_t iterations = 10;
@@ -88,7 +88,7 @@ std::string saved(const LearningState& state) {
   return out.str();
 }
 
-/// Share of drawn directions from the canvas that go through the hole.
+/// Returns the share of sampled directions from the canvas that pass through the hole.
 double hits(const FocalModel& model, Point3 center = kCenter) {
   RandomStream random(99);
   constexpr int kDraws = 10'000;
@@ -127,7 +127,7 @@ TEST_CASE("focal learner: the region grows to a focal point outside of the scene
   CHECK(grown->bounds().contains(kImage));
   CHECK(after > 0.3);
   CHECK(after > 5 * before);
-  // What lies within the scene makes it grow no more than once.
+  // Focal points within the scene let the region grow at most once.
   const auto inside = trained({.region_growths = 3});
   CHECK(inside->bounds().diagonal() <= 2.001f * fixed->bounds().diagonal());
 }
@@ -187,7 +187,7 @@ TEST_CASE("focal learner: what another iteration absorbed is not merged") {
 }
 
 TEST_CASE("focal learner: learning starts from 16 x 16 x 16 cells of each sign") {
-  // 585 nodes of 8 children, each with an index or density, a mass and a sum.
+  // Each octree has 585 nodes of 8 children. Each child has an index or density, a mass and a sum.
   const std::size_t numbers = 2 * 585 * 8 * (sizeof(float) + 2 * sizeof(double));
   const std::size_t size = saved(*FocalLearner(FocalSettings{}).begin(context())).size();
   CHECK(size > numbers);
@@ -199,7 +199,7 @@ TEST_CASE("focal learner: decay keeps a share of what earlier iterations found")
     const auto state = FocalLearner({.narrowing_iterations = 0, .decay = decay}).begin(context());
     state->absorb(hole_paths(1000, 1));
     state->update(0, false);
-    state->absorb(hole_paths(1000, 2, 1, {-1, 2, 6}));  // light moves to another place
+    state->absorb(hole_paths(1000, 2, 1, {-1, 2, 6}));  // the light moves to another place
     const auto model = state->update(1, false);
     return model->density(kCenter) / (model->density(kCenter) + model->density({-1, 2, 6}));
   };
@@ -302,7 +302,7 @@ TEST_CASE("focal model: cut or damaged files are refused") {
         static_cast<char>(1 << (i % 8));
     try {
       const auto model = load(damaged);
-      // A density was changed, so little that it is one still.
+      // The change of a density was so small that the result is still a density.
       const FocalDensity& density = dynamic_cast<const FocalModel&>(*model).focal_density();
       CHECK(density.converging.mass() + density.diverging.mass() ==
             doctest::Approx(1).epsilon(1e-3));

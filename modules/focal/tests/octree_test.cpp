@@ -13,7 +13,7 @@ namespace {
 
 using namespace testing;
 
-/// The integral of density t^2 over the line, leaf by leaf without any traversal.
+/// Integrates density t^2 over the line, leaf by leaf and without the traversal.
 double summed_over_leaves(const Octree& octree, std::uint32_t node, const Box& box, Point3 from,
                           Vec3 direction, double begin, double end) {
   double sum = 0;
@@ -82,7 +82,7 @@ TEST_CASE("octree: lines within planes between cells count once") {
                   static_cast<float>(box.low[2] + z * box.size[2])};
   };
   const double density = 1 / box.volume();
-  // From the middle of the box along an axis: the line lies in planes between eight cells.
+  // Lines from the center of the box along an axis lie in planes between eight cells.
   for (int axis = 0; axis < 3; ++axis) {
     Vec3 direction;
     direction[axis] = 1;
@@ -94,7 +94,7 @@ TEST_CASE("octree: lines within planes between cells count once") {
       CHECK(octree.directional_density<Side::behind>(line) == doctest::Approx(expected));
     }
   }
-  // From a face straight inwards, and straight away.
+  // Lines from a face straight inward and straight away.
   const Line inwards(box, at(0, 0.3f, 0.3f), {1, 0, 0});
   CHECK(octree.directional_density<Side::ahead>(inwards) ==
         doctest::Approx(density * std::pow(box.size[0], 3) / 3));
@@ -109,8 +109,8 @@ TEST_CASE("octree: points are drawn by density") {
     const Octree& octree = named.density.converging;
     CHECK(named.density.converging.mass() + named.density.diverging.mass() ==
           doctest::Approx(1).epsilon(1e-5));
-    // The mean of mass/density over draws is the volume of the cells that have mass: of the box.
-    // (In a cell as small as the hot one, points that are rounded to floats may leave it.)
+    // The mean of mass/density over samples is the volume of the cells that have mass, here the
+    // volume of the box. The hot cell is so small that points rounded to floats may leave it.
     if (named.name == "one hot cell") continue;
     double volume = 0;
     constexpr int kDraws = 100'000;

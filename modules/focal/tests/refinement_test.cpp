@@ -9,7 +9,7 @@ namespace {
 
 using namespace testing;
 
-/// Index of the node in whose child `c` the path of child numbers ends.
+/// Returns the index of the node that the path of child numbers reaches from the root.
 std::uint32_t node_at(const Octree& octree, std::initializer_list<unsigned> path) {
   std::uint32_t node = 0;
   for (const unsigned c : path) {
@@ -35,7 +35,7 @@ TEST_CASE("refinement: a heavy leaf is divided over several levels at once") {
   learned.masses = {0.9, 0, 0, 0, 0, 0, 0, 0.1};
   const LearningOctree finer = refined(learned, {.threshold = 0.05});
   const Octree& octree = finer.octree;
-  // 0.9 and 0.9 / 8 exceed 0.05, 0.9 / 64 does not; and 0.1 / 8 does not.
+  // 0.9 and 0.9 / 8 exceed 0.05; 0.9 / 64 and 0.1 / 8 do not.
   const std::uint32_t inner = node_at(octree, {0, 5});
   for (unsigned c = 0; c < 8; ++c) {
     CHECK(octree.nodes()[inner].is_leaf(c));
@@ -88,7 +88,7 @@ TEST_CASE("enlarging: the same cells with the same masses in a box of twice the 
 }
 
 TEST_CASE("enlarging: what is densest at the boundary is noticed") {
-  // Two levels of leaves; the densest one is child `c` of the root's child 0.
+  // The octree has two levels of leaves. Its densest leaf is child `c` of the root's child 0.
   const auto is_noticed = [](unsigned c) {
     LearningOctree learned = refined(uniform_octree(test_box(), 1), {.threshold = 0.1});
     learned.masses[8 * node_at(learned.octree, {0}) + c] = 1;
@@ -107,8 +107,8 @@ TEST_CASE("pruning: even nodes vanish, uneven ones stay, mass is kept") {
 
   LearningOctree learned = refined(uniform_octree(test_box(), 1), {.threshold = 0.1});
   REQUIRE(learned.octree.depth() == 2);
-  // Child 0: one leaf twice as dense as the mean of its node stays within the ratio; child 1: a
-  // little denser does not.
+  // Child 0 has one leaf twice as dense as the mean of its node, within the ratio. Child 1 has a
+  // slightly denser leaf, above the ratio.
   for (unsigned k = 0; k < 2; ++k) {
     const std::size_t node = node_at(learned.octree, {k});
     const double peak = k == 0 ? 2 : 2.01;

@@ -19,7 +19,7 @@ double total(const std::vector<double>& sums) {
   return std::accumulate(sums.begin(), sums.end(), 0.0);
 }
 
-/// Length of a line within the box between two distances, by small steps.
+/// Computes the length of a line within the box between two distances by small steps.
 double stepped_length(const Box& box, const Segment& s, double begin, double end) {
   constexpr int kSteps = 200'000;
   const double step = (end - begin) / kSteps;
@@ -41,7 +41,7 @@ Segment segment(Point3 from, Point3 to, bool whole_line) {
           .whole_line = whole_line};
 }
 
-/// A path of a lens vertex, two surface vertices and what `end` makes of the last one.
+/// A path of a lens vertex and two surface vertices. Tests modify the last vertex.
 struct TestPath {
   TestPath() {
     vertices[0].throughput = Rgb(1);
@@ -139,7 +139,7 @@ TEST_CASE("splat: lengths go to the cells that the line crosses") {
   const Segment s = segment({0, 1, 2.5f}, {0.4f, 1.2f, 5}, false);
   FocalSums sums(density);
   splat_lengths({&s, 1}, density, 1, sums);
-  // Cell by cell: draws along the segment.
+  // Computes the expected sums from points along the segment, cell by cell.
   std::vector<double> expected(sums.converging.size());
   constexpr int kSteps = 100'000;
   for (int i = 0; i < kSteps; ++i) {
@@ -176,7 +176,7 @@ TEST_CASE("splat: narrowing shares out what the guide would have sampled (eq. 14
     FocalSums sums(density), alone(density);
     splat_narrowed({&s, 1}, density, true, sums);
     splat_narrowed({&s, 1}, density, false, alone);
-    // A whole line meets all cells that could have sampled it: the weights sum to the guide's share
+    // A whole line meets all cells that could have sampled it. The weights sum to the guide's share
     // of the mixture, or to one without compensation.
     const double share = 0.5 * guided / (0.5 * 0.4 + 0.5 * guided);
     CHECK(sums.total() == doctest::Approx(2.5 * share).epsilon(1e-5));
@@ -188,7 +188,7 @@ TEST_CASE("splat: what other guides sample well is left to them") {
   const FocalDensity density = test_densities()[2].density;
   Segment s = segment({0, 1, 2.5f}, {0.1f, 1.3f, 3.7f}, true);
   const double own = density.directional_density(s.origin, s.direction);
-  s.guided_pdf = static_cast<float>(10 * own);  // of a mixture of guides
+  s.guided_pdf = static_cast<float>(10 * own);  // density of a mixture of guides
   FocalSums sums(density);
   splat_narrowed({&s, 1}, density, true, sums);
   CHECK(sums.total() == doctest::Approx(2.5 * 0.5 * own / (0.5 * 0.4 + 0.5 * 10 * own)));
@@ -199,14 +199,15 @@ TEST_CASE("splat: the weight of one cell is its share of the density (eq. 12)") 
   two.masses = {0.8, 0, 0, 0, 0, 0, 0, 0.2};
   const Octree octree = refined(two, {.threshold = 1, .max_depth = 0}).octree;
   const FocalDensity density{octree, Octree(test_box(), {Octree::Node{}})};
-  // Through both cells along the diagonal, from the low corner: t^3 grows from 0 to 1 to 8.
+  // The segment crosses both cells along the diagonal from the low corner, so t^3 grows from 0 to 1
+  // to 8.
   const Point3 low{-1.5f, 0.25f, 2}, high{1.5f, 2.25f, 6.5f};
   const Segment s = segment(low, high, true);
   FocalSums sums(density);
   splat_narrowed({&s, 1}, density, false, sums);
   CHECK(sums.converging[0] == doctest::Approx(2.5 * 0.8 / (0.8 + 0.2 * 7)));
   CHECK(sums.converging[7] == doctest::Approx(2.5 * 1.4 / (0.8 + 0.2 * 7)));
-  // A segment that ends before the second cell gives it nothing.
+  // A segment that ends before the second cell adds nothing to this cell.
   const Segment half = segment(low, low + 0.4f * (high - low), false);
   FocalSums cut(density);
   splat_narrowed({&half, 1}, density, false, cut);

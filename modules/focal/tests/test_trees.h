@@ -15,7 +15,8 @@ inline Box test_box() {
   return {{-1.5, 0.25, 2}, {3, 2, 4.5}};
 }
 
-/// The tree that `draws` points give which `draw(random)` makes, refined in a few rounds.
+/// Returns the tree learned from `draws` points that `draw(random)` returns, refined in a few
+/// rounds.
 template <class DrawPoint>
 Octree tree_of_points(const SplitRule& rule, int draws, std::uint64_t seed, DrawPoint&& draw) {
   LearningOctree learned = refined(uniform_octree(test_box(), 1), rule);
@@ -54,7 +55,7 @@ inline Point3 point_in_box(RandomStream& random, const Box& box) {
           static_cast<float>(box.low[2] + v * box.size[2])};
 }
 
-/// Points around `center`, within `radius` along each axis.
+/// Returns a random point around `center`, within `radius` along each axis.
 inline Point3 point_near(RandomStream& random, Point3 center, float radius) {
   const Vec2 u = random.next_2d();
   return center + radius * Vec3{2 * u.x - 1, 2 * u.y - 1, 2 * random.next_1d() - 1};
@@ -63,7 +64,7 @@ inline Point3 point_near(RandomStream& random, Point3 center, float radius) {
 inline Octree even_tree() {
   return refined(uniform_octree(test_box(), 1), {.threshold = 1e-2}).octree;
 }
-/// Cells of random sizes with random masses.
+/// Returns a tree with cells of random sizes and random masses.
 inline Octree random_tree(std::uint64_t seed) {
   LearningOctree learned = refined(uniform_octree(test_box(), 1), {.threshold = 5e-2});
   RandomStream random(seed);
@@ -75,8 +76,8 @@ inline Octree random_tree(std::uint64_t seed) {
   }
   return learned.octree;
 }
-/// A small hole in a wall, two lamps, and a little everywhere: what learning makes of a camera
-/// obscura.
+/// Returns a tree like the one learned for a camera obscura: a small hole in a wall, two lamps, and
+/// a small uniform density.
 inline Octree pinhole_tree(float radius = 0.02f) {
   return tree_of_points({.threshold = 5e-3}, 20'000, 3, [&](RandomStream& random) {
     const float u = random.next_1d();
@@ -85,7 +86,7 @@ inline Octree pinhole_tree(float radius = 0.02f) {
     return point_in_box(random, test_box());
   });
 }
-/// All mass in one cell at the greatest depth.
+/// Returns a tree with all mass in one cell at the maximum depth.
 inline Octree one_hot_tree() {
   return tree_of_points({.threshold = 5e-2}, 2'000, 4, [](RandomStream&) {
     return Point3{0.3f, 1.1f, 4.2f};
@@ -97,7 +98,8 @@ struct NamedDensity {
   FocalDensity density;
 };
 
-/// Densities of one sign and of both. The masses of the two trees sum to one.
+/// Densities of converging points only, and of both converging and diverging points. The masses of
+/// the two trees sum to one.
 inline std::vector<NamedDensity> test_densities() {
   const auto share = [](const Octree& octree, float factor) {
     std::vector<Octree::Node> nodes = octree.nodes();

@@ -44,7 +44,7 @@ TEST_CASE("without samples there is no model") {
 }
 
 TEST_CASE("the same answers, to the bit, for any number of threads") {
-  device();  // with all of them
+  device();  // made with all threads
   std::string expected;
   for (const std::size_t threads : {1u, 2u, 3u, 7u}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);

@@ -16,8 +16,8 @@ namespace pharos::open_pgl::testing {
 inline constexpr Bounds3 kRegion{{-2, -2, -1}, {2, 2, 3}};
 inline constexpr Point3 kLamp{0, 0, 2};
 
-/// Paths of one guidable step each, from random points of a floor to a lamp above it (every third
-/// one), or in vain to the walls.
+/// Returns paths with one guidable step each. The steps start at random points of a floor. Every
+/// third one hits a lamp above the floor, the others hit dark walls.
 inline PathLog lamp_paths(int count, std::uint64_t seed) {
   PathLog log;
   RandomStream random(seed);
@@ -55,8 +55,8 @@ inline std::shared_ptr<const GuidingModel> trained(const OpenPglSettings& settin
   return trained(*OpenPglLearner(settings).begin({.region = kRegion}));
 }
 
-/// What a model says of directions at a few places: the bits of a field's file would tell its times
-/// as well.
+/// Returns a model's densities at random points and directions as text. The bytes of a field's file
+/// cannot be compared, because they also contain times.
 inline std::string answers(const GuidingModel& model) {
   std::ostringstream out;
   RandomStream random(11);

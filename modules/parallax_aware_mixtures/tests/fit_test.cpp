@@ -26,7 +26,7 @@ double weight_of(const std::vector<WeightedDirection>& directions) {
   return sum;
 }
 
-/// Frozen moments of as many directions as there are lobes, each a hundred times.
+/// Returns random frozen moments for `count` lobes, each with a weight below 100.
 std::vector<Moments> any_moments(std::size_t count, RandomStream& random) {
   std::vector<Moments> all(count);
   for (Moments& m : all) {
@@ -52,7 +52,7 @@ TEST_CASE("steps never lower the objective, with what was seen before and masked
     for (int step = 0; step < 30; ++step) {
       const Expectation now = expectation(mixture, directions);
       const double reached = objective(mixture, now.log_likelihood, seen, rules);
-      // Sums are of single precision: 1e-6 of the number of directions.
+      // Sums are in single precision: the tolerance is 1e-6 times the number of directions.
       CHECK(reached > last - 2e-3);
       last = reached;
       std::vector<Moments> moments = now.moments;

@@ -19,8 +19,8 @@ using namespace testing;
 
 constexpr Point3 kLamp{0, 0, 1};
 
-/// Paths of one guidable step each, from random points of a floor to a small lamp above it (every
-/// third one), or in vain to the walls.
+/// Returns paths with one guidable step each. The steps start at random points of a floor. Every
+/// third one hits a small lamp above the floor, the others hit dark walls.
 PathLog lamp_paths(int count, std::uint64_t seed) {
   PathLog log;
   RandomStream random(seed);
@@ -31,7 +31,7 @@ PathLog lamp_paths(int count, std::uint64_t seed) {
     Vec3 aside = any_direction(random);
     aside.z = std::abs(aside.z);
     const Point3 to = hits ? kLamp + 0.03f * aside : from + 3 * aside;
-    // About what a third of all samples on a disk of that size have.
+    // About the density of directions if a third of all samples are uniform on a disk of that size.
     const float lamp_pdf = length_squared(to - from) / (3 * kPi * 0.03f * 0.03f);
     log.begin_path({}, Transport::radiance);
     log.add(RecordedVertex{.throughput = Rgb(1)});
@@ -77,7 +77,7 @@ std::string saved(const Savable& what) {
   return out.str();
 }
 
-/// Share of the guide's directions at a point that lie within 5 degrees of the lamp.
+/// Returns the share of sampled directions at a point that are within 5 degrees of the lamp.
 double share_at_lamp(const GuidingModel& model, Point3 at) {
   const auto view = dynamic_cast<const ParallaxAwareMixturesModel&>(model).at(at);
   Arena arena;
@@ -152,7 +152,7 @@ TEST_CASE("a wide light takes several lobes: those that fit badly are split") {
   PathLog log;
   RandomStream random(3);
   for (int i = 0; i < 20'000; ++i) {
-    // A ring, from one point.
+    // A ring of light around a single point.
     const float phi = 2 * kPi * random.next_1d();
     const bool hits = i % 2 == 0;
     const Vec3 w = hits ? normalize(Vec3{std::cos(phi), std::sin(phi), 0.3f * random.next_1d()})
@@ -222,7 +222,7 @@ TEST_CASE("states that learned before the iteration's end are not merged") {
 TEST_CASE("little light waits for more; without any there is no model") {
   const auto state = ParallaxAwareMixturesLearner(small_settings()).begin({.seed = 7});
   CHECK(state->update(0, false) == nullptr);
-  state->absorb(lamp_paths(60, 1));  // 20 that find something, of 128
+  state->absorb(lamp_paths(60, 1));  // 20 samples with light; a first fit needs 128
   CHECK(state->update(1, false) == nullptr);
   state->absorb(lamp_paths(400, 2));
   CHECK(state->update(2, false) != nullptr);

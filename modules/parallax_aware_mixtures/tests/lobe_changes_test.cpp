@@ -22,7 +22,7 @@ TEST_CASE("the cost of a merger is its chi-square divergence times the weight") 
       return (both - one) * (both - one) / one;
     };
     const double expected = statistics::integrate_sphere(excess, {.tolerance = 1e-5}, 48, 96).value;
-    if (expected > 1e3) continue;  // dominated by where the whole has next to nothing
+    if (expected > 1e3) continue;  // dominated by directions where the merged lobe is almost zero
     CHECK(merge_cost(a, b) == doctest::Approx(expected).epsilon(2e-3).scale(1e-3));
   }
   const Lobe same{0.5, Direction::UnitX(), 50};
@@ -44,7 +44,7 @@ TEST_CASE("halves merge to the lobe that they come from") {
   for (int i = 0; i < 100; ++i) {
     const Lobe lobe = any_mixture(1, 0.5, 5000, random)[0];
     const Direction any = to_direction(any_direction(random));
-    // About half a standard deviation.
+    // The axis is about half a standard deviation long.
     const Direction axis = 0.4 / std::sqrt(lobe.kappa + 1) * (any - any.dot(lobe.mean) * lobe.mean);
     const auto parts = halves(lobe, axis, 1e6);
     CHECK(parts[0].weight == lobe.weight / 2);
@@ -66,7 +66,7 @@ TEST_CASE("lobes point at the same place from anywhere; infinitely far ones do n
   CHECK(lobe.seen_from(Direction(0, 0, 2)).lobe.mean == lobe.lobe.mean);
 }
 
-/// Samples drawn uniformly of a light with the density of a mixture.
+/// Returns samples of uniform directions. The incident light has the density of a mixture.
 std::vector<AimedSample> samples_of(const Mixture& light, int count, std::uint64_t seed) {
   RandomStream random(seed);
   std::vector<AimedSample> all;
@@ -88,7 +88,7 @@ TEST_CASE("a mixture that is right has no divergence, one that is wrong has wher
     CHECK(a.divergence() < 2e-3);
     CHECK(a.inverse / a.certainty == doctest::Approx(0.25));
   }
-  // By quadrature.
+  // The expected divergence is computed by quadrature.
   Mixture wrong = light;
   wrong[0].kappa = 40;
   const std::vector<Assessment> assessed = assess(wrong, samples, 1e-6f);

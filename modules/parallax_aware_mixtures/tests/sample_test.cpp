@@ -7,8 +7,8 @@
 namespace pharos::parallax_aware_mixtures {
 namespace {
 
-/// A path from the lens over a guidable vertex at the origin, a surface three above it, and on to a
-/// lamp four beyond that.
+/// Returns the samples of a path from the lens over a guidable vertex at the origin and a surface 3
+/// units above it to a lamp 4 units further.
 std::vector<Sample> samples_over(RecordedVertex surface, Vec3 onward,
                                  VertexKind end = VertexKind::surface) {
   PathLog log;
@@ -51,7 +51,8 @@ TEST_CASE("distances are those of images: past mirrors and smooth surfaces, thro
   CHECK(inverse({.event = Event::discrete_reflect}, back) == doctest::Approx(1.0 / 7));
   CHECK(inverse({.event = Event::smooth_reflect, .roughness = 0.1f}, back) ==
         doctest::Approx(1.0 / 7));
-  // Refraction straight ahead into an index of 1.5: the image is closer by that factor.
+  // Refraction straight ahead into a medium of index 1.5: the part behind the surface appears
+  // shorter by this factor.
   CHECK(inverse({.event = Event::discrete_transmit, .eta = 1.5f}, {0, 0, 1}) ==
         doctest::Approx(1 / (3 + 4 / 1.5)));
   const auto sky = samples_over({.event = Event::discrete_reflect}, back, VertexKind::environment);

@@ -9,7 +9,7 @@ namespace {
 
 using namespace testing;
 
-/// Two lobes, one ahead and one straight up, or one alone.
+/// A phase function of two lobes, one ahead and one straight up, or of one alone.
 class LobePhase final : public PhaseFunction {
  public:
   LobePhase(float kappa, float share_up) : kappa_(kappa), share_up_(share_up) {}
@@ -44,7 +44,7 @@ TEST_CASE("lobes are fitted to what a vertex scatters, narrow or wide") {
     REQUIRE(lobes.count >= 1);
     const Factor& first = lobes.lobes[0];
     CHECK(dot(first.mean, LobePhase::kAhead) > 0.9f);
-    // A fit of 64 directions whose tail may be a lobe of its own.
+    // The fit has 64 directions only, and their tail may form a lobe of its own.
     CHECK(first.kappa > 0.6f * kappa);
     CHECK(first.kappa < 4 * kappa + 2);
   }

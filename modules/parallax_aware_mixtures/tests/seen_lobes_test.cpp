@@ -18,7 +18,7 @@ std::vector<LobeGroup> groups_of(const Mixture& mixture, double inverse_distance
   return groups;
 }
 
-/// What a mixture is multiplied by in the tests: nothing, one lobe, two.
+/// Returns the factors that the tests multiply mixtures by: none, one lobe, two lobes.
 std::vector<std::vector<Factor>> factor_lists() {
   return {{}, {{{0, 0, 1}, 2.18853f, 1}}, {{{0.6f, 0, 0.8f}, 300, 0.7f}, {{0, 0, 1}, 1.5f, 0.3f}}};
 }
@@ -77,7 +77,7 @@ TEST_CASE("draws follow their density, and it integrates to one") {
 
 TEST_CASE("lobes point at their place from wherever they are seen") {
   Arena arena;
-  // Seen from the pivot at (1, 1, 1) the light is 4 above it.
+  // The pivot is (1, 1, 1), and the light is 4 units above it.
   const std::vector<LobeGroup> groups = groups_of({{1, Direction::UnitZ(), 2000}}, 0.25);
   for (const Point3 vertex : {Point3{1, 1, 1}, {4, 1, 1}, {1, -2, 1}, {2, 3, 9}}) {
     const SeenLobes* seen = SeenLobes::make(groups, Point3{1, 1, 1} - vertex, {}, arena);
@@ -85,7 +85,7 @@ TEST_CASE("lobes point at their place from wherever they are seen") {
     CHECK(seen->density(expected) == doctest::Approx(mode_density(2000)).epsilon(1e-4));
     CHECK(dot(seen->sample(0.5f, {0.5f, 0.5f}), expected) == doctest::Approx(1).epsilon(1e-5));
   }
-  // In that very place any direction will do.
+  // At the position of the light any direction is correct.
   CHECK(SeenLobes::make(groups, {0, 0, -4}, {}, arena)->density({0, 0, 1}) > 0);
 }
 

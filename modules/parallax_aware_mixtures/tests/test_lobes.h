@@ -24,7 +24,7 @@ inline double log_uniform(double low, double high, RandomStream& random) {
   return low * std::pow(high / low, double{random.next_1d()});
 }
 
-/// The density of a lobe [1/sr], in double precision.
+/// Returns the density of a lobe [1/sr], in double precision.
 inline double density_of(const Lobe& lobe, Vec3 w) {
   const Direction d = to_direction(w);
   return mode_density(lobe.kappa) * std::exp(lobe.kappa * (lobe.mean.dot(d) - 1));
@@ -35,7 +35,7 @@ inline double density_of(const Mixture& mixture, Vec3 w) {
   return sum;
 }
 
-/// Lobes of concentrations between these.
+/// Returns random lobes with concentrations between `least` and `most`.
 inline Mixture any_mixture(std::size_t count, double least, double most, RandomStream& random) {
   Mixture mixture;
   double total = 0;
@@ -48,7 +48,7 @@ inline Mixture any_mixture(std::size_t count, double least, double most, RandomS
   return mixture;
 }
 
-/// A direction drawn from a mixture.
+/// Returns a direction sampled from a mixture.
 inline Vec3 draw_from(const Mixture& mixture, RandomStream& random) {
   double choice = random.next_1d();
   std::size_t k = 0;

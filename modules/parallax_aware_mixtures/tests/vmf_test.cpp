@@ -15,7 +15,7 @@ using namespace testing;
 TEST_CASE("the density at the mean makes the integral one, the mean cosine is its mean") {
   for (const double kappa : {1e-9, 1e-4, 0.9e-3, 1.1e-3, 0.1, 1.0, 5.0, 100.0, 3e4}) {
     CAPTURE(kappa);
-    // Over 1 - cos theta, in steps that follow the lobe's width.
+    // Integrates over 1 - cos theta, in steps relative to the width of the lobe.
     double integral = 0, cosine = 0, at = 0;
     const double end = std::min(2.0, 60 / kappa);
     constexpr int kSteps = 200'000;

@@ -17,8 +17,9 @@ namespace {
 
 constexpr Point3 kLamp{0, 0, 1};
 
-/// Paths of one guidable step each, from random points of a floor, uniform over the hemisphere or
-/// (every second one) to a small ball around the lamp, which shines.
+/// Returns paths with one guidable step each. The steps start at random points of a floor. Every
+/// second one goes to a small bright ball around the lamp, the others are uniform over the
+/// hemisphere.
 PathLog lamp_paths(int count, std::uint64_t seed) {
   PathLog log;
   RandomStream random(seed);
@@ -84,7 +85,7 @@ std::string saved(const Savable& what) {
   return out.str();
 }
 
-/// Share of the guide's directions at a point that lie within 18 degrees of this one.
+/// Returns the share of sampled directions at a point that are within 18 degrees of `direction`.
 double share_near(const PracticalPathGuidingModel& tree, Point3 at, Vec3 direction) {
   RandomStream random(9);
   const QuadDensity density(tree.at(at).nodes);
@@ -122,8 +123,8 @@ TEST_CASE("the guide finds the lamp, with every filter and target") {
 TEST_CASE("cells are halved where records are above the threshold, axis after axis") {
   PracticalPathGuidingSettings settings = small_settings();
   settings.spatial_filter = SpatialFilter::nearest;
-  // 3000 records of 30 paths a pixel: the threshold is 100 sqrt(30 / 2) = 387. Halves alternate
-  // between x and y; a third of the planes, those across z, leave one side without records.
+  // 3000 records, 30 paths per pixel: the threshold is 100 sqrt(30 / 2) = 387. Each half is assumed
+  // to have half of the records, also if the plane is across z and leaves one side without records.
   const auto model = trained(settings, 1);
   const PracticalPathGuidingModel& tree = as_tree(model);
   CHECK(tree.region_count() == 8);

@@ -13,7 +13,7 @@
 namespace pharos::practical_path_guiding {
 namespace {
 
-/// A tree that has seen a narrow peak at `peak`, refined twice.
+/// Returns a tree for a density with a narrow peak at `peak`, refined twice.
 QuadTree peaked(Vec2 peak, LeafMass kind = LeafMass::sum) {
   const QuadRefinement rule;
   QuadTree tree(rule);
@@ -30,8 +30,8 @@ QuadTree peaked(Vec2 peak, LeafMass kind = LeafMass::sum) {
   return tree;
 }
 
-/// The integral of a density over [x0, x1) x [y0, y1), by its values at leaves' corners on a grid
-/// that is as fine as they are.
+/// Returns the integral of a density over the unit square, by its values on a regular grid. It is
+/// exact if the grid is as fine as the leaves.
 double integral(const QuadDensity& density, int cells = 512) {
   double sum = 0;
   for (int y = 0; y < cells; ++y) {
@@ -44,7 +44,7 @@ double integral(const QuadDensity& density, int cells = 512) {
 }
 
 TEST_CASE("an empty tree is refined evenly, down to the share a leaf may have") {
-  // 4^-3 is above 0.01, 4^-4 is not: 16 x 16 leaves, and 1 + 4 + 16 + 64 nodes.
+  // 4^-3 is above 0.01, but 4^-4 is not. This gives 16 x 16 leaves and 1 + 4 + 16 + 64 nodes.
   CHECK(QuadTree(QuadRefinement{}).node_count() == 85);
   CHECK(QuadTree({.threshold = 1}).node_count() == 1);
   CHECK(QuadTree({.threshold = 0.3}).node_count() == 1);
@@ -73,7 +73,7 @@ TEST_CASE("second moments become the root of area times sum") {
   const std::vector<QuadNode> nodes = tree.density(LeafMass::root);
   CHECK(QuadDensity(nodes).at({0.1f, 0.1f}) == doctest::Approx(0.25 * 16));
   CHECK(QuadDensity(nodes).at({0.9f, 0.1f}) == doctest::Approx(0.75 * 16));
-  // A leaf of a quarter of the area counts half as much for the same sum.
+  // For the same sum, a leaf with a quarter of the area has half of the mass.
   QuadTree uneven = QuadTree({.threshold = 1});
   uneven.add({0.1f, 0.1f}, 4);
   uneven.add({0.9f, 0.1f}, 1);
@@ -92,7 +92,7 @@ TEST_CASE("refinement keeps the flux and divides what has more than its share") 
   QuadTree finer = tree.refined(LeafMass::sum, rule);
   CHECK(finer.total() == 0);
   CHECK(finer.node_count() > tree.node_count());
-  // Filled with samples of the density it makes the same density, leaf by leaf.
+  // Filled with samples of the density, the finer tree represents the same density.
   const std::vector<QuadNode> nodes = tree.density(LeafMass::sum);
   const QuadDensity density(nodes);
   constexpr int kGrid = 1024;
@@ -113,7 +113,7 @@ TEST_CASE("refinement keeps the flux and divides what has more than its share") 
 TEST_CASE("quarters are divided exactly where they have more than their share") {
   const QuadTree tree = peaked({0.3f, 0.7f});
   const QuadRefinement rule{.threshold = 0.02, .max_depth = 6};
-  // The refined tree is filled with what the old one holds, leaf by leaf.
+  // The refined tree is filled with the density of the old one.
   const std::vector<QuadNode> old = tree.density(LeafMass::sum);
   QuadTree refined = tree.refined(LeafMass::sum, rule);
   constexpr int kGrid = 1024;
@@ -157,16 +157,16 @@ TEST_CASE("a box goes on at the other edge of the seam, and half a turn further 
     const std::vector<QuadNode> nodes = tree.density(LeafMass::sum);
     return double{QuadDensity(nodes).at(p)} / 16;
   };
-  // Center at the middle of a leaf's edge on the seam: half of the box on either side.
+  // The center is on the seam, in the middle of a leaf's edge: half of the box is on either side.
   CHECK(share_at({0.375f, 0}, {0.375f, 0.1f}) == doctest::Approx(0.5));
   CHECK(share_at({0.375f, 0}, {0.375f, 0.9f}) == doctest::Approx(0.5));
-  // On a pole: one half stays, the other one lies opposite.
+  // The center is on a pole: one half stays, the other half is opposite.
   CHECK(share_at({0, 0.125f}, {0.1f, 0.125f}) == doctest::Approx(0.5));
   CHECK(share_at({0, 0.125f}, {0.1f, 0.625f}) == doctest::Approx(0.5));
   const float one = std::nextafter(1.0f, 0.0f);
   CHECK(share_at({one, 0.875f}, {0.9f, 0.875f}) == doctest::Approx(0.5).epsilon(1e-5));
   CHECK(share_at({one, 0.875f}, {0.9f, 0.375f}) == doctest::Approx(0.5).epsilon(1e-5));
-  // Within a leaf all stays there.
+  // The box is equal to a leaf.
   CHECK(share_at({0.375f, 0.375f}, {0.3f, 0.3f}) == doctest::Approx(1));
 }
 

@@ -7,7 +7,8 @@
 namespace pharos::practical_path_guiding {
 namespace {
 
-/// A path over one guidable vertex to a lamp of radiance 3: f cos = 0.2, p = 0.5, throughput 2.
+/// Returns a path over one guidable vertex to a lamp of radiance 3: f cos = 0.2, p = 0.5, and
+/// throughput 2.
 PathLog lit_path(Vec2 film = {}) {
   PathLog log;
   log.begin_path(film, Transport::radiance);
@@ -38,13 +39,13 @@ TEST_CASE("a record says where, whither and what it counts, by target") {
   CHECK(plain.position == Point3{1, 2, 3});
   CHECK(plain.direction == warp::square_from_sphere({0, 0, 1}));
   CHECK(plain.value == doctest::Approx(3 / 0.5));
-  // x = f cos L = 0.6, x^2 / p.
+  // The value is x^2 / p with x = f cos L = 0.6.
   const Record product = record_of(lit_path(), GuidingTarget::product, pixels);
   CHECK(product.value == doctest::Approx(0.36 / 0.5));
-  // The same times the throughput squared, as long as no pixel is known.
+  // Without pixel estimates, the value is multiplied by the squared throughput.
   const Record first = record_of(lit_path(), GuidingTarget::relative, pixels);
   CHECK(first.value == doctest::Approx(4 * 0.36 / 0.5));
-  // Relative to a pixel of 8, whose neighbor is dark.
+  // Now the value is relative to a pixel of 8, whose neighbor is dark.
   pixels.add({0.5f, 0.5f}, 8);
   pixels.add({1.5f, 0.5f}, 0);
   pixels.update(0, 0.01);

@@ -20,8 +20,8 @@ using namespace testing;
 using Matrix3l = Eigen::Matrix<long double, 3, 3>;
 using Vector3l = Eigen::Matrix<long double, 3, 1>;
 
-/// The defining integral of p0 by quadrature: r^2 N(r omega - mu; 0, Sigma) over r > 0, from the
-/// covariance itself (eq. 1).
+/// Returns the integral that defines p0 (eq. 1) by quadrature: r^2 N(r omega - mu; 0, Sigma) over
+/// r > 0, with the covariance itself.
 long double integral_over_ray(const SpatialGaussian& g, Point3 origin, Vec3 direction) {
   Matrix3l l = Matrix3l::Zero();
   l << g.cholesky[0], 0, 0, g.cholesky[1], g.cholesky[2], 0, g.cholesky[3], g.cholesky[4],
@@ -33,7 +33,7 @@ long double integral_over_ray(const SpatialGaussian& g, Point3 origin, Vec3 dire
   const auto squared = [&](long double r) {
     return l.triangularView<Eigen::Lower>().solve(Vector3l(r * omega - mu)).squaredNorm();
   };
-  // Where the integrand lives: about the closest approach, or at the origin's edge of it.
+  // The range where the integrand is not negligible: around the closest approach, r > 0.
   const Vector3l v = l.triangularView<Eigen::Lower>().solve(omega);
   const Vector3l m = l.triangularView<Eigen::Lower>().solve(mu);
   const long double unit = 1 / v.norm(), u = v.dot(m) * unit;
@@ -48,15 +48,15 @@ long double integral_over_ray(const SpatialGaussian& g, Point3 origin, Vec3 dire
   return sum / (std::pow(2 * EIGEN_PI, 1.5L) * l.diagonal().prod());
 }
 
-/// A Gaussian, where it is seen from, and a direction in which that may be.
+/// A Gaussian, the origin from which it is seen, and a direction.
 struct Case {
   SpatialGaussian gaussian;
   Point3 origin;
   Vec3 direction;
 };
 
-/// Balls, needles and pancakes of all sizes, seen from within, from nearby and from afar, mostly in
-/// directions that meet them, sometimes from the side or away from them.
+/// Returns a random case: a ball, needle or pancake of any size, seen from within, from nearby or
+/// from afar. Most directions hit the Gaussian, some pass it or point away from it.
 Case random_case(RandomStream& random) {
   const double size = log_uniform(1e-3, 1e3, random);
   Vec3 deviations;
@@ -81,7 +81,7 @@ float seen_density(const Case& c, Technique technique, Arena& arena) {
   return seen == nullptr ? 0 : seen->density(c.direction);
 }
 
-/// What floats hold of densities: below, nothing is asked of them.
+/// Smaller densities are not compared, because they are near the limits of floats.
 constexpr double kLeast = 1e-30;
 
 TEST_CASE("the moment of a ray is its integral and meets its series") {
@@ -152,7 +152,7 @@ TEST_CASE("what guiders compute in floats is what the formulas say") {
   }
 }
 
-/// A lobe at so many standard deviations.
+/// Returns a Gaussian at a distance from kOrigin of so many (largest) standard deviations.
 SpatialGaussian lobe_at(float distance, RandomStream& random) {
   return oriented_gaussian(Point3{0.3f, -0.2f, 0.5f} + distance * any_direction(random),
                            {1, 0.5f, 0.3f}, random);
@@ -186,7 +186,7 @@ TEST_CASE("p1 is p0 of both directions of a line, and even") {
   }
 }
 
-/// Total variation distance between two densities.
+/// Returns the total variation distance between two densities.
 template <class A, class B>
 double variation(const A& a, const B& b) {
   return 0.5 * statistics::integrate_sphere([&](Vec3 w) { return std::abs(a(w) - b(w)); },
@@ -196,7 +196,8 @@ double variation(const A& a, const B& b) {
 
 TEST_CASE("projection and the exact density are the closer the farther the lobe") {
   RandomStream random(5);
-  // Of one orientation, found by quadrature elsewhere; here means over many are near them.
+  // The expected values were computed by quadrature for one orientation. Means over many
+  // orientations are close to them.
   const std::pair<float, double> distances[] = {{1, 0.28}, {2, 0.17}, {4, 0.07}, {10, 0.04}};
   double last = 1;
   for (const auto& [distance, expected] : distances) {
@@ -215,7 +216,7 @@ TEST_CASE("projection and the exact density are the closer the farther the lobe"
   }
 }
 
-/// Checks a seen mixture's draws against its density.
+/// Checks the samples of a seen mixture against its density.
 void check_fit(const SeenMixture& seen, std::uint64_t seed) {
   const auto draw = [&](RandomStream& random) {
     const float choice = random.next_1d();
@@ -246,7 +247,7 @@ TEST_CASE("draws follow their density: single lobes at any distance") {
   }
 }
 
-/// A mixture of balls, needles and pancakes around the origin and far from it.
+/// Returns a mixture of balls, needles and pancakes around the origin and far from it.
 std::vector<SpatialGaussian> mixed_components(std::size_t count, RandomStream& random) {
   std::vector<SpatialGaussian> all;
   float total = 0;

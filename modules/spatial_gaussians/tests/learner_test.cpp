@@ -19,11 +19,11 @@ namespace {
 
 using namespace testing;
 
-/// A thin tube of light over a square floor: where its ends are.
+/// The ends of a thin tube of light above a square floor.
 constexpr Point3 kTubeBegin{-1, 1, 0.5f}, kTubeEnd{1, 1.2f, 0.5f};
 
-/// Paths of one guidable step each, from random points of the floor to the tube, or in vain to the
-/// walls; every coordinate times `scale`.
+/// Returns paths with one guidable step each. The steps start at random points of the floor and hit
+/// either the tube or a dark wall. Every coordinate is multiplied by `scale`.
 PathLog tube_paths(int count, std::uint64_t seed, float scale = 1) {
   PathLog log;
   RandomStream random(seed);
@@ -93,7 +93,7 @@ std::string saved(const GuidingModel& model) {
   return out.str();
 }
 
-/// Share of the guide's directions at a point that pass the tube within this distance.
+/// Returns the share of the model's directions at a point that pass the tube within this distance.
 double share_near_tube(const SpatialGaussiansModel& model, Point3 at, float distance) {
   RandomStream random(11);
   Arena arena;
@@ -107,7 +107,7 @@ double share_near_tube(const SpatialGaussiansModel& model, Point3 at, float dist
       choice -= view.components[k++].weight;
     }
     const Vec3 w = normalize(point_of(view.components[k], at, random));
-    // The line's distance from the tube's, where it passes between the tube's ends.
+    // The distance between the line of the direction and the line of the tube.
     const Vec3 tube = normalize(kTubeEnd - kTubeBegin), normal = normalize(cross(w, tube));
     near += std::abs(dot(kTubeBegin - at, normal)) < distance ? 1 : 0;
   }
@@ -158,7 +158,7 @@ TEST_CASE("components of a mixture are split where directions ask for it, up to 
   settings.spatial = SpatialCells::single;
   settings.components = 1;
   settings.merge_threshold = 0;
-  // Two lights that one Gaussian cannot tell apart.
+  // Two lights that one Gaussian cannot represent.
   const auto paths = [](std::uint64_t seed) {
     RandomStream random(seed);
     PathLog log;
@@ -230,7 +230,7 @@ TEST_CASE("models have the same bits for any number of threads") {
     SpatialGaussiansSettings settings = small_settings();
     settings.spatial = spatial;
     const auto state = SpatialGaussiansLearner(settings).begin(context());
-    state->absorb(tube_paths(40'000, 77));  // several parts of every sum
+    state->absorb(tube_paths(40'000, 77));  // enough for sums of several parts
     return saved(*trained(*state, 2));
   };
   for (const SpatialCells spatial : {SpatialCells::kdtree, SpatialCells::single}) {
@@ -328,7 +328,7 @@ TEST_CASE("rare finds add up to a first mixture, and cells wait for it before th
   std::shared_ptr<const GuidingModel> model;
   int updates = 0;
   while (model == nullptr && updates < 20) {
-    // About five finds each.
+    // Each batch has about five samples with light.
     state->absorb(tube_paths(17, static_cast<std::uint64_t>(updates)));
     model = state->update(static_cast<std::uint32_t>(updates++), false);
   }

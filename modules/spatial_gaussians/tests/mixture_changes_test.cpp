@@ -22,7 +22,8 @@ double normal_density(const Gaussian3& g, const Vector<3>& x) {
          std::sqrt(std::pow(2 * EIGEN_PI, 3) * g.covariance.determinant());
 }
 
-/// The divergence of two weighted Gaussians from one of their joint moments, summed over a grid.
+/// Returns the divergence of two weighted Gaussians from the Gaussian of their joint moments, times
+/// their weight, by a sum over a grid.
 double cost_by_grid(double wi, const Gaussian3& i, double wj, const Gaussian3& j) {
   const Moments3 joint =
       Moments3::of(wi, i.mean, i.covariance) + Moments3::of(wj, j.mean, j.covariance);
@@ -68,8 +69,8 @@ TEST_CASE("merging costs nothing for equal components and all for needles that c
   CHECK(merge_cost(0.5, along_x, 0.5, along_y) > 1);
 }
 
-/// What unguided sampling of a sphere finds of light that is distributed like directions to the
-/// points of a Gaussian, from places around the pivot.
+/// Returns samples of uniform directions from origins around the pivot. The incident light is
+/// distributed like the directions to the points of the Gaussians `light`.
 std::vector<Sample> uniform_samples(const std::vector<SpatialGaussian>& light, std::size_t count,
                                     std::uint64_t seed) {
   RandomStream random(seed);
@@ -126,7 +127,8 @@ TEST_CASE("samples that find nothing count") {
   std::vector<Sample> samples = uniform_samples({g}, 20'001, 4);
   const Mixture mixture{{1}, {to_gaussian(g)}};
   const double all = test_directions(mixture, Vector<3>::Zero(), samples, kLeast)[0].divergence();
-  // Half of the light is gone: what is left is twice as much as it should be, or nothing.
+  // Half of the samples lose their light. The estimated density f is then either twice the
+  // mixture's density or zero.
   for (std::size_t i = 0; i < samples.size(); i += 2) samples[i].weight = 0;
   const auto half = test_directions(mixture, Vector<3>::Zero(), samples, kLeast)[0];
   CHECK(half.samples == 20'001);
@@ -144,7 +146,7 @@ TEST_CASE("mixtures are tested where they are: from any pivot, in any part, howe
   const double a = test_directions({{1}, {here}}, Vector<3>::Zero(), samples, kLeast)[0].sum;
   const double b = test_directions({{1}, {moved}}, pivot, samples, kLeast)[0].sum;
   CHECK(b == doctest::Approx(a).epsilon(1e-3));
-  // Almost all directions are out of reach of so small a component.
+  // The density of so small a component is zero in almost all directions.
   const Gaussian3 dot{here.mean, 1e-8 * Matrix<3>::Identity()};
   const auto compact = test_directions({{1}, {dot}}, Vector<3>::Zero(), samples, kLeast)[0];
   CHECK(std::isfinite(compact.sum));

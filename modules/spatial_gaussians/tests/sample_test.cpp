@@ -5,7 +5,7 @@
 namespace pharos::spatial_gaussians {
 namespace {
 
-/// A path from the lens to a guidable vertex at the origin and on to `end`.
+/// Returns a path from the lens to the vertex `at`, at the origin, and on to `end`.
 PathLog path_to(RecordedVertex at, RecordedVertex end, Transport transport = Transport::radiance) {
   PathLog log;
   log.begin_path({}, transport);

@@ -16,7 +16,7 @@ inline Eigen::Vector3d normal_vector(RandomStream& random) {
   return x;
 }
 
-/// A Gaussian of these standard deviations along random axes.
+/// Returns a Gaussian with these standard deviations along random axes.
 inline SpatialGaussian oriented_gaussian(Point3 mean, Vec3 deviations, RandomStream& random) {
   Eigen::Matrix3d m;
   for (int i = 0; i < 3; ++i) m.col(i) = normal_vector(random);
@@ -28,17 +28,17 @@ inline SpatialGaussian oriented_gaussian(Point3 mean, Vec3 deviations, RandomStr
   return {1, mean, {f(l(0, 0)), f(l(1, 0)), f(l(1, 1)), f(l(2, 0)), f(l(2, 1)), f(l(2, 2))}};
 }
 
-/// A unit vector.
+/// Returns a random unit vector, uniform over the sphere.
 inline Vec3 any_direction(RandomStream& random) {
   return warp::sphere_from_square(random.next_2d());
 }
 
-/// Uniform between two numbers on a logarithmic scale.
+/// Returns a random number between two limits, uniform on a logarithmic scale.
 inline double log_uniform(double low, double high, RandomStream& random) {
   return low * std::pow(high / low, random.next_1d());
 }
 
-/// A point of the Gaussian, relative to `origin`.
+/// Returns a random point of the Gaussian, relative to `origin`.
 inline Vec3 point_of(const SpatialGaussian& g, Point3 origin, RandomStream& random) {
   const Eigen::Vector3d z = normal_vector(random);
   const Vec3 p{static_cast<float>(z[0]), static_cast<float>(z[1]), static_cast<float>(z[2])};

@@ -50,7 +50,7 @@ TEST_CASE(
   const FirstDistribution guide(mixture, lens);
   const auto seen = [&](Vec3 direction) -> std::optional<ResolvedVertex> {
     if (!(direction.z > 0)) return std::nullopt;
-    // A wall that leans: some of it lies outside the boxes.
+    // The wall is inclined, so parts of it are outside of the boxes.
     const float t = (3 - lens.z) / (direction.z + 0.4f * direction.x);
     if (!(t > 0)) return std::nullopt;
     return ResolvedVertex{.direction = direction,

@@ -14,7 +14,7 @@ using Mixtures = ConditionalMixtures<6>;
 const Point3 kCenter{3, -1, 2};
 const Mode kMode{VertexKind::surface, Event::smooth_reflect, VertexKind::surface};
 
-/// Gaussians over (x_1, x_2, x_3) about kCenter.
+/// Returns random Gaussians over (x_1, x_2, x_3), relative to kCenter.
 std::vector<Gaussian<9>> any_gaussians(int count, std::uint64_t seed) {
   std::vector<Gaussian<9>> gaussians;
   RandomStream random(seed);
@@ -69,7 +69,7 @@ TEST_CASE("conditional: the joint density over its integral, found by summing it
     Mixtures mixtures(Mixtures::Direction::from_sensor);
     mixtures.add_cell(kCenter, std::vector{run_of(gaussians)});
     RandomStream random(seed, 1);
-    // A prefix within the support of all, so that truncation leaves nothing out.
+    // The prefix is within the support of all components, so that truncation leaves none out.
     Vector<9> x = (gaussians[0].mean + gaussians[1].mean + gaussians[2].mean) / 3;
     x.head<6>() += 0.05 * normal_vector<6>(random);
     Arena arena;
@@ -148,7 +148,7 @@ TEST_CASE("conditional: backwards it is that of the triplets turned around") {
     Arena a, b;
     const auto from = backwards.given(0, {vertex(x, 2), vertex(x, 1)}, a);
     const auto expected = turned.given(0, {vertex(x, 2), vertex(x, 1)}, b);
-    if (from.size() != expected.size()) continue;  // at the edge of a support
+    if (from.size() != expected.size()) continue;  // the prefix is at the edge of a support
     ++answers;
     CHECK(density_of(from, vertex(x, 0)) ==
           doctest::Approx(density_of(expected, vertex(x, 0))).epsilon(1e-3));
@@ -190,7 +190,7 @@ TEST_CASE("conditional: components that contradict the path are left out") {
   const auto count = [&](const Mixtures& m, VertexKind previous, EventMask events) {
     return m.given(0, {a, b, previous, events}, arena).size();
   };
-  CHECK(count(forward, surface, EventMask::all) == 2);  // not to a light without extent
+  CHECK(count(forward, surface, EventMask::all) == 2);  // the one to a `light` is left out
   CHECK(count(forward, surface, mask_of(Event::smooth_reflect)) == 1);
   CHECK(count(forward, surface, EventMask::transmit) == 1);
   CHECK(count(forward, sensor, EventMask::all) == 2);
@@ -199,7 +199,7 @@ TEST_CASE("conditional: components that contradict the path are left out") {
   CHECK(count(forward, volume, EventMask::smooth) == 0);
   CHECK(count(forward, environment, EventMask::all) == 0);
   CHECK(count(backward, light, EventMask::all) == 1);
-  CHECK(count(backward, environment, EventMask::all) == 0);  // none meets the sensor
+  CHECK(count(backward, environment, EventMask::all) == 0);  // no step can hit the sensor
   CHECK(count(backward, volume, EventMask::all) == 1);
   const auto next = forward.given(0, {a, b, surface, EventMask::transmit}, arena);
   CHECK(next[0].kind == volume);

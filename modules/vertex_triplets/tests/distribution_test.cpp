@@ -15,7 +15,8 @@ namespace {
 
 using namespace testing;
 
-/// A phase function that scatters ahead, in a cone; its mean cosine is stated apart.
+/// A phase function that scatters into a cone ahead. The mean cosine that it reports is a
+/// parameter.
 class Cone final : public PhaseFunction {
  public:
   explicit Cone(float stated_cosine) : stated_cosine_(stated_cosine) {}
@@ -32,13 +33,13 @@ class Cone final : public PhaseFunction {
   float stated_cosine_;
 };
 
-constexpr Vec3 kBack{0, 0, -1};  // where the path came from: it flies along +z
+constexpr Vec3 kBack{0, 0, -1};  // the direction to the previous vertex: the path goes along +z
 
 NextVertex next_vertex(const Gaussian<3>& g, float share, Event event, VertexKind kind) {
   return {spatial(g, share), event, kind};
 }
 
-/// The mixture at the origin, in a medium of roughness 1 - g.
+/// The distribution at the origin, in a medium of roughness 1 - g.
 struct InMedium {
   InMedium(std::vector<NextVertex> next, float mean_cosine, StepRules rules = {})
       : vertices(std::move(next)),
@@ -89,7 +90,7 @@ TEST_CASE("near specular: shares of the phase function and of the Gaussians (eq.
   for (const auto& g : any_gaussians(3, 2)) {
     next.push_back(next_vertex(g, 1.0f / 3, Event::scatter, VertexKind::surface));
   }
-  const float g = 0.99f;  // r = 0.1: half of all
+  const float g = 0.99f;  // r = 0.1: the phase function gets half of the probability
   const InMedium at(next, g), rough(next, 0.9f), straight(next, 0.99999999f);
   const auto fit = fit_directions(*at.guide, VertexKind::surface);
   CHECK(fit.is_density());
@@ -106,7 +107,7 @@ TEST_CASE("near specular: shares of the phase function and of the Gaussians (eq.
   }
 }
 
-/// All of `density` over the distance along a direction.
+/// Returns the integral of the density over the distance along a direction.
 double over_distances(const NextDistribution& guide, Vec3 direction, Event event) {
   constexpr int kSteps = 400;
   constexpr double kReach = 8;
@@ -161,7 +162,8 @@ TEST_CASE("in media: points along the rays of narrow cones follow their density 
       next.push_back(next_vertex(gaussian, 1.0f / 3, Event::scatter, VertexKind::volume));
     }
     const InMedium at(next, g);
-    // Boxes of (x / z, y / z) and of distances, with the density's integral over each.
+    // The bins are boxes in (x / z, y / z) and distance; the density is integrated over each of
+    // them.
     constexpr int kSides = 5, kLengths = 8;
     constexpr double kReach = 0.12, kFrom = 1, kTo = 3.4;
     const auto cell = [](Vec3 direction, double distance) {
@@ -216,7 +218,7 @@ TEST_CASE("truncated Gaussians: points follow their density, which integrates to
   RandomStream random(5);
   for (int run = 0; run < 3; ++run) {
     const SpatialGaussian g = spatial(any_gaussian<3>(random, 2, 0.1));
-    // Whitened points: equally likely parts of each axis.
+    // Whitened points are sorted into equally likely parts of each axis.
     constexpr int kParts = 6;
     constexpr int kDraws = 60'000;
     std::vector<double> observed(kParts * kParts * kParts, 0);
@@ -266,7 +268,7 @@ TEST_CASE("distances along rays: the Gaussian's own, cut and normalized (1D)") {
       const auto t = static_cast<float>((i + 0.5) * kReach / kSteps);
       const double p = distances.density(t);
       integral += p * kReach / kSteps;
-      // Along the ray it is the 3D density but for a factor.
+      // Along the ray, the density is proportional to the 3D density.
       const Vec3 d = t * direction - g.mean;
       const auto z = whitened(g, {d.x, d.y, d.z});
       const double exponent = -0.5 * (z[0] * z[0] + z[1] * z[1] + z[2] * z[2]);
@@ -294,7 +296,7 @@ TEST_CASE("distances along rays: the Gaussian's own, cut and normalized (1D)") {
     CHECK(statistics::chi_square_test(observed, expected).p_value > 1e-4);
   }
   CHECK(possible > 100);
-  // Never behind the origin.
+  // Distances behind the origin are impossible.
   const SpatialGaussian ahead = spatial({Vector<3>(0, 0, 0.5), Matrix<3>::Identity()});
   const DistancesAlong around(ahead, {}, {0, 0, 1});
   for (int i = 0; i < 1000; ++i) CHECK(around.sample(random.next_1d()) > 0);

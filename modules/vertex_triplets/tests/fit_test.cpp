@@ -39,7 +39,7 @@ Mixture<D> any_mixture(int count, double apart, std::uint64_t seed) {
   return mixture;
 }
 
-/// The E step again, point by point, in double precision.
+/// Returns the mean log-likelihood, computed point by point in double precision.
 template <int D>
 double log_likelihood(const Mixture<D>& mixture, const Points<D>& points) {
   double sum = 0, weights = 0;
@@ -77,7 +77,7 @@ TEST_CASE_TEMPLATE("EM: without regularization no step is for the worse", D,
   constexpr int kD = D::value;
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
     const Points<kD> points = points_of(any_mixture<kD>(6, 0.5, seed), 3000, 100 + seed, true);
-    // From somewhere near, so that none collapses to a few points.
+    // Starts near the true mixture, so that no component collapses to a few points.
     Mixture<kD> mixture = any_mixture<kD>(6, 0.5, seed);
     RandomStream random(50 + seed);
     for (auto& g : mixture.components) {
@@ -173,7 +173,7 @@ TEST_CASE("regularization: continuous in the number of points, positive definite
   RandomStream random(2);
   for (int i = 0; i < 20; ++i) {
     Matrix<9> sample = any_gaussian<9>(random, 0.5).covariance;
-    if (i % 2 == 0) {  // of two points
+    if (i % 2 == 0) {  // the covariance of two points
       const Vector<9> d = normal_vector<9>(random);
       sample = d * d.transpose();
     }

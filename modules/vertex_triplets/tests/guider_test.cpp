@@ -10,7 +10,8 @@ namespace {
 
 using namespace testing;
 
-/// Pairs around the origin: light comes from above, a quarter of it reflected.
+/// Returns a model of pairs around the origin: light comes from above, and a quarter of it is
+/// reflected.
 std::shared_ptr<const VertexTripletsModel> pairs_at_a_pane() {
   Gaussian<6> gaussian{Vector<6>::Zero(), 0.1 * Matrix<6>::Identity()};
   gaussian.mean[5] = 2;

@@ -24,7 +24,7 @@ std::vector<Sample> samples_of(const PathLog& log, const SampleRule& rule = kRul
   return samples;
 }
 
-/// lens -> glass -> floor -> environment, with a light sample at the floor.
+/// Returns the path lens -> glass -> floor -> environment, with a light sample at the floor.
 PathLog path_from_sensor() {
   PathLog log;
   log.begin_path({}, Transport::radiance);
@@ -63,7 +63,7 @@ PathLog path_from_sensor() {
 TEST_CASE("samples: each triplet once, with all that follows") {
   const std::vector<Sample> samples = samples_of(path_from_sensor());
   REQUIRE(samples.size() == 3);
-  // 2 * 0.5 * (0.25 * 8 + 3)
+  // The weight is 2 * 0.5 * (0.25 * 8 + 3).
   CHECK(samples[0].weight == doctest::Approx(5));
   CHECK(samples[0].triplet.mode ==
         Mode{VertexKind::sensor, Event::discrete_transmit, VertexKind::surface});
@@ -88,7 +88,7 @@ TEST_CASE("samples: with light paths, weights are those among both ends") {
   CHECK(samples[2].weight == doctest::Approx(1));
 }
 
-/// environment -> floor -> wall, both seen from the lens.
+/// Returns the path environment -> floor -> wall; the lens sees the floor and the wall.
 PathLog path_from_light() {
   PathLog log;
   log.begin_path({}, Transport::importance);
@@ -152,7 +152,7 @@ TEST_CASE("samples: lights that no step can meet are of a kind of their own; not
   REQUIRE(samples.size() == 1);
   CHECK(samples[0].triplet.mode.after == VertexKind::light);
   CHECK(samples[0].triplet.vertices[2] == Point3{0, 100, 1});
-  // First vertices see it, guides of next ones do not.
+  // The mixture of first vertices uses this sample, the mixtures of next vertices do not.
   const VertexTripletsLearner learner({.cells = 1});
   const auto state = learner.begin({.region = {{-1, -1, -1}, {1, 1, 1}}});
   state->absorb(log);
@@ -164,7 +164,8 @@ TEST_CASE("samples: lights that no step can meet are of a kind of their own; not
 
 // --- learning ------------------------------------------------------------------------------------
 
-/// A mirror-like floor under a lens: light reaches (x, y) from where the lens is mirrored.
+/// Returns paths over a mirror-like floor under a lens. Light reaches a point of the floor from the
+/// mirrored direction of the lens.
 PathLog mirror_paths(int count, std::uint64_t seed) {
   PathLog log;
   RandomStream random(seed);
@@ -205,7 +206,8 @@ std::shared_ptr<const VertexTripletsModel> learned(const VertexTripletsSettings&
   return std::dynamic_pointer_cast<const VertexTripletsModel>(model);
 }
 
-/// Mean distance from where light comes from to where the model expects it.
+/// Returns the mean distance between the point on the ceiling from which light comes and the means
+/// that the model predicts.
 double mirror_error(const VertexTripletsModel& model) {
   class Flat final : public PhaseFunction {
    public:
@@ -323,7 +325,7 @@ TEST_CASE("learning: saved and loaded amid an iteration it goes on as before") {
     std::istringstream cut(bytes.substr(0, length));
     CHECK_THROWS_AS(again->load(cut), InputError);
   }
-  // Changed bytes are noticed or harmless: never a crash, nor a model that cannot be made.
+  // Changed bytes are noticed or harmless. They must not cause a crash or break update().
   RandomStream random(1);
   int noticed = 0;
   for (int i = 0; i < 300; ++i) {
@@ -377,7 +379,7 @@ TEST_CASE("models: densities for pictures are those of the learned samples") {
   const auto model = learned({.cells = 16, .reservoir = 512});
   CHECK(model->density({0.5f, 0.5f, 0}) > 0);
   CHECK(model->density({0.5f, 0.5f, 0}) > 100 * model->density({0.5f, 0.5f, 0.9f}));
-  // Light comes from above, more or less.
+  // Light comes roughly from above.
   CHECK(model->density({0.5f, 0.5f, 0}, {0, 0, 1}) > model->density({0.5f, 0.5f, 0}, {0, 0, -1}));
 }
 

@@ -25,7 +25,7 @@ bool contains(const Cube& cube, Point3 p) {
   return true;
 }
 
-/// Counts of points that crowd in one corner.
+/// Returns the counts of points that are concentrated in one corner.
 std::vector<double> crowd(const Octree& tree, int count) {
   std::vector<double> counts(tree.cell_count(), 0);
   RandomStream random(5);
@@ -38,7 +38,7 @@ std::vector<double> crowd(const Octree& tree, int count) {
   return counts;
 }
 
-/// Grows as learning lets it, with this threshold.
+/// Returns a tree grown as the learner does it, with this threshold.
 Octree grown(double threshold) {
   Octree tree(kCube);
   for (int i = 0; i < 6; ++i) {
@@ -63,7 +63,7 @@ TEST_CASE("octree: every point lies in the cube of its cell") {
     volume += std::pow(tree.cube(c).size, 3);
   }
   CHECK(volume == doctest::Approx(std::pow(kCube.size, 3)));
-  // Beyond the cube: the cell that is nearest along the axes.
+  // A point outside of the cube belongs to the cell that is nearest along the axes.
   CHECK(tree.cell_at({-100, -100, -100}) == tree.cell_at({-1 + 1e-4f, -4 + 1e-4f, 1 + 1e-4f}));
 }
 
@@ -90,7 +90,7 @@ TEST_CASE("octree: about as many cells as there are thresholds in all samples") 
   const std::vector<double> counts = crowd(tree, 10000);
   Octree again = tree;
   again.collapse(counts, 10000.0 / 64);
-  CHECK(again == tree);  // no cube of several cells has too little
+  CHECK(again == tree);  // no cube of several cells has too few points
 }
 
 TEST_CASE("octree: saved and loaded it is the same; damage is noticed") {
@@ -104,7 +104,7 @@ TEST_CASE("octree: saved and loaded it is the same; damage is noticed") {
     CHECK_THROWS_AS(Octree::load(cut), InputError);
   }
   std::string turned = bytes;
-  turned.back() = 0;  // a cell that would have parts
+  turned.back() = 0;  // turns a cell into an inner node without parts
   std::istringstream damaged(turned);
   CHECK_THROWS_AS(Octree::load(damaged), InputError);
 }

@@ -22,7 +22,7 @@ Vector<D> normal_vector(RandomStream& random) {
   return x;
 }
 
-/// A Gaussian with random axes, whose deviations lie between `least` and 1 times `size`.
+/// Returns a Gaussian with random axes and deviations between `least` and 1 times `size`.
 template <int D>
 Gaussian<D> any_gaussian(RandomStream& random, double size = 1, double least = 0.1) {
   Matrix<D> m;

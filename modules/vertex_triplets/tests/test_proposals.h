@@ -11,7 +11,7 @@
 
 namespace pharos::vertex_triplets::testing {
 
-/// Independent numbers.
+/// A sampler of independent random numbers.
 class Numbers final : public PreparedSampler {
  public:
   std::uint64_t begin(const PathKey& key) const override { return hash_key(key); }
@@ -29,7 +29,7 @@ inline std::optional<Proposal> propose(const GuidingDistribution& guide, RandomS
   return guide.propose(VertexStream(stream, 1));
 }
 
-/// Reflects and transmits as a mirror and a window do, or where reflection is total.
+/// A BSDF that reflects like a mirror and transmits like a window, or reflects totally.
 class Pane final : public Bsdf {
  public:
   explicit Pane(bool total = false) : total_(total) {}
@@ -56,7 +56,7 @@ class Pane final : public Bsdf {
   bool total_;
 };
 
-/// Gaussians ahead of the origin.
+/// Returns random Gaussians ahead of the origin, along +z.
 inline std::vector<Gaussian<3>> any_gaussians(int count, std::uint64_t seed) {
   std::vector<Gaussian<3>> result;
   RandomStream random(seed);

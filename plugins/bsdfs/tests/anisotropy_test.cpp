@@ -1,4 +1,4 @@
-// Rough metal and glass whose facets are tilted more along one direction than along the other.
+// Rough metal and glass with different roughnesses along two directions.
 
 #include <cmath>
 
@@ -34,7 +34,8 @@ Vec3 turned(Vec3 v) {
   return {-v.y, v.x, v.z};
 }
 
-/// Smith's Lambda and D of anisotropic GGX in the forms of Heitz 2014, eqs. 72, 80 and 85.
+/// Smith's Lambda and the density D of anisotropic GGX in the forms of Heitz 2014, eqs. 72, 80 and
+/// 85.
 double lambda(Vec3 v, double ax, double ay) {
   const double a2 = (ax * ax * v.x * v.x + ay * ay * v.y * v.y) / (double{v.z} * v.z);
   return 0.5 * (std::sqrt(1 + a2) - 1);
@@ -77,7 +78,7 @@ TEST_CASE("brushed metal: one roughness stated twice is the isotropic metal, to 
   const ScatterValue twice = metal(0.3f, 0.3f).evaluate({}, wo, wi, {});
   CHECK(once.value == twice.value);
   CHECK(once.pdf == twice.pdf);
-  // Isotropic: turned about the normal it is the same.
+  // An isotropic metal does not change when both directions are rotated about the normal.
   const ScatterValue around = metal(0.3f, {}).evaluate({}, turned(wo), turned(wi), {});
   CHECK(around.value.g == doctest::Approx(once.value.g).epsilon(1e-5));
 }

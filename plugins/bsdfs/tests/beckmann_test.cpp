@@ -60,7 +60,7 @@ TEST_CASE("Beckmann: drawn slopes invert the distribution function to single pre
     const double visible = area_above(-cotangent, sine, cosine);
     for (int i = 0; i < 4000; ++i) {
       const float u = (static_cast<float>(i) + 0.5f) / 4000;
-      // Close to both ends, too.
+      // Covers values close to both ends, too.
       for (const float share : {u, 1e-3f * u, 1 - 1e-3f * u}) {
         const Vec3 m = facets.sample_visible_normal(wo, {1 - share, share});
         const double x = double{m.x} / m.z, y = double{m.y} / m.z;

@@ -1,4 +1,4 @@
-// How materials are written, nested ones above all.
+// The configuration of materials, especially of nested ones.
 
 #include <string>
 
@@ -30,7 +30,7 @@ TEST_CASE("materials: defaults are matt") {
   CHECK(build("two_sided")->albedo({}) == Rgb(0.5f));
   CHECK(build("mask")->albedo({}) == Rgb(0.75f));
   CHECK(build("diffuse_transmitter")->albedo({}) == Rgb(0.5f));
-  // Defaults stay what they are when the scene has a material of that name.
+  // Defaults do not change if the scene has a material of the same name.
   BuildContext context{registry()};
   context.named.push_back({"bsdf", "diffuse", build("rough_conductor")});
   CHECK(build("two_sided", context)->albedo({}) == Rgb(0.5f));

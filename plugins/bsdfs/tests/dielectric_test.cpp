@@ -72,7 +72,8 @@ TEST_CASE("dielectric: through a slab and out again") {
   for (const Transport transport : {Transport::radiance, Transport::importance}) {
     const auto in = glass.sample({}, wo, 0, {}, {transport, kTransmit});
     REQUIRE(in);
-    // In the frame of the second, parallel face whose normal points out on the other side.
+    // The direction in the frame of the second, parallel face, whose normal points outside on the
+    // other side.
     const Vec3 back{-in->direction.x, in->direction.y, in->direction.z};
     const auto out = glass.sample({}, back, 0, {}, {transport, kTransmit});
     REQUIRE(out);
@@ -80,7 +81,7 @@ TEST_CASE("dielectric: through a slab and out again") {
     const float fresnel = dielectric_fresnel(wo.z, 1.7f).reflectance;
     const float expected = (1 - fresnel) * (1 - fresnel);
     CHECK(in->weight.g * out->weight.g == doctest::Approx(expected).epsilon(1e-4));
-    // Unconditioned, both faces together change nothing.
+    // Without conditioning, both faces together change nothing.
     const auto first = glass.sample({}, wo, 0.999f, {}, {transport, EventMask::all});
     const auto second = glass.sample({}, back, 0.999f, {}, {transport, EventMask::all});
     CHECK(first->weight.g * second->weight.g == doctest::Approx(1).epsilon(1e-5));
@@ -155,7 +156,7 @@ TEST_CASE("dielectric: factors tint either way and leave the choice to Fresnel")
     CHECK(all.outcomes[k].value == plain.outcomes[k].value * (i == 0 ? mirrored : refracted));
   }
   test::check_samples(tinted, wo, {});
-  // The mean over the hemisphere of glass of index 1.5 is 0.0918.
+  // The mean over the hemisphere for glass of index 1.5 is 0.0918.
   CHECK(tinted.albedo({}).r == doctest::Approx(0.0918 * 0.9 + 0.9082 * 0.1).epsilon(5e-3));
 }
 

@@ -37,7 +37,7 @@ TEST_CASE("diffuse: the map of samples changes their density alone") {
     CHECK(straight.evaluate({}, wo, wi, {}).value == round.evaluate({}, wo, wi, {}).value);
     CHECK_FALSE(straight.evaluate({}, wo, wi, {}).pdf == round.evaluate({}, wo, wi, {}).pdf);
   }
-  // Upwards: 0.6 / pi over 1/2.
+  // The weight straight up is 0.6 / pi over 1/2.
   const auto up = straight.sample({}, wo, 0, {0.5f, 0.5f}, {});
   REQUIRE(up);
   CHECK(up->direction == Vec3{0, 0, 1});

@@ -14,7 +14,7 @@ DiffuseTransmitter sheet(Rgb transmittance, Rgb reflectance) {
       {.transmittance = test::uniform(transmittance), .reflectance = test::uniform(reflectance)});
 }
 
-/// Of one color on the left, of another on the right.
+/// A texture with one color on the left and another on the right.
 class Halves final : public Texture {
  public:
   Rgb evaluate(const SurfacePoint& point) const override {
@@ -35,7 +35,7 @@ TEST_CASE("diffuse transmitter: Lambert's law on both sides, from both sides") {
     const Vec3 other{same.x, same.y, -same.z};
     CHECK(bsdf.evaluate(point, wo, same, {}).value.r == doctest::Approx(0.4 * 0.5 / M_PI));
     CHECK(bsdf.evaluate(point, wo, other, {}).value.g == doctest::Approx(0.6 * 0.5 / M_PI));
-    // Mean of the channels: 0.3 reflected, 1/3 let through.
+    // Means of the channels: 0.3 is reflected, 1/3 is transmitted.
     CHECK(test::smooth_albedo(bsdf, wo) == doctest::Approx(0.3 + 1 / 3.0).epsilon(1e-4));
     CHECK(bsdf.evaluate(point, wo, same, {}).pdf ==
           doctest::Approx(0.5 / M_PI * 0.3 / (0.3 + 1 / 3.0)));
@@ -62,7 +62,7 @@ TEST_CASE("diffuse transmitter: gives no light away") {
                        "transmittance and reflectance must not add up to more than 1, but their "
                        "largest values are 0.3 and 0.8",
                        InputError);
-  // Of a texture that varies, its largest value in the same channel counts.
+  // For a texture that varies, its largest value in the same channel counts.
   const auto build = [](Rgb reflectance) {
     return DiffuseTransmitter(
         {.transmittance = std::make_shared<Halves>(), .reflectance = test::uniform(reflectance)});

@@ -23,7 +23,7 @@ TEST_CASE("dielectric Fresnel: textbook values") {
   CHECK(dielectric_fresnel(1, 1.5f).reflectance == doctest::Approx(0.04));
   CHECK(dielectric_fresnel(1, 1 / 1.5f).reflectance == doctest::Approx(0.04));
   CHECK(dielectric_fresnel(0, 1.5f).reflectance == doctest::Approx(1));
-  // Brewster's angle, tan = eta: only the s half is reflected.
+  // At Brewster's angle, tan = eta, only s-polarized light is reflected.
   const float brewster = std::cos(std::atan(1.5f));
   const double s = (1 - 2.25) / (1 + 2.25);
   CHECK(dielectric_fresnel(brewster, 1.5f).reflectance == doctest::Approx(0.5 * s * s));

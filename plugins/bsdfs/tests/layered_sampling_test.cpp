@@ -1,4 +1,4 @@
-// Materials that have several lobes or are made of others: what must hold for whatever they hold.
+// Properties that all materials with several lobes or nested materials must have.
 
 #include <cmath>
 #include <string>
@@ -86,7 +86,7 @@ const std::vector<EventMask> kMasks{EventMask::all,      EventMask::smooth,
                                     EventMask::discrete, EventMask::reflect,
                                     EventMask::transmit, mask_of(Event::pass_through)};
 
-/// Shares of light that leave by discrete events, mean of the channels.
+/// The share of light that leaves by discrete events, mean of the channels.
 double discrete_albedo(const Bsdf& bsdf, Vec3 wo, ScatterOptions options) {
   double sum = 0;
   for (const DiscreteOutcome& o : bsdf.discrete({}, wo, options)) sum += mean(o.value);
@@ -163,7 +163,8 @@ TEST_CASE("layered BSDFs: samples carry all the light there is, and no more than
   constexpr int kSamples = 50'000;
   std::vector<double> p_values;
   RandomStream random(72);
-  const ScatterOptions options{.transport = Transport::importance};  // no compressed solid angle
+  const ScatterOptions options{
+      .transport = Transport::importance};  // without the factor for compressed solid angle
   for (const Subject& subject : subjects()) {
     CAPTURE(subject.name);
     for (const Vec3 wo : kOutgoing) {
@@ -177,7 +178,7 @@ TEST_CASE("layered BSDFs: samples carry all the light there is, and no more than
         weights.push_back(s ? double{mean(s->weight)} : 0.0);
       }
       statistics::Estimate found = statistics::estimate(statistics::moments(weights));
-      found.squared_error += 1e-4 * 1e-4;  // of the quadrature
+      found.squared_error += 1e-4 * 1e-4;  // error of the quadrature
       p_values.push_back(statistics::one_sample_test(found, albedo).p_value);
     }
   }

@@ -17,7 +17,7 @@ Rgb normal_reflectance(Metal metal) {
   return conductor_fresnel(1, ior.eta, ior.k);
 }
 
-/// Builds a BSDF from YAML; returns what is wrong with it.
+/// Builds a BSDF from YAML and returns the error message.
 std::string complaint(const std::string& yaml) {
   try {
     test::build(yaml);
@@ -34,7 +34,7 @@ bool mentions(const std::string& text, const std::string& part) {
 }  // namespace
 
 TEST_CASE("metals: the colors of their spectra in daylight") {
-  // Linear Rec.709 of the reflectance at normal incidence, computed wavelength by wavelength.
+  // The reflectance at normal incidence in linear Rec.709, computed wavelength by wavelength.
   struct Color {
     Metal metal;
     Rgb spectral;
@@ -68,7 +68,7 @@ TEST_CASE("metals: the mean over the hemisphere") {
     CAPTURE(entry.first);
     const ComplexIor ior = metal_ior(entry.second);
     double sum = 0;
-    constexpr int kPoints = 1000;  // of the squared cosine, which is uniform
+    constexpr int kPoints = 1000;  // points of the squared cosine, which is uniform
     for (int i = 0; i < kPoints; ++i) {
       const float cosine = std::sqrt((static_cast<float>(i) + 0.5f) / kPoints);
       sum += double{mean(conductor_fresnel(cosine, ior.eta, ior.k))} / kPoints;

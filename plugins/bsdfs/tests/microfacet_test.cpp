@@ -20,10 +20,10 @@ namespace {
 struct Alphas {
   float x, y;
 };
-/// Nearly smooth, of medium roughness and rough; brushed along either axis.
+/// Nearly smooth, medium rough and rough, and brushed along either axis.
 constexpr Alphas kAlphas[]{{0.01f, 0.01f}, {0.3f, 0.3f}, {1, 1}, {0.05f, 0.6f}, {1, 0.2f}};
 
-/// From straight above to almost level.
+/// Views from straight above to almost level.
 const std::vector<Vec3> kViews{test::direction(0, 0),
                                test::direction(50, 30),
                                test::direction(80, 200),

@@ -50,7 +50,7 @@ Ref<Bsdf> mask(Ref<Bsdf> bsdf, Rgb opacity) {
 
 const Vec3 kOut = test::direction(50, 20), kIn = test::direction(30, 170);
 
-/// Both answer alike, whatever is allowed.
+/// Checks that both BSDFs give the same results for all sets of allowed events.
 void check_same(const Bsdf& a, const Bsdf& b, Vec3 wo) {
   const SurfacePoint point;
   for (const EventMask allowed : {EventMask::all, EventMask::smooth, EventMask::discrete,
@@ -102,7 +102,7 @@ TEST_CASE("blend: value and density are linear mixes") {
   CHECK(v.value.g == doctest::Approx(0.7 * va.value.g + 0.3 * vb.value.g));
   CHECK(v.value.b == doctest::Approx(0.1 * va.value.b + 0.9 * vb.value.b));
   CHECK(v.pdf == doctest::Approx(0.6 * va.pdf + 0.4 * vb.pdf));
-  // The metal has no discrete events, so among these there is nothing to choose.
+  // The metal has no discrete events, so there is no choice among these.
   const DiscreteOutcomes mirror = both->discrete(point, kOut, {.events = EventMask::discrete});
   REQUIRE(mirror.count == 1);
   CHECK(mirror.outcomes[0].probability == 1);
@@ -112,7 +112,7 @@ TEST_CASE("blend: value and density are linear mixes") {
 }
 
 TEST_CASE("blend: any number of materials by nesting, each with its weight") {
-  // 0.2, 0.3 and 0.4 of three, and 0.1 of nothing.
+  // Weights 0.2, 0.3 and 0.4 for three materials, and 0.1 for a black one.
   const Ref<Bsdf> a = plastic(), b = metal(), c = diffuse(0.7f);
   const Ref<Bsdf> rest = blend(c, diffuse(0), Rgb(0.1f / 0.5f));
   const Ref<Bsdf> all = blend(a, blend(b, rest, Rgb(0.5f / 0.8f)), Rgb(0.8f));
@@ -152,7 +152,7 @@ TEST_CASE("blend: a surface has one index of refraction") {
                        "'first' and 'second' must refract alike, but their refractive indices "
                        "inside over outside are 1.5 and 1.3",
                        InputError);
-  // Of index one, it refracts straight on.
+  // An interface of index one refracts straight on.
   CHECK_THROWS_AS(blend(mask(glass(1.5f), Rgb(0.5f)), glass(1), Rgb(0.5f)), InputError);
   CHECK_THROWS_AS(blend(frosted(1.5f), glass(1), Rgb(0.5f)), InputError);
   CHECK_THROWS_AS(blend(glass(1), frosted(1.5f), Rgb(0.5f)), InputError);
@@ -199,7 +199,8 @@ TEST_CASE("mask: in a mask is a mask of the product") {
 }
 
 TEST_CASE("mixtures: samples stay stratified through nested choices") {
-  // A quarter of equidistant numbers each for four materials, whatever the nesting.
+  // A quarter of the equidistant numbers belongs to each of the four materials, however they are
+  // nested.
   const Ref<Bsdf> left = blend(diffuse(0.1f), mask(diffuse(0.1f), Rgb(0)), Rgb(0.5f));
   const Ref<Bsdf> right = blend(glass(1.5f), metal(), Rgb(0.5f));
   const Ref<Bsdf> all = blend(left, right, Rgb(0.5f));

@@ -26,7 +26,7 @@ TEST_CASE("phong: the peak in closed form") {
   const ScatterValue v = bsdf.evaluate({}, wo, mirrored, {});
   CHECK(v.value.g == doctest::Approx(0.5 * (0.3 / M_PI + 0.6 * 12 / (2 * M_PI))));
   CHECK(v.pdf == doctest::Approx(0.5 / M_PI / 3 + 11 / (2 * M_PI) * 2 / 3));
-  // At 30 degrees from the mirror direction, in the plane of incidence.
+  // 30 degrees from the mirror direction, in the plane of incidence.
   const Vec3 beside = test::direction(30, 180);
   CHECK(bsdf.evaluate({}, wo, beside, {}).value.g / beside.z ==
         doctest::Approx(0.3 / M_PI + 0.6 * 12 / (2 * M_PI) * std::pow(std::sqrt(0.75), 10)));
@@ -44,7 +44,7 @@ TEST_CASE("phong: reflects its shares at normal incidence, and no more elsewhere
 }
 
 TEST_CASE("phong: a narrow lobe keeps its digits") {
-  // Weights are (n + 2) / (n + 1) cos(i), and their mean the cosine of the mirror direction.
+  // Weights are (n + 2) / (n + 1) cos(i), and their mean is the cosine of the mirror direction.
   const Phong bsdf = phong(Rgb(0), Rgb(1), 1e5f);
   const Vec3 wo = test::direction(50, 70);
   RandomStream random(5);
@@ -66,7 +66,7 @@ TEST_CASE("phong: too large shares are scaled alike when asked") {
   const Vec3 wo = test::direction(40, 0), wi = test::direction(50, 170);
   const Rgb a = scaled.evaluate({}, wo, wi, {}).value, b = same.evaluate({}, wo, wi, {}).value;
   for (int c = 0; c < 3; ++c) CHECK(a[c] == doctest::Approx(b[c]));
-  // Small enough ones stay.
+  // Shares that are small enough are not scaled.
   CHECK(phong(Rgb(0.2f), Rgb(0.3f), 20, 0.9f).albedo({}).g == doctest::Approx(0.5));
 }
 

@@ -17,7 +17,7 @@ Plastic::Settings settings(Rgb reflectance, float ior = 1.5f, bool nonlinear = t
           .nonlinear = nonlinear};
 }
 
-/// Everything that is reflected, mean of the channels.
+/// All reflected light, mean of the channels.
 double reflected(const Plastic& bsdf, Vec3 wo) {
   return test::smooth_albedo(bsdf, wo) + mean(bsdf.discrete({}, wo, {}).outcomes[0].value);
 }
@@ -50,7 +50,8 @@ TEST_CASE("plastic: repeated reflection under a coat of large index") {
 }
 
 TEST_CASE("plastic: the average reflectances of Fresnel's equations") {
-  // Duntley 1942: of diffuse light a surface of index 1.5 reflects 9.2 % outside, 59.6 % inside.
+  // Duntley 1942: a surface of index 1.5 reflects 9.2 % of diffuse light outside, and 59.6 %
+  // inside.
   const float outside =
       hemisphere_mean([](float c) { return dielectric_fresnel(c, 1.5f).reflectance; });
   CHECK(outside == doctest::Approx(0.0918).epsilon(1e-3));

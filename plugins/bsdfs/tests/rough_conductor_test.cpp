@@ -26,7 +26,7 @@ TEST_CASE("rough conductor: the textbook formula") {
   const SurfacePoint point;
   const Vec3 wo = test::direction(35, 20), wi = test::direction(55, 130);
   const Vec3 m = normalize(wo + wi);
-  const ComplexIor copper = metal_ior(Metal::Cu);  // nothing else is stated
+  const ComplexIor copper = metal_ior(Metal::Cu);  // the default metal
   for (const float alpha : {0.1f, 0.5f, 1.0f}) {
     const double fresnel = conductor_fresnel(dot(wo, m), copper.eta.g, copper.k.g);
     const auto check = [&](FacetDistribution distribution, double d, double lo, double li) {
@@ -70,7 +70,7 @@ TEST_CASE("rough conductor: reflects no more than it gets, and more when masking
 }
 
 TEST_CASE("rough conductor: samples carry the albedo") {
-  // The mean weight estimates what quadrature finds; both are bounded by one.
+  // The mean weight estimates the albedo that quadrature computes. Both are bounded by one.
   const RoughConductor bsdf = mirror_metal(0.6f, Masking::height_correlated);
   const Vec3 wo = test::direction(65, 0);
   RandomStream random(3);

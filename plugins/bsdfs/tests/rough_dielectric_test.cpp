@@ -30,7 +30,8 @@ RoughDielectric frosted(float alpha, float ior, Masking masking = Masking::heigh
                           .specular_transmittance = test::uniform(Rgb(1))});
 }
 
-/// Glass and gaps in glass, from nearly smooth to rough, of high and of hardly any contrast.
+/// Glass and gaps in glass, from nearly smooth to rough, with a high or a very low contrast of
+/// indices.
 std::array<RoughDielectric, 7> subjects() {
   constexpr auto kBeckmann = FacetDistribution::beckmann;
   return {frosted(0.05f, 1.5f),
@@ -42,12 +43,12 @@ std::array<RoughDielectric, 7> subjects() {
           frosted(0.1f, 1 / 1.8f, Masking::separable, kBeckmann)};
 }
 
-/// Directions outside and inside, beyond the critical angle of glass too.
+/// Directions outside and inside, including one beyond the critical angle of glass.
 const std::vector<Vec3> kOutgoing{test::direction(0, 0), test::direction(60, 200),
                                   test::direction(87, -30), test::direction(160, 100),
                                   test::direction(125, 10)};
 
-/// The share of light that is scattered in all [1].
+/// The total share of light that is scattered [1].
 double total(const RoughDielectric& bsdf, Vec3 wo) {
   const auto value = [&](Vec3 wi) {
     return double{bsdf.evaluate({}, wo, wi, {.transport = Transport::importance}).value.g};
@@ -210,7 +211,8 @@ TEST_CASE("rough dielectric: nearly smooth it is the smooth interface") {
 }
 
 TEST_CASE("rough dielectric: no light leaves by facets of total reflection") {
-  // Smooth enough that all facets seen at 60 degrees are beyond the critical angle of 41.8.
+  // The surface is so smooth that all facets seen at 60 degrees are beyond the critical angle of
+  // 41.8.
   const RoughDielectric bsdf = frosted(0.01f, 1.5f);
   const Vec3 wo = test::direction(120, 0);
   RandomStream random(6);
@@ -222,7 +224,7 @@ TEST_CASE("rough dielectric: no light leaves by facets of total reflection") {
     }
     let_through += bsdf.sample({}, wo, 0.5f, u, {.events = kTransmit}).has_value();
   }
-  // GGX has long tails.
+  // GGX has long tails, so a few facets are exceptions.
   CHECK(mirrored > 990);
   CHECK(transmitted < 5);
   CHECK(let_through < 5);

@@ -33,7 +33,7 @@ TEST_CASE("rough diffuse: without roughness it is diffuse") {
 }
 
 TEST_CASE("rough diffuse: values of the published formulas") {
-  // f of the angles 30 and 60 degrees, alpha 0.5 and reflectance 0.8, evaluated apart.
+  // f for the angles 30 and 60 degrees, alpha 0.5 and reflectance 0.8, evaluated separately.
   const auto f = [](double azimuth, bool fast) {
     const Vec3 wo = test::direction(60, 10), wi = test::direction(30, 10 + azimuth);
     return rough(0.5f, Rgb(0.8f), fast).evaluate({}, wo, wi, {}).value.g / wi.z;

@@ -28,7 +28,7 @@ TEST_CASE("rough plastic: a white base reflects all light, as exactly as the tab
   for (const FacetDistribution distribution : {kGgx, kBeckmann}) {
     for (const float ior : {1.3f, 2.4f}) {
       for (const float alpha : {0.01f, 0.1f, 0.5f, 1.0f}) {
-        // Without tails quadrature over directions misses so narrow a lobe.
+        // Quadrature over directions misses such a narrow lobe if it has no tails.
         if (distribution == kBeckmann && alpha == 0.01f) continue;
         const RoughPlastic bsdf(settings(alpha, Rgb(1), ior, distribution));
         for (const double theta : {0.0, 50.0, 80.0, 88.0}) {

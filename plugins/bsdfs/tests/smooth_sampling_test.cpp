@@ -18,7 +18,7 @@ struct Subject {
   std::shared_ptr<const Bsdf> bsdf;
 };
 
-/// Every smooth BSDF of the folder, with its parameters spread over their range.
+/// Diffuse, rough_diffuse and rough_conductor, with parameters spread over their range.
 std::vector<Subject> subjects() {
   const Ref<Texture> gray = test::uniform(Rgb(0.7f));
   std::vector<Subject> all;

@@ -43,7 +43,7 @@ TEST_CASE("thin dielectric: light that goes to and fro in the pane, summed") {
 }
 
 TEST_CASE("thin dielectric: window glass at normal incidence") {
-  // F = 0.04: 2 F / (1 + F) of 7.7 % is reflected.
+  // With F = 0.04 the pane reflects 2 F / (1 + F), which is 7.7 %.
   CHECK(pane(1.5f).discrete({}, {0, 0, 1}, {}).begin()->value.g == doctest::Approx(0.08 / 1.04));
   CHECK(pane(1.5f).relative_ior() == 1);
   CHECK(pane(1.5f).roughness({}) == 0);

@@ -1,4 +1,4 @@
-// bump_map and normal_map, and what both do to the materials in them.
+// bump_map and normal_map, and their effect on nested materials.
 
 #include <cmath>
 
@@ -17,7 +17,7 @@
 namespace pharos {
 namespace {
 
-/// Rises evenly with u and v.
+/// A texture that rises evenly with u and v.
 class Ramp final : public Texture {
  public:
   explicit Ramp(Vec2 slope) : slope_(slope) {}
@@ -60,7 +60,7 @@ NormalMap normals(Ref<Bsdf> bsdf, Rgb color) {
   return NormalMap({.bsdf = std::move(bsdf), .texture = test::uniform(color)});
 }
 
-/// On the plane z = 0, where x = 2 u and y = 3 v.
+/// A point on the plane z = 0, where x = 2 u and y = 3 v.
 SurfacePoint plane_point() {
   SurfacePoint point{.normal = {0, 0, 1}, .uv = {0.3f, 0.4f}};
   point.set_tangents({{2, 0, 0}, {0, 3, 0}});
@@ -99,7 +99,7 @@ TEST_CASE("bump map and normal map: flat ones change nothing, to the bit") {
 TEST_CASE("bump map: a slope is shaded as the plane that it stands for") {
   const Vec2 slope{0.8f, -0.9f};
   const BumpMap bump = bumps(brushed(), slope, 0.5f);
-  // The displaced plane's own tangents, normal and frame.
+  // Tangents, normal and frame of the displaced plane itself.
   const Vec3 du{2, 0, 0.5f * slope.x}, dv{0, 3, 0.5f * slope.y};
   SurfacePoint tilted{.normal = normalize(cross(du, dv)), .uv = {0.3f, 0.4f}};
   tilted.shading.n = tilted.normal;

@@ -11,7 +11,7 @@
 namespace pharos {
 namespace {
 
-/// Red in one half of the texture, blue in the other.
+/// A texture that is red in one half and blue in the other.
 class TwoColors : public Texture {
  public:
   Rgb evaluate(const SurfacePoint& p) const override {
@@ -31,8 +31,9 @@ struct LitCeiling {
         light(emitter.place({.shape = &shape, .object = 7, .scene_center = {}})) {}
 };
 
-/// Irradiance of a polygon of radiance 1, by Lambert's formula: half the sum over its edges of the
-/// angle they span times the cosine between the receiver's normal and the plane of that angle.
+/// The irradiance of a polygon of radiance 1 by Lambert's formula: half the sum over its edges of
+/// the angle that the edge spans times the cosine between the receiver's normal and the normal of
+/// the plane of this angle.
 double lambert_irradiance(Point3 at, Vec3 normal, const std::array<Point3, 4>& corners) {
   double sum = 0;
   for (std::size_t i = 0; i < corners.size(); ++i) {

@@ -5,7 +5,8 @@
 
 namespace pharos {
 
-/// The integral over the sphere of directions of f(angle from the axis in radians), midpoint rule.
+/// The integral of f(angle from the axis in radians) over the sphere of directions, by the midpoint
+/// rule.
 template <class F>
 double axial_integral(const F& f) {
   constexpr int steps = 100'000;

@@ -37,7 +37,8 @@ TEST_CASE("samples carry the same radiance and density as rays that leave the sc
     CHECK(s.pdf == light->pdf_direction(s.direction));
     CHECK(s.distance == kInfinity);
     CHECK(s.kind == VertexKind::environment);
-    CHECK(length(s.point.position - Point3{5, 0, 0}) > 4);  // the stand-in is outside the scene
+    CHECK(length(s.point.position - Point3{5, 0, 0}) >
+          4);  // the sample's point is outside the scene
     CHECK(dot(s.point.normal, s.direction) == doctest::Approx(-1));
   }
 }

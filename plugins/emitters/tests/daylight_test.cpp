@@ -26,7 +26,8 @@ void check_place(const Observer& observer, const Expected& expected) {
 }  // namespace
 
 TEST_CASE("daylight: the sun's place agrees with another algorithm") {
-  // By the formulas of NOAA's solar calculator (after Meeus, "Astronomical Algorithms").
+  // Expected values follow the formulas of NOAA's solar calculator (after Meeus, "Astronomical
+  // Algorithms").
   check_place({}, {43.9191, 265.7532});
   check_place({.latitude = 52.52f,
                .longitude = 13.405f,
@@ -50,7 +51,8 @@ TEST_CASE("daylight: the sun's place agrees with another algorithm") {
 }
 
 TEST_CASE("daylight: north is -z, east is +x, up is +y") {
-  const SunPlace noon = sun_place(Observer{.hour = 11.7f});  // in Tokyo: high in the south
+  const SunPlace noon =
+      sun_place(Observer{.hour = 11.7f});  // in Tokyo the sun is high in the south
   CHECK(noon.direction(noon.zenith).z > 0.2f);
   CHECK(noon.direction(noon.zenith).y > 0.9f);
   const SunPlace morning = sun_place(Observer{.hour = 7});

@@ -23,7 +23,7 @@ struct LitCeiling {
   explicit LitCeiling(Settings settings)
       : emitter(std::move(settings)), light(emitter.place({.shape = &shape, .object = 7})) {}
 
-  /// Radiance towards a direction at `cosine` to the normal.
+  /// The radiance in a direction at `cosine` to the normal.
   double at_cosine(double cosine) const {
     const auto sine = static_cast<float>(std::sqrt(1 - cosine * cosine));
     return light->radiance(shape.sample({0.2f, 0.7f}).point, {0, sine, static_cast<float>(-cosine)})
@@ -77,7 +77,7 @@ TEST_CASE("directional_area: power is the integral over area and hemisphere") {
 TEST_CASE("directional_area: sampled irradiance is the integral over the surface") {
   const LitCeiling ceiling(cosine_power(20));
   for (const Point3 at : {Point3{0, 0, 0}, Point3{0.9f, 1, 2}}) {
-    // Cosines at both ends are height / distance.
+    // The cosines at both ends are height / distance.
     const auto on_ceiling = [&](double x, double y) {
       const double height = 3 - double{at.z};
       const double square = (x - at.x) * (x - at.x) + (y - at.y) * (y - at.y) + height * height;

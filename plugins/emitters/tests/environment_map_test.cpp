@@ -40,7 +40,7 @@ Image noise(int width, int height, float low, float high) {
   });
 }
 
-/// Noise below a horizon, a dim sky above it and a sun of one pixel.
+/// Noise below the horizon, a dim sky above it, and a sun of one pixel.
 Image sunny(int width, int height) {
   Image image = image_of(
       width, height, [&](int, int y) { return 2 * y < height ? Rgb(0.3f, 0.4f, 0.8f) : Rgb(); });
@@ -71,7 +71,8 @@ statistics::DensityFit fit(const Light& sampled, const Light& claimed) {
 }  // namespace
 
 TEST_CASE("environment_map: where the image is seen") {
-  // Ten by five pixels: columns 2 and 7 are centered on u = 1/4 and 3/4, row 2 on the horizon.
+  // The image has ten by five pixels: columns 2 and 7 are centered on u = 1/4 and 3/4, row 2 on the
+  // horizon.
   const auto lit = [](auto&& is_lit) {
     return Sky(image_of(10, 5, [&](int x, int y) { return Rgb(is_lit(x, y) ? 1.0f : 0.0f); }));
   };
@@ -123,7 +124,7 @@ TEST_CASE("environment_map: directions follow the density that is claimed for th
     CHECK(found.missed == 0);
     CHECK(found.outside_support == 0);
   }
-  // The same test sees a sun that is a quarter of a pixel off.
+  // The same test detects a sun that is a quarter of a pixel off.
   const Sky sky(sunny(64, 32)), turned(sunny(64, 32), Transform::rotate({0, 1, 0}, 1.4f));
   CHECK(fit(*sky.light, *turned.light).chi_square.p_value < 1e-6);
 }
@@ -184,7 +185,8 @@ TEST_CASE("environment_map: the estimate of irradiance is exact in large maps") 
     const LightSample s = sky.light->sample({}, u);
     sum += double{s.radiance.r} / s.pdf / (count * count);
   }
-  // The hat of width w in longitude and in the angle from the pole: w^2 sin(angle) sinc^2(w / 2).
+  // The integral of the bilinear hat of width w in longitude and polar angle is w^2 sin(angle)
+  // sinc^2(w / 2).
   const double w = 3.14159265358979 / 1024, angle = 2.5 * w;
   CHECK(sum == doctest::Approx(4 * kPi + 1e9 * w * w * std::sin(angle)).epsilon(1e-3));
 }
@@ -195,8 +197,8 @@ TEST_CASE("environment_map: near primary numbers make near directions") {
   for (float x = 0; x < 1 - step; x += 0.01f) {
     for (float y = 0.05f; y < 0.95f; y += 0.01f) {
       const Vec3 d = sky.light->sample({}, {x, y}).direction;
-      // No density is below half the mean, so a step in u is at most twice as long as on average;
-      // a step in y shears the columns as well.
+      // The density is nowhere below half the mean, so a step in u is at most twice as long as on
+      // average. A step in y also shears the columns.
       CHECK(length(sky.light->sample({}, {x + step, y}).direction - d) < 2 * 2 * kPi * step);
       CHECK(length(sky.light->sample({}, {x, y + step}).direction - d) < 12 * step);
     }
@@ -212,7 +214,7 @@ TEST_CASE("environment_map: a black map is never sampled") {
 
 TEST_CASE("environment_map: black rows, sampled at the ends of the primary numbers") {
   for (const unsigned lit : {1u, 2u, 4u, 8u, 9u, 6u, 5u, 15u}) {
-    for (const int column : {-1, 0, 7}) {  // -1: all of them
+    for (const int column : {-1, 0, 7}) {  // -1: all columns
       const Sky sky(image_of(8, 4, [&](int x, int y) {
         return Rgb((lit >> y & 1) != 0 && (column < 0 || x == column));
       }));

@@ -11,14 +11,14 @@ namespace pharos {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-/// Luminance [cd/m^2] of a radiance of 1 W/(m^2 sr nm).
+/// The luminance [cd/m^2] of a radiance of 1 W/(m^2 sr nm).
 constexpr double kLumens = 683.002 * 106.856895;
 
 double luminance_of(Rgb c) {
   return 0.2126729 * c.r + 0.7151522 * c.g + 0.0721750 * c.b;
 }
 
-/// CIE 1931 chromaticity of linear Rec.709.
+/// The CIE 1931 chromaticity of linear Rec.709.
 std::array<double, 2> chromaticity(Rgb c) {
   const double x = 0.4124564 * c.r + 0.3575761 * c.g + 0.1804375 * c.b;
   const double z = 0.0193339 * c.r + 0.1191920 * c.g + 0.9503041 * c.b;
@@ -29,7 +29,7 @@ std::array<double, 2> chromaticity(Rgb c) {
 }  // namespace
 
 TEST_CASE("preetham: luminance at the zenith") {
-  // The paper's formula, by hand.
+  // Values of the paper's formula, computed by hand.
   CHECK(PreethamSky(2, 30 * kDegree).zenith_luminance() == doctest::Approx(5.886743));
   CHECK(PreethamSky(3, 45 * kDegree).zenith_luminance() == doctest::Approx(7.320358));
   CHECK(PreethamSky(6, 70 * kDegree).zenith_luminance() == doctest::Approx(6.579692));
@@ -41,11 +41,11 @@ TEST_CASE("preetham: luminance at the zenith") {
 }
 
 TEST_CASE("preetham: chromaticity at the zenith") {
-  // x = (T^2, T, 1) M (s^3, s^2, s, 1) with s = 0: what stands in the matrices' last columns.
+  // x = (T^2, T, 1) M (s^3, s^2, s, 1); for s = 0 only the last columns of the matrices count.
   const auto [x, y] = chromaticity(PreethamSky(4, 0).radiance(0, 0));
   CHECK(x == doctest::Approx(0.00394 * 4 + 0.25885).epsilon(1e-4));
   CHECK(y == doctest::Approx(0.00515 * 4 + 0.26688).epsilon(1e-4));
-  // s = 1: sums of their rows.
+  // For s = 1 the sums of the matrices' rows count.
   const auto [x1, y1] = chromaticity(PreethamSky(2, 1).radiance(0, 1));
   CHECK(x1 == doctest::Approx(4 * -0.00001 + 2 * 0.00667 + 0.22434).epsilon(1e-4));
   CHECK(y1 == doctest::Approx(4 * -0.00019 + 2 * 0.01118 + 0.21946).epsilon(1e-4));
@@ -79,7 +79,7 @@ TEST_CASE("preetham: finite and not negative at all turbidities, suns and direct
 }
 
 TEST_CASE("preetham: the sun's radiance agrees with integration in steps of a nanometre") {
-  // Of the paper's formulas with its ozone table in steps of 5 nm, from 360 to 830 nm.
+  // Integrates the paper's formulas with its ozone table in steps of 5 nm, from 360 to 830 nm.
   const auto check = [](double turbidity, double zenith, Rgb expected) {
     const Rgb found = preetham_sun_radiance(turbidity, zenith * kDegree);
     CHECK(found.r == doctest::Approx(expected.r).epsilon(0.01));

@@ -44,7 +44,7 @@ TEST_CASE("sky: every direction shows the model, within a pixel") {
   for (int i = 0; i < 500; ++i) {
     const Vec3 d = LatLong::direction(random.next_1d(), 0.48 * random.next_1d());
     const double gamma = std::acos(std::clamp(dot(d, sun), -1.0f, 1.0f));
-    if (gamma < 0.05) continue;  // where it has a kink
+    if (gamma < 0.05) continue;  // the model has a kink there
     const Rgb expected = model.radiance(std::acos(d.y), gamma);
     for (int c = 0; c < 3; ++c) {
       CHECK(sky.seen(d)[c] == doctest::Approx(expected[c]).epsilon(0.02));
@@ -69,7 +69,7 @@ TEST_CASE("sky: to_world says where up is, the sun stays where it is in the worl
   z_up.to_world = Transform::rotate({1, 0, 0}, 90);
   z_up.scale = 2;
   const Sky sky(z_up), y_up(settings(3, {0, 2, -1}));
-  // rotate takes +y to +z and -z to +y.
+  // The rotation takes +y to +z and -z to +y.
   CHECK(sky.seen({0, 1, 2}).g == doctest::Approx(2 * y_up.seen({0, 2, -1}).g).epsilon(1e-3));
   CHECK(sky.seen({1, 0, 0.5f}).r == doctest::Approx(2 * y_up.seen({1, 0.5f, 0}).r).epsilon(1e-3));
   CHECK(is_black(sky.seen({0, 1, -0.5f})));
@@ -121,8 +121,8 @@ TEST_CASE("sky: directions follow the density, and the ground's irradiance is it
 }
 
 TEST_CASE("sky: on a clear day the ground gets 10 to 40 klx from it") {
-  // Measured skies make about 15; the model is known to be bright (Zotti, Wilkie and Purgathofer
-  // 2007, "A Critical Review of the Preetham Skylight Model").
+  // Measured skies give about 15 klx. The model is known to be too bright (Zotti, Wilkie and
+  // Purgathofer 2007, "A Critical Review of the Preetham Skylight Model").
   const Sky sky(settings(2.5f, {0.5f, 1, 0}, 128));
   const auto on_ground = [&](Vec3 d) -> double {
     return std::max(0.0f, d.y) * luminance(sky.light->environment_radiance(d));

@@ -16,7 +16,7 @@ std::unique_ptr<const Light> spot(const SpotEmitter::Settings& settings) {
   return SpotEmitter(moved).place({});
 }
 
-/// What arrives at distance 1 and an angle in degrees from the axis.
+/// The radiance of the sample at distance 1 and at an angle in degrees from the axis.
 double at_angle(const Light& light, double degrees) {
   const double angle = degrees * 3.14159265358979 / 180;
   const Point3 from{static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)), 1};
@@ -67,7 +67,7 @@ TEST_CASE("spot: power of narrow beams") {
         .place({})
         ->power();
   };
-  // Series in the angle of 2 pi (1 - sin c / c) and of 2 pi (1 - (1 + cos c) / 2).
+  // Series in the angle for 2 pi (1 - sin c / c) and 2 pi (1 - (1 + cos c) / 2).
   CHECK(power(SpotFalloff::linear) ==
         doctest::Approx(2 * 3.14159265358979 * square / 6).epsilon(1e-4));
   CHECK(power(SpotFalloff::smooth) ==
@@ -83,7 +83,7 @@ TEST_CASE("spot: sampled like a point") {
   CHECK(s.discrete);
   CHECK(s.pdf == 1);
   CHECK(s.kind == VertexKind::light);
-  CHECK(light->sample({-2, 0, 1}, {}).pdf == 0);  // behind it
+  CHECK(light->sample({-2, 0, 1}, {}).pdf == 0);  // behind the light
 }
 
 TEST_CASE("spot: power is the integral of intensity") {

@@ -27,7 +27,7 @@ struct Sun {
   explicit Sun(const SunEmitter::Settings& s)
       : emitter(s), light(emitter.place({.scene_center = {5, 0, 0}, .scene_radius = 2})) {}
 
-  /// Seen `degrees` beside the center of a sun at (0, 1, 1).
+  /// The radiance seen `degrees` beside the center of a sun at (0, 1, 1).
   Rgb beside(float degrees) const {
     const float angle = radians(45 + degrees);
     return light->environment_radiance({0, std::sin(angle), std::cos(angle)});

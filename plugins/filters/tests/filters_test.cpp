@@ -20,7 +20,7 @@ double integrate(const Filter& filter) {
   const auto weight = [&](double x, double y) {
     return double{filter.evaluate({static_cast<float>(x), static_cast<float>(y)})};
   };
-  // Cells that end where the filter or a piece of it does, so that edges are no obstacle.
+  // Cells end where the filter or one of its pieces ends, so that edges cause no error.
   const double cuts[] = {-1.5 * r, -r, -0.5 * r, 0, 0.5 * r, r, 1.5 * r};
   double sum = 0;
   for (int i = 0; i < 6; ++i) {
@@ -76,7 +76,7 @@ TEST_CASE("tent filter") {
   }
 }
 
-/// The weights that the pixels around a film position give it.
+/// The sum of the weights that the pixels around a film position give to it.
 double sum_of_weights(const Filter& filter, Vec2 film) {
   double sum = 0;
   for (int y = -3; y <= 3; ++y) {

@@ -1,4 +1,4 @@
-// A film whose filter has weights below zero.
+// A film with a filter that has negative weights.
 
 #include <doctest/doctest.h>
 
@@ -17,7 +17,8 @@ Film make_film(float b, float c) {
   return {kSize, kSize, std::make_shared<MitchellFilter>(MitchellFilter::Settings{.b = b, .c = c})};
 }
 
-/// One pass of `n` samples a pixel of `pixels`, of value value(film position, random).
+/// Adds one pass of `n` samples per pixel to `pixels`, with the values value(film position,
+/// random).
 template <class Value>
 void add_pass(Film& film, int n, RandomStream& random, Value&& value, PixelRect pixels = kAll) {
   FilmTile tile = film.make_tile(pixels);
@@ -34,7 +35,7 @@ void add_pass(Film& film, int n, RandomStream& random, Value&& value, PixelRect 
   film.end_pass(n, pixels.area() == kAll.area());
 }
 
-/// The brightest pixel by magnitude; infinite if there is any that is not finite.
+/// The largest magnitude of a pixel; infinite if any pixel is not finite.
 float largest(const Image& image) {
   float value = 0;
   for (int y = 0; y < image.height(); ++y) {
@@ -104,7 +105,8 @@ TEST_CASE("negative lobes: single samples whose weights cancel do not blow up") 
       variance = std::max(variance, image.pixel(i % kSize, i / kSize)[10]);
     }
   }
-  // Ten times the brightest sample; the variance of two such values' mean is (20 / 2)^2 at most.
+  // The limit is ten times the brightest sample; the variance of the mean of two such values is at
+  // most (20 / 2)^2.
   CHECK(highest <= 10);
   CHECK(highest > 1);
   CHECK(variance <= 100);
@@ -141,8 +143,8 @@ TEST_CASE("negative lobes: the variance layer is the variance of the image") {
   for (std::size_t i = 0; i < sums.size(); ++i) {
     actual += (squares[i] - sums[i] * sums[i] / kRuns) / (kRuns - 1);
   }
-  // The sums of 144 x 300 estimates spread by about 1 %; a pass of few samples states a little more
-  // than its share of the whole, as every quotient of random sums.
+  // The sums of 144 x 300 estimates spread by about 1 %. A pass of few samples states slightly more
+  // than its share of the whole, as is true of every quotient of random sums.
   CHECK(stated == doctest::Approx(actual).epsilon(0.05));
 }
 

@@ -1,7 +1,7 @@
-// From wavelengths to linear Rec.709, by the CIE 1931 color matching functions in the fit of
+// Converts spectra to linear Rec.709 with the CIE 1931 color matching functions in the fit of
 // Wyman, Sloan and Shirley 2013 ("Simple Analytic Approximations to the CIE XYZ Color Matching
-// Functions", JCGT 2(2)), summed from 360 to 830 nm in steps of 1 nm. What is weighted by which
-// light follows Mitsuba 3: emission by no light, everything else by daylight.
+// Functions", JCGT 2(2)), summed from 360 to 830 nm in steps of 1 nm. The weighting by light
+// follows Mitsuba 3: emission is not weighted, everything else is weighted by daylight.
 #include "color_matching.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ struct Xyz {
 };
 using Weights = std::array<Xyz, kCount>;
 
-/// A Gaussian with a width for each side.
+/// A Gaussian with a separate width on each side.
 double lobe(double wavelength, double mean, double below, double above) {
   const double t = (wavelength - mean) / (wavelength < mean ? below : above);
   return std::exp(-0.5 * t * t);
@@ -32,8 +32,8 @@ Xyz matching_functions(double l) {
           1.217 * lobe(l, 437.0, 11.8, 36.0) + 0.681 * lobe(l, 459.0, 26.0, 13.8)};
 }
 
-/// Relative power of the CIE's standard illuminant D65 (ISO 11664-2), given each 10 nm and linear
-/// between.
+/// Returns the relative power of the CIE standard illuminant D65 (ISO 11664-2), given every 10 nm
+/// and linearly interpolated.
 double daylight(double wavelength) {
   constexpr std::array<double, 48> each_10_nm{
       46.6383, 52.0891, 49.9755, 54.6482, 82.7549, 91.4860, 93.4318, 86.6823, 104.865, 117.008,
@@ -51,7 +51,8 @@ double equal_power(double) {
   return 1;
 }
 
-/// The matching functions under a light, scaled so that a spectrum of 1 has the color `white`.
+/// Returns the matching functions under a light, scaled so that a spectrum of 1 has the color
+/// `white`.
 Weights weights(double (*light)(double), Xyz white) {
   Weights all;
   Xyz sum;
@@ -66,14 +67,14 @@ Weights weights(double (*light)(double), Xyz white) {
   return all;
 }
 
-/// Rec.709 primaries with white D65 (ITU-R BT.709).
+/// Converts to Rec.709 primaries with white point D65 (ITU-R BT.709).
 Rgb rec_709(Xyz c) {
   return {static_cast<float>(3.240479 * c.x - 1.537150 * c.y - 0.498535 * c.z),
           static_cast<float>(-0.969256 * c.x + 1.875991 * c.y + 0.041556 * c.z),
           static_cast<float>(0.055648 * c.x - 0.204043 * c.y + 1.057311 * c.z)};
 }
 
-/// The color, and the spectrum's largest value.
+/// Returns the color and the largest value of the spectrum.
 std::pair<Rgb, double> summed(const WavelengthFunction& spectrum, const Weights& weights) {
   Xyz sum;
   double largest = 0;
@@ -96,7 +97,7 @@ Rgb color_of_light(const WavelengthFunction& spectrum) {
 }
 
 Rgb color_in_daylight(const WavelengthFunction& spectrum) {
-  constexpr Xyz white{0.950456, 1, 1.088754};  // what rec_709() takes to (1, 1, 1)
+  constexpr Xyz white{0.950456, 1, 1.088754};  // rec_709() maps it to (1, 1, 1)
   static const Weights daylit = weights(daylight, white);
   auto [color, largest] = summed(spectrum, daylit);
   if (largest > 1) return color;

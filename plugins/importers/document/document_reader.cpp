@@ -20,7 +20,7 @@ void append(std::vector<std::string>& to, const std::array<std::string_view, n>&
   to.insert(to.end(), tags.begin(), tags.end());
 }
 
-/// Why a tag cannot stand in an object.
+/// Returns why a tag cannot be inside an object.
 std::string misplaced(std::string_view tag) {
   if (tag == "scene") return "<scene> can be the outermost tag only";
   if (is_among(tag, kTransformTags))
@@ -43,7 +43,7 @@ std::string_view present_tag(std::string_view written) {
   return written == "spectrum" ? "texture" : written;
 }
 
-/// The name of a property; empty when there is none.
+/// Returns the name of a property; empty if there is none.
 std::string property_name(const Element& element, Dialect dialect) {
   const std::string& name = element.text("name");
   return dialect == Dialect::mitsuba_0 ? snake_case(name) : name;
@@ -206,7 +206,7 @@ void DocumentReader::read_include(const Element& element, Parent& parent, Contex
   open_files_.pop_back();
 }
 
-/// The children of an included scene, or an object by itself. Without a version it speaks the
+/// Reads the children of an included scene, or a single object. Without a version the file has the
 /// dialect of the file that includes it.
 void DocumentReader::read_included(const Element& include, const XmlFile& file, Parent& parent,
                                    Context context) {

@@ -18,17 +18,17 @@
 
 namespace pharos::mitsuba {
 
-/// Reads one scene with the files that it includes; see read_document().
+/// Reads one scene with all files that it includes; see read_document().
 class DocumentReader {
  public:
   DocumentReader(const std::filesystem::path& file,
                  const std::map<std::string, std::string>& parameters);
 
-  /// Once.
+  /// Reads the scene. May be called once.
   Document read();
 
  private:
-  /// Where an element stands.
+  /// The context of an element.
   struct Context {
     Dialect dialect;
     std::size_t depth;  ///< levels of elements and includes

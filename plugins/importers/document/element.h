@@ -13,26 +13,26 @@
 
 namespace pharos::mitsuba {
 
-/// An element of a scene file with its variables replaced.
+/// An element of a scene file, with its variables replaced.
 class Element {
  public:
-  /// Throws InputError for an attribute that is there twice, more than 32, values of more than
-  /// 1 MiB, and unknown variables.
+  /// Throws InputError for an attribute that occurs twice, more than 32 attributes, values of more
+  /// than 1 MiB, and unknown variables.
   Element(const XmlFile& file, pugi::xml_node node, Variables& variables);
 
   std::string_view tag() const { return node_.name(); }
   Location where() const { return file_.where(node_); }
 
-  /// Throws InputError unless the `needed` attributes are there and all others are `optional`.
+  /// Throws InputError unless all `needed` attributes are present and all others are `optional`.
   void expect(std::initializer_list<std::string_view> needed,
               std::initializer_list<std::string_view> optional = {}) const;
-  /// Throws InputError when there is anything inside the element.
+  /// Throws InputError if the element has any content.
   void expect_empty() const;
 
   bool has(std::string_view attribute) const { return find(attribute) != nullptr; }
-  /// The value of an attribute; empty when it is not there.
+  /// Returns the value of an attribute; empty if it is missing.
   const std::string& text(std::string_view attribute) const;
-  /// Every element inside.
+  /// Returns all elements inside this element.
   std::vector<Element> children(Variables& variables) const;
 
   /// Throws InputError, located at the element.

@@ -37,7 +37,7 @@ Dialect dialect_of(std::string_view version) {
 
 std::string snake_case(std::string_view name) {
   std::string result;
-  bool in_capitals = false;  // of a word that began inside the name
+  bool in_capitals = false;  // in the capitals of a word that began inside the name
   for (std::size_t i = 0; i < name.size(); ++i) {
     const bool begins_word = i > 0 && is_lower(name[i - 1]) && is_upper(name[i]);
     in_capitals = begins_word || (in_capitals && is_upper(name[i]));

@@ -9,16 +9,16 @@
 
 namespace pharos::mitsuba {
 
-/// Objects, what is nested in them and what they refer to, before the references are filled in:
-/// with cycles filled in, objects would own themselves.
+/// The graph of objects, their nested objects and their references, before the references are
+/// filled in. If references with cycles were filled in, objects would own themselves.
 class ObjectGraph {
  public:
-  /// `from` refers to `to`.
+  /// Records that `from` refers to `to`.
   void add(const Object& from, const Object& to, const Location& where);
 
-  /// Throws InputError for cycles, for objects nested more than 64 deep with references counted,
-  /// and for objects that stand for more than ten million. A shape that is referred to counts once:
-  /// it is a group that instances show.
+  /// Throws InputError for cycles, for objects nested more than 64 deep (references included), and
+  /// for objects that expand to more than ten million. A shape that is referenced counts once,
+  /// because it is a group that instances show.
   void check(const Object& scene);
 
  private:
@@ -26,9 +26,9 @@ class ObjectGraph {
     const Object* to;
     Location where;
   };
-  /// Of an object with all below it.
+  /// The extent of an object and everything below it.
   struct Extent {
-    std::size_t height = 0;  ///< levels; 0 while it is being looked at
+    std::size_t height = 0;  ///< levels; 0 during the visit
     std::size_t objects = 0;
   };
 

@@ -10,9 +10,10 @@
 namespace pharos::mitsuba {
 namespace {
 
-/// Aliases may name aliases.
+/// The limit for chains of aliases; aliases may name other aliases.
 constexpr int kMostAliases = 64;
-/// Of the ids that somebody may have typed. To find the nearest one takes the square of its length.
+/// The longest id that may have been typed by hand. Finding the nearest id takes time proportional
+/// to the square of its length.
 constexpr std::size_t kLongestTyped = 60;
 
 }  // namespace

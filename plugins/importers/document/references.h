@@ -10,19 +10,19 @@
 
 namespace pharos::mitsuba {
 
-/// What a scene's ids name, and where they are referred to. An id may be referred to before the
-/// object that has it.
+/// The ids of a scene and the references to them. A reference may come before the object that has
+/// the id.
 class References {
  public:
-  /// An object has this id. Throws InputError when something else has it already.
+  /// Registers the id of an object. Throws InputError if the id is already taken.
   void define(const std::string& id, std::shared_ptr<Object> object, const Location& where);
-  /// `name` is another id of what has the id `id`. Throws InputError as define() does.
+  /// Makes `name` a second name for the id `id`. Throws InputError in the same way as define().
   void define_alias(const std::string& name, const std::string& id, const Location& where);
-  /// The property at this index of `from`, an empty object, stands for what has the id.
+  /// Records that the property at this index of `from`, an empty object, refers to the id.
   void refer(Object& from, std::size_t property, const std::string& id, const Location& where);
 
   /// Fills in every reference of `scene`. Throws InputError for unknown ids, cycles, and objects
-  /// that are nested too deeply or stand for too many.
+  /// that are nested too deeply or expand to too many objects.
   void resolve(const Object& scene);
 
  private:
@@ -45,7 +45,8 @@ class References {
 
   std::unordered_map<std::string, Named> named_;
   std::vector<Reference> references_;
-  std::vector<Reference> aliases_;  ///< from nowhere: they must name something though nothing does
+  std::vector<Reference> aliases_;  ///< have no `from`; they must name something even if they are
+                                    ///< not used
 };
 
 }  // namespace pharos::mitsuba

@@ -21,7 +21,7 @@ Spectrum gray(float value) {
   return {.value = Rgb(value), .is_gray = true};
 }
 
-/// The color of `#rrggbb`, each channel as a share of 255; nothing for other texts.
+/// Returns the color of `#rrggbb`, each channel divided by 255; empty for other texts.
 std::optional<Rgb> parse_hexadecimal(std::string_view text) {
   if (text.size() != 7 || text[0] != '#') return std::nullopt;
   unsigned digits = 0;
@@ -33,7 +33,7 @@ std::optional<Rgb> parse_hexadecimal(std::string_view text) {
   return Rgb(channel(16), channel(8), channel(0));
 }
 
-/// One number, three, or `#rrggbb`.
+/// Reads one number, three numbers, or `#rrggbb`.
 Spectrum read_rgb(const Element& element) {
   const std::vector<std::string_view> all = words(element.text("value"));
   if (all.size() == 1 && all[0].starts_with('#')) {

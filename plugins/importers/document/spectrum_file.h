@@ -9,10 +9,10 @@
 
 namespace pharos::mitsuba {
 
-/// Values at rising wavelengths [nm]: linear between them, 0 outside.
+/// Values at increasing wavelengths [nm]: linear between them, 0 outside.
 class WavelengthList {
  public:
-  /// Takes the next pair; returns what is wrong with it, "" when nothing is.
+  /// Adds the next pair. Returns a description of the error, or "" if the pair is valid.
   std::string add(double wavelength, double value);
   std::size_t size() const { return wavelengths_.size(); }
   double at(double wavelength) const;
@@ -21,9 +21,9 @@ class WavelengthList {
   std::vector<double> wavelengths_, values_;
 };
 
-/// The pairs of a file with a wavelength and a value in each line; lines that begin with `#` are
-/// comments. `path` must be a file that can be read, which takes from the budget. Throws InputError
-/// with line and column for everything else.
+/// Reads the pairs of a file with one wavelength and one value per line; lines that begin with `#`
+/// are comments. `path` must be a readable file, which takes from the budget. Throws InputError
+/// with line and column for anything else in the file.
 WavelengthList read_spectrum_file(const std::filesystem::path& path, ReadingBudget& budget);
 
 }  // namespace pharos::mitsuba

@@ -20,7 +20,7 @@ Transform read_rotation(const Element& element) {
   return Transform::rotate(axis, angle);
 }
 
-/// 16 numbers by rows, or the 9 of the linear part.
+/// Reads 16 numbers by rows, or the 9 numbers of the linear part.
 Transform read_matrix(const Element& element) {
   element.expect({"value"});
   const std::vector<float> all = read_floats(element, "value");
@@ -43,9 +43,9 @@ Transform read_matrix(const Element& element) {
   return Transform(matrix);
 }
 
-/// The direction that Mitsuba takes for `up` when none is given: one perpendicular to the unit
-/// vector `n`, by another rule in each dialect (2 and 3: Duff et al. 2017, "Building an Orthonormal
-/// Basis, Revisited").
+/// Returns the default `up` direction of Mitsuba, a direction perpendicular to the unit vector `n`.
+/// Each dialect has its own rule (2 and 3: Duff et al. 2017, "Building an Orthonormal Basis,
+/// Revisited").
 Vec3 perpendicular(Vec3 n, Dialect dialect) {
   if (dialect == Dialect::mitsuba_0) {
     const Vec3 t = std::abs(n.x) > std::abs(n.y) ? Vec3{n.z, 0, -n.x} : Vec3{0, n.z, -n.y};
@@ -87,7 +87,8 @@ Transform read_step(const Element& element, Dialect dialect) {
       fmt::format("<{}> is no step of a transform{}", one_line(tag, 60), suggestion(tag, known)));
 }
 
-/// What Transform refuses is located, and so are maps beyond float.
+/// Applies a step after `before`. Errors of Transform get the location of the step; so do maps
+/// beyond the range of float.
 Transform after(const Transform& before, const Element& element, Dialect dialect) {
   try {
     const Transform both = read_step(element, dialect) * before;

@@ -7,12 +7,12 @@
 
 namespace pharos::mitsuba {
 
-/// The map of a `transform`: its steps (`translate`, `rotate`, `scale`, `lookat`, `matrix`), the
-/// first applied first. Attributes of the element itself are the caller's. Throws InputError for
-/// maps that have no inverse, and for matrices that are not affine.
+/// Returns the map of a `transform`: its steps (`translate`, `rotate`, `scale`, `lookat`, `matrix`)
+/// in order, the first one applied first. The caller checks the attributes of the element itself.
+/// Throws InputError for maps without an inverse and for matrices that are not affine.
 Transform read_transform(const Element& element, Variables& variables, Dialect dialect);
 
-/// The map of an `animation` at its earliest time, which is all that is read of it.
+/// Returns the map of an `animation` at its earliest time. Later times are not read.
 Transform read_animation(const Element& element, Variables& variables, Dialect dialect);
 
 }  // namespace pharos::mitsuba

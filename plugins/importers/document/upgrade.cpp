@@ -1,5 +1,5 @@
-// What changed from Mitsuba 0.3 to 0.4 follows the style sheet that Mitsuba 0.4 to 0.6 upgrade
-// scenes with (data/schema/upgrade_0.4.0.xsl of its sources).
+// The changes from Mitsuba 0.3 to 0.4, as in the style sheet with which Mitsuba 0.4 to 0.6 upgrade
+// scenes (data/schema/upgrade_0.4.0.xsl of its sources).
 #include "upgrade.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ Property* find(Object& object, std::string_view name) {
   return found == object.properties.end() ? nullptr : &*found;
 }
 
-/// The property of this name, which is made with `value` when there is none.
+/// Returns the property of this name; creates it with `value` if there is none.
 Property& find_or_add(Object& object, const std::string& name, Property::Value value) {
   Property* const found = find(object, name);
   if (found != nullptr) return *found;

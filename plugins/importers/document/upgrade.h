@@ -6,9 +6,9 @@
 
 namespace pharos::mitsuba {
 
-/// Brings an object whose tag was written `luminaire` or `camera`, as Mitsuba before 0.4 did, to
-/// what it says as `emitter` or `sensor`: names of intensities, the axis of the field of view, and
-/// the camera's handedness. Other objects stay.
+/// Converts an object with the old tag `luminaire` or `camera`, used by Mitsuba before 0.4, to the
+/// conventions of `emitter` or `sensor`: names of intensities, the axis of the field of view, and
+/// the handedness of the camera. Other objects remain unchanged.
 void upgrade(Object& object, std::string_view written_tag);
 
 }  // namespace pharos::mitsuba

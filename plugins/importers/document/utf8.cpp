@@ -3,7 +3,7 @@
 namespace pharos::mitsuba {
 namespace {
 
-/// Bytes of the character that `first` begins; 0 when it begins none.
+/// Returns the number of bytes of a character that begins with `first`; 0 if no character does.
 std::size_t length_from(unsigned char first) {
   if (first == 0) return 0;
   if (first < 0x80) return 1;
@@ -12,8 +12,8 @@ std::size_t length_from(unsigned char first) {
   return first >= 0xf0 && first < 0xf5 ? 4 : 0;
 }
 
-/// Whether the second byte of a character belongs to the first: no overlong forms, no surrogates,
-/// nothing beyond U+10FFFF.
+/// Returns whether `second` is valid after `first`. Overlong forms, surrogates and characters
+/// beyond U+10FFFF are invalid.
 bool is_second(unsigned char first, unsigned char second) {
   const unsigned char lowest = first == 0xe0 ? 0xa0 : first == 0xf0 ? 0x90 : 0x80;
   const unsigned char highest = first == 0xed ? 0x9f : first == 0xf4 ? 0x8f : 0xbf;

@@ -5,8 +5,8 @@
 
 namespace pharos::mitsuba {
 
-/// Offset of the first byte of `text` that belongs to no character of UTF-8 (RFC 3629), a zero
-/// among them; std::string_view::npos when there is none.
+/// Returns the offset of the first byte of `text` that does not belong to a UTF-8 character (RFC
+/// 3629). A zero byte counts as invalid. Returns std::string_view::npos if all bytes are valid.
 std::size_t first_bad_byte(std::string_view text);
 
 }  // namespace pharos::mitsuba

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::array<std::string_view, 3> kAxes{"x", "y", "z"};
 
-/// `text` as a number; fails in the name of the attribute that it comes from.
+/// Parses `text` as a number. Errors are reported for the attribute that contains it.
 float float_from(const Element& element, std::string_view attribute, std::string_view text) {
   const std::optional<double> value = parse_number(text);
   const auto single = static_cast<float>(value.value_or(0));
@@ -36,7 +36,7 @@ bool has_axes(const Element& element) {
   return std::any_of(kAxes.begin(), kAxes.end(), [&](auto axis) { return element.has(axis); });
 }
 
-/// Three numbers, or one for all three.
+/// Returns three numbers, or one number three times.
 Vec3 expanded(const Element& element) {
   const std::vector<float> all = read_floats(element, "value");
   if (all.size() == 1) return {all[0], all[0], all[0]};
@@ -64,7 +64,7 @@ std::optional<double> parse_number(std::string_view text) {
   const auto [rest, error] = std::from_chars(text.data(), end, value);
   if (rest != end || error == std::errc::invalid_argument) return std::nullopt;
   if (error == std::errc::result_out_of_range) {
-    // The parser does not say whether it is too large or too small: strtod does, and knows as much.
+    // The parser does not report whether the number is too large or too small; strtod does.
     value = std::strtod(std::string(text).c_str(), nullptr);
   }
   return std::isfinite(value) ? std::optional(value) : std::nullopt;

@@ -11,27 +11,29 @@
 
 namespace pharos::mitsuba {
 
-/// The words of a text that blanks and commas divide.
+/// Splits a text into words at blanks and commas.
 std::vector<std::string_view> words(std::string_view text);
 
-/// A finite number without blanks around it; nothing when `text` is none. What is too small for a
-/// double is 0.
+/// Parses a finite number without blanks around it; empty if `text` is not a number. A number too
+/// small for a double is 0.
 std::optional<double> parse_number(std::string_view text);
 
-/// The value of an attribute of an element. All throw InputError for anything else.
+/// These functions return the value of an attribute of an element. They throw InputError if the
+/// text has another format.
 bool read_boolean(const Element& element, std::string_view attribute);
 std::int64_t read_integer(const Element& element, std::string_view attribute);
 double read_number(const Element& element, std::string_view attribute);
-/// A number that is finite in float.
+/// Returns a number that is finite as a float.
 float read_float(const Element& element, std::string_view attribute);
-/// Numbers that are finite in float, with blanks or commas between them.
+/// Returns numbers that are finite as floats, separated by blanks or commas.
 std::vector<float> read_floats(const Element& element, std::string_view attribute);
-/// Three numbers.
+/// Returns three numbers.
 Vec3 read_triple(const Element& element, std::string_view attribute);
 
-/// What `x`, `y` and `z` say, or `value` with three numbers or one for all.
+/// Returns the coordinates from `x`, `y` and `z`, or from `value` with three numbers or one number
+/// for all.
 Vec3 read_coordinates(const Element& element);
-/// The same; of `x`, `y` and `z` some may be left out, which are then `otherwise`.
+/// The same. Some of `x`, `y` and `z` may be missing and become `otherwise`.
 Vec3 read_coordinates(const Element& element, float otherwise);
 
 }  // namespace pharos::mitsuba

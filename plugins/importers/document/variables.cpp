@@ -10,11 +10,12 @@
 namespace pharos::mitsuba {
 namespace {
 
-/// Defaults may name earlier defaults several times, so that texts could double with each line.
+/// Limits for texts: defaults may use earlier defaults several times, so texts could double with
+/// each line.
 constexpr std::size_t kMostBytesInText = std::size_t{1} << 20;
 constexpr std::size_t kMostBytesReplaced = std::size_t{64} << 20;
 
-/// What looking a name up costs, so that empty values are counted too.
+/// The cost of looking up a name, so that empty values count too.
 constexpr std::size_t kBytesPerReplacement = 64;
 constexpr std::size_t kLongestName = 100;
 constexpr std::string_view kNameLetters =

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::string_view kBlanks = " \t\r\n";
 
-/// What is wrong, in the words of somebody who wrote the file.
+/// Describes the error in terms of the file's syntax.
 std::string_view reason(pugi::xml_parse_status status) {
   switch (status) {
     case pugi::status_bad_pi:
@@ -35,7 +35,7 @@ std::string_view reason(pugi::xml_parse_status status) {
   }
 }
 
-/// Goes on behind what ends with `end`.
+/// Returns the position after the next `end`, or the end of the text.
 std::size_t behind(std::string_view text, std::size_t from, std::string_view end) {
   const std::size_t found = text.find(end, from);
   return found == std::string_view::npos ? text.size() : found + end.size();
@@ -71,7 +71,8 @@ void XmlFile::find_lines() {
   }
 }
 
-// Before anything is built: a tree takes many times the memory of its text.
+// Counts the parts before the tree is built, because a tree takes many times the memory of its
+// text.
 void XmlFile::count_parts(ReadingBudget& budget) const {
   const std::string_view text = text_;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -125,7 +126,7 @@ Location XmlFile::where(pugi::xml_node node) const {
   return where(node.type() == pugi::node_element && offset > 0 ? offset - 1 : offset);
 }
 
-// The text was parsed: what stands here is a name followed by attributes with quoted values.
+// The text was parsed before, so a name followed by attributes with quoted values begins here.
 Location XmlFile::where(pugi::xml_node element, std::string_view attribute) const {
   const std::string_view text = text_;
   std::size_t at = static_cast<std::size_t>(element.offset_debug());

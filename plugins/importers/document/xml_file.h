@@ -13,23 +13,23 @@
 
 namespace pharos::mitsuba {
 
-/// A file of well-formed XML with one outermost element, that knows where everything stands.
+/// A file of well-formed XML with one outermost element, together with the location of every part.
 /// Columns count bytes.
 class XmlFile {
  public:
-  /// Throws InputError for what is no XML in UTF-8, has a document type, or exceeds the budget.
-  /// `path` must be a file that can be read, see file_problem().
+  /// Throws InputError if the file is not XML in UTF-8, has a document type, or exceeds the budget.
+  /// `path` must be a readable file, see file_problem().
   XmlFile(const std::filesystem::path& path, ReadingBudget& budget);
 
   const std::filesystem::path& path() const { return path_; }
   /// The outermost element.
   pugi::xml_node root() const { return root_; }
-  /// The elements in an element. Throws InputError for text among them.
+  /// Returns the elements inside an element. Throws InputError if there is text among them.
   std::vector<pugi::xml_node> elements_in(pugi::xml_node element) const;
 
-  /// Where an element or text begins.
+  /// Returns the location where an element or text begins.
   Location where(pugi::xml_node node) const;
-  /// Where the value of one of an element's attributes begins.
+  /// Returns the location where the value of an element's attribute begins.
   Location where(pugi::xml_node element, std::string_view attribute) const;
 
  private:

@@ -4,14 +4,14 @@
 
 namespace pharos::mitsuba {
 
-/// The node that stands for a BSDF: its name if it has an id, else the material in place.
+/// Returns the node for a BSDF: its name if it has an id, otherwise the material itself.
 ConfigNode map_bsdf(SceneMap& scene, const Object& bsdf, UvSense sense, const Location& where);
 
-/// The BSDFs nested in `part`, each as the node of a material. Throws InputError unless there are
-/// `least` to `most`.
+/// Returns a material node for each BSDF nested in `part`. Throws InputError unless there are
+/// `least` to `most` of them.
 std::vector<ConfigNode> nested_bsdfs(Part& part, std::size_t least, std::size_t most);
 
-// What stands for each type; see docs/mitsuba.md.
+// These functions map a BSDF of each type; see docs/mitsuba.md.
 ConfigNode map_diffuse(Part& part);
 ConfigNode map_rough_diffuse(Part& part);
 ConfigNode map_diffuse_transmitter(Part& part);
@@ -34,7 +34,7 @@ ConfigNode map_mixture(Part& part);
 ConfigNode map_bump(Part& part);
 ConfigNode map_normal_map(Part& part);
 ConfigNode map_coating(Part& part);
-/// Throws InputError: there is nothing like it here.
+/// Throws InputError, because Pharos has nothing similar.
 ConfigNode map_without_counterpart(Part& part);
 
 }  // namespace pharos::mitsuba

@@ -10,9 +10,10 @@ namespace pharos::mitsuba {
 namespace {
 
 constexpr double kRoundingOfWeights = 1e-6;
-constexpr std::size_t kMostParts = 32;  // each is nested in the one before
+constexpr std::size_t kMostParts = 32;  // each is nested in the previous one
 
-/// The numbers of a text such as "0.3, 0.7"; a single number may be one itself.
+/// Reads the numbers of a text such as "0.3, 0.7". A single number may also be a property of type
+/// number.
 std::vector<double> read_weights(Part& part) {
   const Property* p = part.object().find("weights");
   if (p == nullptr) throw InputError(part.where(), "bsdf mixturebsdf: 'weights' is missing");
@@ -44,8 +45,8 @@ ConfigNode black(const Location& where) {
   return node;
 }
 
-/// Blends one within the other, from the last backwards: each weight is that of what follows among
-/// itself and what follows.
+/// Nests the blends, starting with the last part. The weight of each blend is the share of the
+/// parts after it in the sum of its own part and those after it.
 ConfigNode chain_of_blends(Part& part, const std::vector<double>& weights,
                            std::vector<ConfigNode> parts) {
   ConfigNode mixed = std::move(parts.back());
@@ -62,7 +63,7 @@ ConfigNode chain_of_blends(Part& part, const std::vector<double>& weights,
   return mixed;
 }
 
-/// The texture that bends normals.
+/// Returns the texture that modifies normals.
 ConfigNode bending_texture(Part& part) {
   const std::vector<const Object*> all = part.children("texture");
   if (all.size() != 1) {
@@ -98,7 +99,8 @@ ConfigNode map_blend(Part& part) {
   return node;
 }
 
-/// Weights of less than 1 in sum leave the rest black, of more they are normalized.
+/// If the weights sum to less than 1, the remainder is black. If they sum to more, they are
+/// normalized.
 ConfigNode map_mixture(Part& part) {
   const std::vector<double> weights = read_weights(part);
   std::vector<ConfigNode> parts = nested_bsdfs(part, weights.size(), weights.size());

@@ -80,7 +80,7 @@ ConfigNode map_environment(Part& part) {
                    fmt::format("emitter '{}' cannot stand in a shape", part.object().type));
 }
 
-/// Daylight, which is mapped elsewhere.
+/// Stands for daylight, which map_daylight() maps.
 ConfigNode is_several(Part& part) {
   return part.node("sky");
 }

@@ -4,10 +4,10 @@
 
 namespace pharos::mitsuba {
 
-/// The emitter of a shape. Throws InputError when it is not one that shapes have.
+/// Maps the emitter of a shape. Throws InputError if shapes cannot have this type of emitter.
 ConfigNode map_shape_emitter(SceneMap& scene, const Object& emitter, UvSense sense);
 
-/// Appends to `entries` what stands for an emitter without a shape.
+/// Maps an emitter without a shape and appends the result to `entries`.
 void map_emitter(SceneMap& scene, const Object& emitter, std::vector<ConfigNode>& entries);
 
 }  // namespace pharos::mitsuba

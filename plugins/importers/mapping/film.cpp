@@ -37,7 +37,7 @@ ConfigNode map_catmull_rom(Part& part) {
   return part.node("catmull_rom");
 }
 
-/// The dialects write the letters differently.
+/// Reads `B` or `b` and `C` or `c`: the dialects differ in case.
 ConfigNode map_mitchell(Part& part) {
   ConfigNode node = part.node("mitchell");
   node.set("b", part.number_or(part.has("B") ? "B" : "b", 1.0 / 3), part.where());
@@ -65,7 +65,7 @@ ConfigNode integer_node(std::int64_t value, const Location& where) {
   return text_node(fmt::format("{}", value), where);
 }
 
-/// The window that is rendered; nothing when it is the whole image.
+/// Sets the rendered window, unless it is the whole image.
 void set_crop(Part& part, FilmParts& parts, std::int64_t width, std::int64_t height) {
   const std::int64_t x = part.integer("crop_offset_x").value_or(0);
   const std::int64_t y = part.integer("crop_offset_y").value_or(0);
@@ -92,7 +92,7 @@ void set_exposure(Part& part, FilmParts& parts) {
   parts.output.set("exposure", part.number_or("exposure", 0), part.where());
 }
 
-/// How files are written is not part of a scene here.
+/// Ignores the properties of output files, which are not part of a scene in Pharos.
 void ignore_files(Part& part) {
   part.ignore({"file_format", "pixel_format", "component_format", "banner", "attach_log",
                "filename", "high_quality_edges", "gamma", "digits", "variable", "compensate",
@@ -102,7 +102,7 @@ void ignore_files(Part& part) {
 void map_properties(Part& part, FilmParts& parts) {
   const std::int64_t width = part.integer("width").value_or(kDefaultWidth);
   const std::int64_t height = part.integer("height").value_or(kDefaultHeight);
-  const auto as_pixels = [](std::int64_t n) {  // what cannot be is refused by the film itself
+  const auto as_pixels = [](std::int64_t n) {  // the film itself refuses impossible sizes
     return static_cast<int>(std::clamp<std::int64_t>(n, 1, 1 << 20));
   };
   parts.width = as_pixels(width);

@@ -4,14 +4,14 @@
 
 namespace pharos::mitsuba {
 
-/// What stands for a film.
+/// The nodes for a film.
 struct FilmParts {
   ConfigNode film;
-  ConfigNode output;          ///< null when the film says nothing about it
-  int width = 0, height = 0;  ///< of the whole image, before it is cut [pixels]
+  ConfigNode output;          ///< null if the film does not specify it
+  int width = 0, height = 0;  ///< of the whole image, before cropping [pixels]
 };
 
-/// `film` may be null; the film is then Mitsuba's default, located at `where`.
+/// Maps a film. If `film` is null, maps Mitsuba's default film, located at `where`.
 FilmParts map_film(SceneMap& scene, const Object* film, const Location& where);
 
 }  // namespace pharos::mitsuba

@@ -1,5 +1,5 @@
-// Mitsuba's shapes as shapes of Pharos. Texture coordinates are the same in both where nothing is
-// said.
+// Maps Mitsuba's shapes to shapes of Pharos. Texture coordinates are the same in both unless stated
+// otherwise.
 #include <array>
 
 #include <fmt/core.h>
@@ -16,7 +16,8 @@ Geometry placed_shape(Part& part, const char* type) {
   return {{std::move(node)}};
 }
 
-/// A face of Mitsuba's cube: where its picture's u and v grow. Their cross product points inwards.
+/// A face of Mitsuba's cube: the directions in which its image's u and v increase. Their cross
+/// product points inwards.
 struct CubeFace {
   Vec3 u, v;
 };
@@ -27,20 +28,21 @@ constexpr std::array<CubeFace, 6> kCubeFaces{{{{0, 0, 1}, {1, 0, 0}},
                                               {{0, 1, 0}, {0, 0, 1}},
                                               {{0, -1, 0}, {1, 0, 0}}}};
 
-/// From the square of `quad` to the face, with v upwards, as Pharos has it.
+/// Returns the map from the square of `quad` to the face, with v upwards as in Pharos.
 Transform to_face(const CubeFace& face) {
   const Vec3 x = face.u, y = -face.v, z = cross(x, y);
   return Transform({{{x.x, y.x, z.x, z.x}, {x.y, y.y, z.y, z.y}, {x.z, y.z, z.z, z.z}}});
 }
 
-/// Files' shading normals, and smooth ones where they have none, unless faces are to be seen.
+/// Uses the shading normals of the file, and smooth normals where the file has none, unless the
+/// faces should be visible.
 void set_normals(Part& part, ConfigNode& node) {
   const bool is_flat = part.flag("face_normals", false);
   const Location& there = is_flat ? part.object().find("face_normals")->where : part.where();
   node.set("normals", text_node(is_flat ? "flat" : "file_or_smooth", there), there);
 }
 
-/// What all meshes in files share.
+/// Maps the properties that all mesh files share.
 ConfigNode mesh_of(Part& part) {
   ConfigNode node = part.node("mesh");
   node.set("file", part.file("filename"), part.where());
@@ -60,7 +62,7 @@ Geometry map_rectangle(Part& part, bool) {
   return placed_shape(part, "quad");
 }
 
-/// The pictures on Mitsuba's cube are turned otherwise than those on a `box`: a textured one
+/// The images on Mitsuba's cube have another orientation than those on a `box`, so a textured cube
 /// becomes six quads.
 Geometry map_cube(Part& part, bool has_texture) {
   if (!has_texture) return placed_shape(part, "box");
@@ -116,7 +118,7 @@ Geometry map_ply(Part& part, bool) {
   return mesh;
 }
 
-/// The reader of these files turns v over.
+/// The reader of these files flips v.
 Geometry map_serialized(Part& part, bool) {
   Geometry mesh{{mesh_of(part)}, UvSense::v_flipped};
   const std::int64_t index = part.integer("shape_index").value_or(0);

@@ -8,16 +8,16 @@
 namespace pharos::mitsuba {
 namespace {
 
-/// The longest path that Pharos has; for those that end by roulette alone.
+/// The longest path in Pharos, for paths that end only by Russian roulette.
 constexpr std::int64_t kLongestPath = 65535;
 constexpr std::int64_t kDefaultRouletteDepth = 5;
 
-/// Those that are path tracers of emitted light as `path` is.
+/// Integrators that are path tracers of emitted light, like `path`.
 constexpr std::array<std::string_view, 6> kPathTracers{"path",    "direct",         "prb",
                                                        "volpath", "volpath_simple", "volpathmis"};
-/// Those whose image is not that of all light.
+/// Integrators whose image is not the image of all light.
 constexpr std::array<std::string_view, 4> kOtherImages{"ao", "depth", "field", "aov"};
-/// Those that hold another integrator.
+/// Integrators that contain another integrator.
 constexpr std::array<std::string_view, 5> kWrappers{"adaptive", "aov", "irrcache", "moment",
                                                     "multichannel"};
 
@@ -37,7 +37,7 @@ void set_depth(Part& part, ConfigNode& node) {
   const std::int64_t longest = is_unlimited ? kLongestPath : depth;
   set_integer(part, node, "max_depth", longest);
   const std::int64_t roulette = part.integer("rr_depth").value_or(kDefaultRouletteDepth);
-  if (roulette >= longest && !is_unlimited) return;  // it is never played
+  if (roulette >= longest && !is_unlimited) return;  // paths end before Russian roulette begins
   node.set("roulette", text_node("throughput", part.where()), part.where());
   set_integer(part, node, "roulette_depth", std::clamp<std::int64_t>(roulette, 0, kLongestPath));
 }
@@ -53,7 +53,7 @@ ConfigNode map_path(Part& part) {
   return node;
 }
 
-/// Settings of methods that are not used.
+/// Marks the settings of unused methods as read.
 void skip_the_rest(Part& part) {
   for (const Property& p : part.object().properties) part.take(p.name);
 }

@@ -1,6 +1,6 @@
-// How Mitsuba's world compares with that of Pharos: both are right-handed, with cameras that look
-// along local +z and have +x on the left of the picture; light shines from the side of the normal,
-// and materials that reflect are black behind; depth counts segments. Units are the same.
+// Mitsuba and Pharos share these conventions: right-handed coordinates, cameras that look along
+// local +z and have +x on the left of the image, lights that emit from the side of the normal,
+// reflecting materials that are black on the back, depth that counts segments, and the same units.
 #include "mapping.h"
 
 #include "emitters.h"
@@ -27,7 +27,7 @@ ConfigNode list_of_emitters(Part& part) {
   return list;
 }
 
-/// Those of the scene that no shape refers to make no difference.
+/// Marks the scene's definitions as read. Those that no shape refers to make no difference.
 void skip_definitions(Part& part) {
   for (const char* tag : {"bsdf", "texture", "medium", "phase", "rfilter", "film", "sampler"}) {
     part.children(tag);
@@ -53,7 +53,7 @@ ConfigNode assembled(SceneMap& map, ConfigNode shapes, ConfigNode emitters, Came
   return scene;
 }
 
-/// The parts of the config that the camera holds.
+/// Returns the parts of the config that come from the camera.
 Camera read_camera(Part& part) {
   const Object* sensor = part.child("sensor");
   if (sensor != nullptr) return map_sensor(part.map(), *sensor);

@@ -6,7 +6,7 @@
 namespace pharos::mitsuba {
 namespace {
 
-/// What `plastic` and `roughplastic` share.
+/// Maps the properties that `plastic` and `roughplastic` share.
 ConfigNode plastic_of(Part& part, const char* type) {
   ConfigNode node = part.node(type);
   node.set("ior", relative_ior(part, kIorOfPolypropylene), part.where());

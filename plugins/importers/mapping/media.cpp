@@ -51,7 +51,8 @@ ConfigNode rgb_node(Rgb c, const Location& where) {
   return triple_node({c.r, c.g, c.b}, where);
 }
 
-/// Scattering and absorption, which are stated as such or as their sum and the share of the former.
+/// Returns the scattering and absorption coefficients. They are given directly, or as their sum and
+/// the albedo, the share of scattering in the sum.
 std::optional<std::pair<Rgb, Rgb>> coefficients(Part& part) {
   const auto scattering = coefficient(part, "sigma_s"), absorption = coefficient(part, "sigma_a"),
              sum = coefficient(part, "sigma_t"), share = coefficient(part, "albedo");
@@ -73,7 +74,7 @@ std::optional<ConfigNode> map_homogeneous(Part& part) {
   if (const Object* phase = part.child("phase")) {
     node.set("phase", map_phase(part.map(), *phase), phase->where);
   }
-  if (!stated) return std::nullopt;  // one of 0.x's named materials
+  if (!stated) return std::nullopt;  // one of the named materials of 0.x
   node.set("scattering", rgb_node(stated->first, part.where()), part.where());
   node.set("absorption", rgb_node(stated->second, part.where()), part.where());
   if (part.has("scale")) node.set("scale", part.number_or("scale", 1), part.where());

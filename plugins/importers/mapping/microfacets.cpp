@@ -22,8 +22,9 @@ void set_distribution(Part& part, ConfigNode& node) {
                     suggestion(distribution, known), quoted_list(known)));
   }
   const bool is_known_here = distribution == "ggx" || distribution == "beckmann";
-  // Of Phong's distribution, which is also called `as` for Ashikhmin and Shirley, the exponent is
-  // 2 / alpha^2 - 2, at which it is close to Beckmann's (Walter et al. 2007, section 5.2).
+  // In Phong's distribution, also called `as` for Ashikhmin and Shirley, the exponent is 2 /
+  // alpha^2 - 2. With this exponent it is close to Beckmann's distribution (Walter et al. 2007,
+  // section 5.2).
   if (!is_known_here) {
     part.note(fmt::format("bsdf {}: distribution '{}' is replaced by Beckmann's of the same alpha",
                           part.object().type, distribution));
@@ -34,7 +35,7 @@ void set_distribution(Part& part, ConfigNode& node) {
 }
 
 double in_range(Part& part, double alpha) {
-  if (!(alpha > kRoughest)) return std::max(alpha, kSmoothest);  // as Mitsuba does
+  if (!(alpha > kRoughest)) return std::max(alpha, kSmoothest);  // as in Mitsuba
   part.note(fmt::format("bsdf {}: roughness above 1 is taken as 1", part.object().type));
   return kRoughest;
 }
@@ -49,14 +50,14 @@ Roughness read_roughness(Part& part) {
           in_range(part, part.average("alpha_v", alpha))};
 }
 
-/// Sets `key` where the scene file has the property `name`.
+/// Sets `key`, located at the property `name` of the scene file if it is present.
 void set_number(Part& part, ConfigNode& node, const char* key, const char* name, double value) {
   const Property* stated = part.object().find(name);
   const Location& there = stated != nullptr ? stated->where : part.where();
   node.set(key, number_node(value, there), there);
 }
 
-/// What does not depend on roughness.
+/// Sets the properties that do not depend on roughness.
 void set_facets(Part& part, ConfigNode& node) {
   set_distribution(part, node);
   node.set("masking", text_node("separable", part.where()), part.where());

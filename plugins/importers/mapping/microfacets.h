@@ -4,11 +4,11 @@
 
 namespace pharos::mitsuba {
 
-/// Sets `alpha`, `distribution` and `masking` as Mitsuba has them, of a material whose lobe is
-/// round here. Other distributions than GGX and Beckmann's are approximated, with a note.
+/// Sets `alpha`, `distribution` and `masking` in accordance with Mitsuba, for a material that is
+/// isotropic in Pharos. Distributions other than GGX and Beckmann are approximated, with a note.
 void set_isotropic_roughness(Part& part, ConfigNode& node);
 
-/// The same for materials that may be brushed: `alpha_v` where it differs along v.
+/// The same for materials that may be anisotropic. Sets `alpha_v` if the roughness differs along v.
 void set_roughness(Part& part, ConfigNode& node);
 
 }  // namespace pharos::mitsuba

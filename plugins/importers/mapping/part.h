@@ -11,16 +11,16 @@
 
 namespace pharos::mitsuba {
 
-/// Nodes of values, located where the scene file has them.
+/// Nodes of values, with their location in the scene file.
 ConfigNode number_node(double value, const Location& where);
 ConfigNode color_node(const Spectrum& value, const Location& where);
 ConfigNode triple_node(Vec3 value, const Location& where);
 ConfigNode transform_node(const Transform& value, const Location& where);
 ConfigNode text_node(std::string text, const Location& where);
 
-/// One object while it is mapped: gives its properties, and remembers which were asked for, so that
-/// finish() can tell what was left out. All functions throw InputError at a property that is there
-/// but of another kind.
+/// One object during mapping. Returns its properties and records which were requested, so that
+/// finish() can note the unused ones. All functions throw InputError if a property is present but
+/// has another type.
 class Part {
  public:
   Part(SceneMap& map, const Object& object, UvSense sense = UvSense::same)
@@ -31,10 +31,10 @@ class Part {
   const Location& where() const { return object_.where; }
   UvSense sense() const { return sense_; }
 
-  /// A mapping with this `type`, located at the object.
+  /// Returns a mapping with this `type`, located at the object.
   ConfigNode node(const char* type) const;
 
-  /// The property of this name, which is read thereby; null when there is none.
+  /// Returns the property of this name and marks it as read; null if there is none.
   const Property* take(std::string_view name);
   bool has(std::string_view name) const { return object_.find(name) != nullptr; }
   std::optional<double> number(std::string_view name);
@@ -50,32 +50,33 @@ class Part {
   std::optional<Spectrum> color(std::string_view name);
   std::optional<Vec3> triple(std::string_view name);
   std::optional<Transform> transform(std::string_view name);
-  /// The nested objects of this tag, in order.
+  /// Returns the nested objects of this tag, in order.
   std::vector<const Object*> children(std::string_view tag);
-  /// The only nested object of this tag; null when there is none. More than one is noted.
+  /// Returns the only nested object of this tag; null if there is none. Adds a note if there are
+  /// several.
   const Object* child(std::string_view tag);
 
-  /// The node of a property, or of `otherwise` at the object's place.
+  /// Returns the node of a property, or of `otherwise` at the place of the object.
   ConfigNode number_or(std::string_view name, double otherwise);
   ConfigNode color_or(std::string_view name, double otherwise);
-  /// A color, or a texture as the scene needs it here.
+  /// Returns a color, or a texture mapped for the part's UvSense.
   ConfigNode texture_or(std::string_view name, double otherwise);
-  /// A number, or the average of a texture with a note that says so.
+  /// Returns a number, or the average of a texture with a note.
   double average(std::string_view name, double otherwise);
-  /// The file's name; throws InputError when `name` is missing.
+  /// Returns the node of the file name. Throws InputError if `name` is missing.
   ConfigNode file(std::string_view name);
-  /// Sets `key` of `node` to the transform, if it is stated.
+  /// Sets `key` of `node` to the transform, if it is given.
   void copy_transform(ConfigNode& node, const char* key, std::string_view name = "to_world");
-  /// Sets `key` of `node` when the property is true.
+  /// Sets `key` of `node` if the property is true.
   void copy_flag(ConfigNode& node, const char* key);
 
-  /// A note at this object.
+  /// Adds a note at this object.
   void note(const std::string& message) { map_.note(where(), message); }
-  /// Properties that make no difference here.
+  /// Marks properties as read that make no difference in Pharos.
   void ignore(std::initializer_list<std::string_view> names);
-  /// Properties that make no difference at this value, and are left out with a note otherwise.
+  /// Reads a property that makes no difference at `value`. Any other value is omitted with a note.
   void expect(std::string_view name, double value);
-  /// Notes what was never asked for.
+  /// Notes the properties that were never requested.
   void finish();
 
  private:
@@ -87,7 +88,8 @@ class Part {
   std::vector<bool> is_read_;
 };
 
-/// The entry of `table` for the object's type. Throws InputError with the nearest type otherwise.
+/// Returns the entry of `table` for the object's type. Throws InputError with the nearest type if
+/// there is none.
 template <class Mapper>
 const Mapper& mapper_of(const std::map<std::string_view, Mapper>& table, const Object& object);
 [[noreturn]] void fail_type_of(const Object& object, const std::vector<std::string>& known);
@@ -101,8 +103,8 @@ const Mapper& mapper_of(const std::map<std::string_view, Mapper>& table, const O
   fail_type_of(object, known);
 }
 
-/// Maps an object by `map(part)`, enters it into the list of objects as a `contract` of the type of
-/// its node, and notes what was left out.
+/// Maps an object by `map(part)`. Records it in the list of objects as a `contract` with the type
+/// of its node, and notes the unused properties.
 template <class Map>
 ConfigNode map_part(SceneMap& scene, const Object& object, UvSense sense, const char* contract,
                     const Map& map) {

@@ -1,5 +1,5 @@
-// The materials that Mitsuba knows by name, at the wavelength of sodium light where that was
-// measured, as its manual lists them.
+// The materials that Mitsuba knows by name, as its manual lists them. Indices measured at the
+// wavelength of sodium light are given at that wavelength.
 #include "refractive_indices.h"
 
 #include <fmt/core.h>

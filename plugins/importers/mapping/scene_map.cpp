@@ -19,7 +19,7 @@ bool may_stand_in_names(char c) {
   return letter || c == '_' || c == '-' || static_cast<unsigned char>(c) >= 0x80;
 }
 
-/// Words that a config does not read as a name, or that are keys of the config's own.
+/// Returns whether a config would not read the word as a name, or uses it as its own key.
 bool is_taken_word(const std::string& name) {
   static constexpr std::array<std::string_view, 12> words{"",      "null",  "Null",    "NULL",
                                                           "true",  "True",  "TRUE",    "false",
@@ -83,7 +83,7 @@ ConfigNode SceneMap::file_node(const std::string& name, const Location& where) c
     std::error_code failed;
     return std::filesystem::exists(folder / path, failed);
   };
-  // Nodes are read relative to the file that they stand in.
+  // Nodes are read relative to the file that contains them.
   if (path.is_absolute() || is_in(beside)) return ConfigNode::scalar(slashes, where);
   std::filesystem::path folder = document_.folder;
   for (const std::filesystem::path& resource : document_.resource_folders) {

@@ -11,23 +11,24 @@
 
 namespace pharos::mitsuba {
 
-/// How a shape's texture coordinates here compare with Mitsuba's.
+/// The relation of a shape's texture coordinates in Pharos to those in Mitsuba.
 enum class UvSense {
   same,
-  v_flipped,  ///< v here is 1 - v there
+  v_flipped,  ///< v in Pharos is 1 - v in Mitsuba
 };
 
-/// A Pharos scene in the making: what its parts share while they are mapped one by one.
+/// A Pharos scene under construction: the data that all parts share during the mapping.
 class SceneMap {
  public:
-  /// Begins with the notes of reading the file.
+  /// Starts with the notes from reading the file.
   explicit SceneMap(const Document& document);
 
-  /// Tells the reader of the import; notes of the same message are counted, not repeated.
+  /// Adds a note to the import. Notes with the same message are counted instead of repeated.
   void note(const Location& where, const std::string& message);
 
-  /// Enters an object of the scene file into the list of objects, and guards against objects that
-  /// are nested deeper than 64 for as long as it lives; done() says what stands for the object.
+  /// Records an object of the scene file in the list of objects. Throws InputError if objects are
+  /// nested deeper than 64; the entry counts as a level while it lives. done() states the result
+  /// for the object.
   class Entry {
    public:
     Entry(SceneMap& map, const Object& object);
@@ -43,7 +44,7 @@ class SceneMap {
 
   /// A dictionary of the scene: `textures`, `materials`, `media` or `groups`.
   struct Dictionary {
-    std::string word;  ///< "texture"; stands before ids that cannot be names
+    std::string word;  ///< "texture"; precedes ids that cannot be names
     ConfigNode entries = ConfigNode::mapping();
     std::map<std::pair<const Object*, UvSense>, std::string> names = {};
     std::set<std::string> taken = {};
@@ -53,25 +54,25 @@ class SceneMap {
   Dictionary& media() { return media_; }
   Dictionary& groups() { return groups_; }
 
-  /// The name under which `dictionary` has the object. It is mapped by `make()`, which returns its
-  /// node, when it is asked for the first time; `sense` matters to objects with textures alone.
+  /// Returns the name of the object in `dictionary`. At the first request `make()` maps it and
+  /// returns its node. `sense` matters only for objects with textures.
   template <class Make>
   std::string name_in(Dictionary& dictionary, const Object& object, UvSense sense,
                       const Make& make) {
     if (!depends_on_uv(object)) sense = UvSense::same;
     const auto found = dictionary.names.find({&object, sense});
     if (found != dictionary.names.end()) return found->second;
-    ConfigNode node = make();  // enters what it refers to itself, before this
+    ConfigNode node = make();  // records the objects it refers to before this one
     std::string name = free_name(dictionary, object.id);
     dictionary.names[{&object, sense}] = name;
     dictionary.entries.entries().push_back({name, object.where, std::move(node)});
     return name;
   }
 
-  /// True for textures and everything that has some.
+  /// Returns true for textures and for everything that contains textures.
   bool depends_on_uv(const Object& object);
 
-  /// The node of a file's name, which may stand beside the file that names it, in the scene's
+  /// Returns the node of a file name. The file may be beside the file that names it, in the scene's
   /// resource folders, or beside the scene file.
   ConfigNode file_node(const std::string& name, const Location& where) const;
 
@@ -90,7 +91,7 @@ class SceneMap {
   Dictionary textures_{"texture"}, materials_{"material"}, media_{"medium"}, groups_{"group"};
 };
 
-/// "bsdf roughplastic 'Lamp'".
+/// Describes an object, such as "bsdf roughplastic 'Lamp'".
 std::string describe(const Object& object);
 
 }  // namespace pharos::mitsuba

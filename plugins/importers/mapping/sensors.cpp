@@ -12,14 +12,14 @@
 namespace pharos::mitsuba {
 namespace {
 
-/// The diagonal of film for still cameras, 36 x 24 mm, which focal lengths refer to.
+/// The diagonal of 36 x 24 mm film for still cameras, to which focal lengths refer.
 const double kFilmDiagonal = std::hypot(36.0, 24.0);
 constexpr double kDefaultFocalLength = 50;
 constexpr double kDegree = std::numbers::pi / 180;
-/// Clipping planes that are hardly meant to cut anything.
+/// Clipping planes beyond these limits are unlikely to cut anything.
 constexpr double kNearEnough = 0.1, kFarEnough = 1000;
 
-/// Twice the tangent of half an angle [degrees]: how wide it sees at distance 1.
+/// Returns twice the tangent of half an angle [degrees], which is the visible width at distance 1.
 double extent(double degrees) {
   return 2 * std::tan(degrees * kDegree / 2);
 }
@@ -27,14 +27,15 @@ double angle(double extent) {
   return 2 * std::atan(extent / 2) / kDegree;
 }
 
-/// The angle across the width [degrees] for `fov` along an axis of a film of this shape.
+/// Returns the angle across the width [degrees] for `fov` along an axis of a film with this aspect
+/// ratio.
 double across_width(double fov, const std::string& axis, double aspect) {
   if (axis == "x") return fov;
   if (axis == "y") return angle(extent(fov) * aspect);
   return angle(extent(fov) * aspect / std::hypot(aspect, 1.0));
 }
 
-/// "50mm" or "50".
+/// Reads "50mm" or "50".
 double focal_length(Part& part) {
   const Property* p = part.object().find("focal_length");
   if (p == nullptr) return kDefaultFocalLength;
@@ -69,12 +70,12 @@ void set_fov(Part& part, ConfigNode& node, const FilmParts& film) {
   }
   const double length = focal_length(part);
   if (!(length > 0)) throw InputError(part.where(), "'focal_length' must be above 0");
-  part.ignore({"fov_axis"});  // focal lengths are about the diagonal
+  part.ignore({"fov_axis"});  // focal lengths refer to the diagonal
   const double fov = across_width(angle(kFilmDiagonal / length), "diagonal", aspect);
   node.set("fov", number_node(fov, part.where()), part.where());
 }
 
-/// What all sensors may state and Pharos has not.
+/// Notes the properties of sensors that Pharos does not have.
 void note_the_rest(Part& part) {
   const bool cuts =
       part.number("near_clip", 0) > kNearEnough || part.number("far_clip", kFarEnough) < kFarEnough;
@@ -112,7 +113,7 @@ ConfigNode map_thin_lens(Part& part, const FilmParts& film) {
   return node;
 }
 
-/// Two units wide, before `to_world` scales it.
+/// The image is two units wide before `to_world` scales it.
 ConfigNode map_orthographic(Part& part, const FilmParts&) {
   ConfigNode node = part.node("orthographic");
   part.copy_transform(node, "to_world");
@@ -141,7 +142,7 @@ const std::map<std::string_view, Mapper>& mappers() {
   return all;
 }
 
-/// The sampler that stands for another renderer's, or comes nearest.
+/// The equivalent of another renderer's sampler, or the nearest one.
 struct NearestSampler {
   const char* name;
   bool is_same;

@@ -5,7 +5,7 @@
 
 namespace pharos::mitsuba {
 
-/// What stands for a sensor and what it holds.
+/// The nodes for a sensor and the objects in it.
 struct Camera {
   ConfigNode sensor;
   ConfigNode medium;  ///< around it; null: none

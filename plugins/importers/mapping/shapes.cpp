@@ -16,7 +16,7 @@ using GeometryMapper = Geometry (*)(Part&, bool);
                    fmt::format("shape '{}' has no counterpart in Pharos", part.object().type));
 }
 
-/// These are groups or made of others; see map_shape().
+/// Stands for types that are groups or consist of other shapes; see map_shape().
 Geometry is_compound(Part&, bool) {
   return {};
 }
@@ -43,7 +43,7 @@ const std::map<std::string_view, GeometryMapper>& mappers() {
   return all;
 }
 
-/// What a shape holds besides its geometry.
+/// The objects in a shape besides its geometry.
 struct Attachments {
   const Object* bsdf = nullptr;
   const Object* emitter = nullptr;
@@ -63,8 +63,8 @@ Attachments read_attachments(Part& part) {
   return attached;
 }
 
-/// What Mitsuba takes where a shape states no bsdf: lights are black, and in 0.x what only bounds a
-/// medium is not there.
+/// Returns Mitsuba's default for a shape without a bsdf. Emitters are black, and in 0.x a shape
+/// that only bounds a medium is invisible.
 std::optional<ConfigNode> unstated_material(Part& part, const Attachments& attached) {
   ConfigNode node;
   if (attached.emitter != nullptr) {
@@ -114,7 +114,7 @@ void map_simple(SceneMap& scene, const Object& shape, GeometryMapper mapper,
   for (ConfigNode& node : geometry.nodes) entries.push_back(std::move(node));
 }
 
-/// A list of the shapes nested in `part`.
+/// Returns a list of the shapes nested in `part`.
 ConfigNode nested_shapes(Part& part) {
   ConfigNode list = ConfigNode::sequence(part.where());
   for (const Object* shape : part.children("shape")) {
@@ -151,7 +151,7 @@ void map_instance(SceneMap& scene, const Object& instance, std::vector<ConfigNod
 
 void map_shape(SceneMap& scene, const Object& shape, std::vector<ConfigNode>& entries) {
   const GeometryMapper mapper = mapper_of(mappers(), shape);
-  if (shape.type == "shapegroup") return;  // entered by its first instance
+  if (shape.type == "shapegroup") return;  // recorded by its first instance
   if (shape.type == "instance") return map_instance(scene, shape, entries);
   if (shape.type != "merge") return map_simple(scene, shape, mapper, entries);
   SceneMap::Entry entry(scene, shape);

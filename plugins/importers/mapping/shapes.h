@@ -4,8 +4,8 @@
 
 namespace pharos::mitsuba {
 
-/// Appends to `entries` what stands for a shape: nothing for a group, which instances show, one
-/// entry for most, several for a textured cube.
+/// Maps a shape and appends the result to `entries`: nothing for a group, which instances show,
+/// several entries for a textured cube, and one entry for other shapes.
 void map_shape(SceneMap& scene, const Object& shape, std::vector<ConfigNode>& entries);
 
 /// The geometry of one shape, before it gets a material.
@@ -14,8 +14,8 @@ struct Geometry {
   UvSense sense = UvSense::same;
 };
 
-// What stands for the geometry of each type; see docs/mitsuba.md. `has_texture` tells whether the
-// shape's material or emitter looks at its texture coordinates.
+// These functions map the geometry of each type; see docs/mitsuba.md. `has_texture` states whether
+// the shape's material or emitter uses its texture coordinates.
 Geometry map_rectangle(Part& part, bool has_texture);
 Geometry map_cube(Part& part, bool has_texture);
 Geometry map_sphere(Part& part, bool has_texture);

@@ -1,5 +1,5 @@
-// Mitsuba's daylight. The sun stands where it is stated or where a date and a place have it; 0.x
-// has its zenith at +y, 3 at +z.
+// Maps Mitsuba's daylight. The sun's position is given directly or by a date and a place. The
+// zenith is +y in 0.x and +z in 3.
 #include "sky.h"
 
 #include <array>
@@ -8,7 +8,8 @@ namespace pharos::mitsuba {
 namespace {
 
 constexpr double kDefaultTurbidity = 3;
-/// Width of the sun's disk here and in Mitsuba 0.x, and what 3 takes unless it is stated [degrees].
+/// The width of the sun's disk in Pharos and in Mitsuba 0.x, and its default in Mitsuba 3
+/// [degrees].
 constexpr double kSunWidth = 0.5358, kSunApertureOf3 = 0.5338;
 constexpr std::array kObserver{"latitude", "longitude", "timezone", "year",  "month",
                                "day",      "hour",      "minute",   "second"};
@@ -29,7 +30,7 @@ void set_sun_place(Part& part, ConfigNode& node) {
   if (!observer.entries().empty()) node.set("observer", std::move(observer), part.where());
 }
 
-/// Mitsuba's sky to the world.
+/// Sets the transform from Mitsuba's sky to the world.
 void set_to_world(Part& part, ConfigNode& node) {
   if (part.map().document().dialect == Dialect::mitsuba_0) {
     return part.copy_transform(node, "to_world");
@@ -88,7 +89,7 @@ std::vector<ConfigNode> map_daylight(SceneMap& scene, const Object& emitter) {
     halves.push_back(sun_half(part));
     stands += halves.size() > 1 ? " and sun" : " sun";
   }
-  // How finely Mitsuba tabulates and samples it.
+  // Settings for the resolution of tables and the sampling of daylight.
   part.ignore({"resolution", "sun_samples", "complex_sun", "sampling_weight"});
   part.finish();
   entry.done(stands);

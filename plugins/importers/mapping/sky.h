@@ -4,10 +4,10 @@
 
 namespace pharos::mitsuba {
 
-/// What stands for `sky`, `sun` or `sunsky`: one emitter for each half that it has.
+/// Maps `sky`, `sun` or `sunsky` to one emitter for each part it has.
 std::vector<ConfigNode> map_daylight(SceneMap& scene, const Object& emitter);
 
-/// Whether an emitter of this type is one of those.
+/// Returns whether the type is one of these.
 bool is_daylight(std::string_view type);
 
 }  // namespace pharos::mitsuba

@@ -1,4 +1,4 @@
-// Materials of artists, and those that are brought to something simpler.
+// Maps artists' materials, and materials that are simplified.
 #include <fmt/core.h>
 
 #include "bsdfs.h"
@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kIorOfPrincipled = 1.5;
 
-/// `color` times `factor`, as a texture.
+/// Returns `color` times `factor` as a texture.
 ConfigNode dimmed(Part& part, const ConfigNode& color, double factor) {
   ConfigNode node = part.node("scale");
   node.set("texture", color, part.where());
@@ -19,7 +19,7 @@ ConfigNode dimmed(Part& part, const ConfigNode& color, double factor) {
   return node;
 }
 
-/// A coat over a diffuse base: what `plastic` and `rough_plastic` are.
+/// Maps a coat over a diffuse base to `plastic` or `rough_plastic`.
 ConfigNode coated_diffuse(Part& part, const Object& base, bool is_rough) {
   Part matt(part.map(), base, part.sense());
   ConfigNode node = part.node(is_rough ? "rough_plastic" : "plastic");
@@ -67,11 +67,11 @@ ConfigNode map_principled(Part& part) {
   return node;
 }
 
-/// A pane with a matt and a clear share.
+/// Maps a pane to a blend of a diffuse and a clear part.
 ConfigNode map_principled_thin(Part& part) {
   part.note("bsdf principledthin: replaced by a blend of diffuse_transmitter and thin_dielectric");
   const ConfigNode color = part.texture_or("base_color", 0.5);
-  const double transmitted = part.average("diff_trans", 0) / 2;  // 0 to 2 there
+  const double transmitted = part.average("diff_trans", 0) / 2;  // 0 to 2 in Mitsuba
   ConfigNode matt = part.node("diffuse_transmitter");
   matt.set("transmittance", dimmed(part, color, transmitted), part.where());
   matt.set("reflectance", dimmed(part, color, 1 - transmitted), part.where());

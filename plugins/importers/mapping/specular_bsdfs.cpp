@@ -12,7 +12,7 @@ namespace pharos::mitsuba {
 namespace {
 
 constexpr std::array kMeasuredHere{"Ag", "Al", "Au", "Cr", "Cu", "Fe", "Ni", "Ti"};
-/// Mitsuba's further names of conductors; some have "_palik" and the like behind them.
+/// Further names of conductors in Mitsuba. Some have suffixes such as "_palik".
 constexpr std::array kMeasuredThere{"a-C",  "AlAs", "AlSb", "Be",   "CsI", "Cu2O", "CuO", "d-C",
                                     "Hg",   "HgTe", "Ir",   "K",    "Li",  "MgO",  "Mo",  "Na",
                                     "Nb",   "Rh",   "Se",   "SiC",  "Si",  "SnTe", "Ta",  "Te",
@@ -24,7 +24,7 @@ bool has(const Names& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// The metal here of that name there.
+/// Returns the metal in Pharos for a name in Mitsuba.
 std::string known_metal(Part& part, const std::string& name) {
   if (name == "none") return "ideal";
   const std::string element = name.substr(0, name.find('_'));

@@ -1,5 +1,5 @@
-// Mitsuba's textures. Its images have their first row at v = 0, Pharos' at v = 1, so that images
-// are turned over wherever a shape's coordinates are the same in both.
+// Maps Mitsuba's textures. Its images have their first row at v = 0, the images of Pharos at v = 1.
+// Images are therefore flipped if a shape's coordinates are the same in both.
 #include "textures.h"
 
 #include <array>
@@ -16,7 +16,7 @@
 namespace pharos::mitsuba {
 namespace {
 
-/// A texture's color; that of a texture in its place is averaged, with a note.
+/// Returns the color of a texture's property. A texture used as a color is averaged, with a note.
 ConfigNode plain_color(Part& part, std::string_view name, double otherwise) {
   const Property* p = part.object().find(name);
   const auto* nested =
@@ -47,7 +47,7 @@ ConfigNode map_grid(Part& part) {
   return placed(part, std::move(node), read_uv_map(part), UvOrigin::as_here, true);
 }
 
-/// One of the words of `wrap` in Pharos; others become `clamp` with a note.
+/// Returns the wrap mode in Pharos; unsupported modes become `clamp` with a note.
 std::string read_wrap(Part& part) {
   std::string mode = part.text("wrap_mode", "repeat");
   const std::string u = part.text("wrap_mode_u", mode.c_str());
@@ -64,7 +64,7 @@ std::string read_wrap(Part& part) {
   return "clamp";
 }
 
-/// Whether numbers of 8 and 16 bits are taken as they are.
+/// Returns whether numbers of 8 and 16 bits are used without conversion.
 bool reads_linear(Part& part) {
   const bool raw = part.flag("raw", false);
   const std::optional<double> gamma = part.number("gamma");
@@ -101,7 +101,7 @@ ConfigNode map_scale(Part& part) {
   return node;
 }
 
-/// Colors at the vertices of a mesh.
+/// Replaces colors at the vertices of a mesh.
 ConfigNode map_vertex_colors(Part& part) {
   part.ignore({"name"});
   part.note(fmt::format("texture {}: a mesh's own colors are replaced by 0.5", part.object().type));
@@ -138,7 +138,7 @@ const std::map<std::string_view, Mapper>& mappers() {
   return all;
 }
 
-/// The color of a property that is stated as one.
+/// Returns the color of a property that is given as a color.
 std::optional<Rgb> stated_color(const Object& object, std::string_view name, float otherwise) {
   const Property* p = object.find(name);
   if (p == nullptr) return Rgb(otherwise);
@@ -147,7 +147,7 @@ std::optional<Rgb> stated_color(const Object& object, std::string_view name, flo
   return std::nullopt;
 }
 
-/// The average over the pixels of a `bitmap`; see texture_average().
+/// Returns the average over the pixels of a `bitmap`; see texture_average().
 std::optional<Rgb> image_average(Part& part) {
   const ConfigNode node = part.file("filename");
   const std::filesystem::path folder = std::filesystem::path(node.where().file).parent_path();

@@ -8,24 +8,24 @@ namespace pharos::mitsuba {
 struct UvMap {
   double a = 1, b = 0, c = 0, d = 0, e = 1, f = 0;
 
-  /// `outer * inner` applies inner first.
+  /// `outer * inner` applies `inner` first.
   friend UvMap operator*(const UvMap& outer, const UvMap& inner);
   bool only_scales() const { return b == 0 && c == 0 && d == 0 && f == 0; }
 };
 
-/// What a texture of Mitsuba does to the coordinates before it looks anything up: `to_uv`, or
+/// Reads the map that a Mitsuba texture applies to the coordinates before a lookup: `to_uv`, or
 /// `uscale`, `vscale`, `uvscale`, `uoffset` and `voffset`.
 UvMap read_uv_map(Part& part);
 
-/// Where a texture has its origin.
+/// The origin of a texture.
 enum class UvOrigin {
   as_here,   ///< patterns, computed from the coordinates
-  top_left,  ///< images, whose first row Mitsuba shows at v = 0 and Pharos at v = 1
+  top_left,  ///< images, whose first row is at v = 0 in Mitsuba and at v = 1 in Pharos
 };
 
-/// Places the texture `node` of Pharos as Mitsuba does after `stated`, on shapes of the part's
-/// UvSense: by `uv_scale`, or by a `uv_map` around it where that is not enough. Whole numbers may
-/// be left out of offsets where the texture `repeats`.
+/// Places the Pharos texture `node` in the same way as Mitsuba with the map `stated`, on shapes
+/// with the part's UvSense. Uses `uv_scale`, or wraps the texture in a `uv_map` if `uv_scale` is
+/// not sufficient. If the texture `repeats`, whole numbers may be dropped from the offsets.
 ConfigNode placed(const Part& part, ConfigNode node, const UvMap& stated, UvOrigin origin,
                   bool repeats);
 

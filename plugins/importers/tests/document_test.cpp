@@ -1,4 +1,4 @@
-// The tree: objects, names, references, variables, includes, locations.
+// The object tree: objects, names, references, variables, includes, locations.
 
 #include <string>
 

@@ -12,14 +12,14 @@
 
 namespace pharos::mitsuba {
 
-/// Reads `text` as the file scene.xml of a folder of its own.
+/// Reads `text` as the file scene.xml in a new folder.
 inline Document read_text(std::string_view text,
                           const std::map<std::string, std::string>& parameters = {}) {
   const test::TemporaryFolder folder;
   return read_document(folder.write("scene.xml", text), parameters);
 }
 
-/// Reads what stands in a scene of dialect 0.x or 2/3.
+/// Reads the content of a scene in dialect 0.x or 2/3.
 inline Document read_old(const std::string& inside) {
   return read_text("<scene version=\"0.6.0\">" + inside + "</scene>");
 }
@@ -27,7 +27,7 @@ inline Document read_new(const std::string& inside) {
   return read_text("<scene version=\"3.0.0\">" + inside + "</scene>");
 }
 
-/// The value of the property `name`, or of one without a name.
+/// Returns the value of the property `name`, or of a property without a name.
 template <class T>
 T value(const Object& object, std::string_view name = "") {
   const Property* const property = object.find(name);
@@ -36,7 +36,7 @@ T value(const Object& object, std::string_view name = "") {
   return std::get<T>(property->value);
 }
 
-/// The object in the property `name`, or in the first without a name.
+/// Returns the object in the property `name`, or in the first property without a name.
 inline const Object& child(const Object& object, std::string_view name = "") {
   const Property* const property = object.find(name);
   REQUIRE(property != nullptr);
@@ -45,7 +45,7 @@ inline const Object& child(const Object& object, std::string_view name = "") {
   return **nested;
 }
 
-/// The message that `text` is refused with, without the folder's name.
+/// Returns the error message for `text`, without the name of the folder.
 inline std::string refusal(std::string_view text,
                            const std::map<std::string, std::string>& parameters = {}) {
   const test::TemporaryFolder folder;

@@ -94,7 +94,7 @@ TEST_CASE("bsdfs: roughness") {
     return import_of_bsdf(bsdf("roughconductor", std::move(all)));
   };
   const Import ggx = rough({value("distribution", "ggx"), value("alpha", 0.3)});
-  CHECK(notes(ggx).size() == 1);  // that there is no sensor
+  CHECK(notes(ggx).size() == 1);  // only that there is no sensor
   CHECK(part(ggx, "scene.shapes.0.material.alpha") == "0.3");
   CHECK(part(ggx, "scene.shapes.0.material.distribution") == "ggx");
   const Import brushed = rough({value("alpha_u", 0.05), value("alpha_v", 0.3)});
@@ -116,7 +116,7 @@ TEST_CASE("bsdfs: distributions of microfacets") {
     for (const Import& beckmann :
          {imported(type, {}), imported(type, {value("distribution", "beckmann")})}) {
       CHECK(part(beckmann, "scene.shapes.0.material.distribution") == "beckmann");
-      CHECK(notes(beckmann).size() == 1);  // that there is no sensor
+      CHECK(notes(beckmann).size() == 1);  // only that there is no sensor
     }
     for (const std::string other : {"phong", "as"}) {
       const Import near = imported(type, {value("distribution", other.c_str())});

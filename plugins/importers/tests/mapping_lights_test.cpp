@@ -62,7 +62,7 @@ TEST_CASE("lights: the zenith is +y in 0.x and +z in 3") {
   const ConfigNode* matrix =
       import.config.find("scene")->find("emitters")->items()[0].find("to_world");
   REQUIRE(matrix != nullptr);
-  // Column of y, the sky's zenith.
+  // The column of y, the zenith of the sky.
   const std::vector<ConfigNode>& m = matrix->find("matrix")->items();
   CHECK(std::stod(m[1].text()) == doctest::Approx(0));
   CHECK(std::stod(m[5].text()) == doctest::Approx(0).epsilon(1e-6));

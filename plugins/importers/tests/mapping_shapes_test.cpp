@@ -8,12 +8,12 @@
 namespace pharos::mitsuba::test {
 namespace {
 
-/// The entry of a shape.
+/// Returns the entry of a shape.
 std::string entry(std::string type, std::vector<Property> properties = {}) {
   return part(import_of({shape(std::move(type), std::move(properties))}), "scene.shapes.0");
 }
 
-/// Checks at many points of a shape that its outer side is that of `outside(position)`.
+/// Checks at many points of a shape that its outer side agrees with `outside(position)`.
 template <class Outside>
 void check_outside(const ObjectRef& given, const Outside& outside) {
   const LoadedConfig config = built(import_of({given}));
@@ -125,7 +125,7 @@ TEST_CASE("shapes: media by scattering and absorption, or by their sum and albed
   CHECK_THROWS_AS(with({value("sigma_s", rgb(1, -1, 0))}), InputError);
   CHECK_THROWS_AS(with({nested(object("phase", "hg", {value("g", 1.0)}))}), InputError);
   CHECK_THROWS_AS(with({nested(object("phase", "hh"))}), InputError);
-  // One of 0.x's named materials, which are not known here.
+  // One of the named materials of 0.x, which Pharos does not know.
   const Import named = with({value("material", std::string("skim milk"))});
   CHECK(part(named, "scene.shapes.0.interior") == "none");
   CHECK(notes(named)[1] == "medium homogeneous: left out, light passes freely");

@@ -1,4 +1,4 @@
-// The scene as a whole: names, notes, errors and where things stand.
+// The scene as a whole: names, notes, errors and locations.
 #include <doctest/doctest.h>
 
 #include <pharos/core/error.h>
@@ -10,7 +10,7 @@ namespace {
 
 using Messages = std::vector<std::string>;
 
-/// The message of what importing `contents` throws.
+/// Returns the error message from importing `contents`.
 std::string error_of(const std::vector<ObjectRef>& contents) {
   try {
     import_of(contents);

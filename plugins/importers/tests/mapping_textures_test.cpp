@@ -1,5 +1,5 @@
-// Where textures lie: against what Mitsuba computes of a shape's coordinates. There images have
-// their first row at v = 0.
+// The placement of textures, compared with Mitsuba's texture coordinates of a shape. In Mitsuba
+// images have their first row at v = 0.
 #include <cmath>
 #include <functional>
 
@@ -20,7 +20,7 @@ double fraction(double x) {
   return x - std::floor(x);
 }
 
-/// The picture of quarters as Mitsuba shows it, repeated: 0.1 and 0.2 in the first row.
+/// Returns the image of quarters as Mitsuba shows it, repeated: 0.1 and 0.2 in the first row.
 double quarters(double u, double v) {
   return 0.1 + (fraction(u) >= 0.5 ? 0.1 : 0) + (fraction(v) >= 0.5 ? 0.2 : 0);
 }
@@ -55,7 +55,7 @@ ObjectRef checkerboard(std::vector<Property> more = {}) {
 using Shade = std::function<double(double u, double v)>;
 using Coordinates = std::function<Vec2(Point3)>;
 
-/// Compares the shade all over a textured shape with that at Mitsuba's coordinates.
+/// Compares the shade on a textured shape with the shade at Mitsuba's coordinates.
 void check_shades(const ObjectRef& pattern, std::string type, std::vector<Property> properties,
                   const Coordinates& coordinates, const Shade& shade) {
   properties.push_back(nested(bsdf("diffuse", {nested(pattern, "reflectance")})));
@@ -75,7 +75,7 @@ void check_shades(const ObjectRef& pattern, std::string type, std::vector<Proper
   CHECK(wrong == 0);
 }
 
-/// Mitsuba's coordinates on the square [-1,1]^2.
+/// Returns Mitsuba's coordinates on the square [-1,1]^2.
 Vec2 of_square(Point3 p) {
   return {(p.x + 1) / 2, (p.y + 1) / 2};
 }
@@ -97,7 +97,9 @@ constexpr const char* kSquarePly =
     "property list uchar int vertex_indices\nend_header\n"
     "-1 -1 0 0 0\n1 -1 0 1 0\n1 1 0 1 1\n-1 1 0 0 1\n4 0 1 2 3\n";
 
-/// Mitsuba's coordinates on its cube: those of the corners (0, 1), (1, 0) and (0, 0) of each face.
+/// Returns Mitsuba's coordinates on its cube. The table lists the corners (0, 1), (1, 0) and (0, 0)
+/// of each face.
+/// 0).
 Vec2 of_cube(Point3 p) {
   struct Face {
     Vec3 top_left, bottom_right, origin;

@@ -51,14 +51,14 @@ TEST_CASE("views: fields of view along every axis") {
   CHECK(along("larger", 200, 100) == 50);
   CHECK(along("smaller", 100, 200) == 50);
   CHECK(along("larger", 100, 200) == doctest::Approx(2 * std::atan(tangent / 2) / kDegree));
-  // 4 : 3 has a diagonal of 5.
+  // The ratio 4 : 3 has a diagonal of 5.
   CHECK(along("diagonal", 400, 300) == doctest::Approx(2 * std::atan(tangent * 4 / 5) / kDegree));
   CHECK(fov({value("fov", 50.0)}, 400, 300) == 50);
   CHECK_THROWS_AS(along("z", 4, 3), InputError);
 }
 
 TEST_CASE("views: focal lengths are about the diagonal of 36 x 24 mm") {
-  // On that very shape the width is 36 mm.
+  // For the same shape the width is 36 mm.
   const double normal = 2 * std::atan(18.0 / 50) / kDegree;
   CHECK(fov({value("focal_length", "50mm")}, 300, 200) == doctest::Approx(normal));
   CHECK(fov({}, 300, 200) == doctest::Approx(normal));
@@ -78,7 +78,7 @@ TEST_CASE("views: the left of the picture is the camera's +x") {
   const Vec3 left = sensor->ray(sensor->sample_lens({}), {0, 0.5f}).direction;
   CHECK(left.x == doctest::Approx(-std::sqrt(0.5)));
   CHECK(left.z == doctest::Approx(-std::sqrt(0.5)));
-  // The world's +x is on the right of who looks along -z, and on the left with a mirror between.
+  // For a viewer who looks along -z, the world's +x is on the right; a mirror puts it on the left.
   const LoadedConfig mirrored =
       built(view({value("to_world", at * Transform::scale({-1, 1, 1})), value("fov", 90.0)}));
   const auto other = mirrored.config.scene.sensor->prepare(64, 64);
@@ -93,7 +93,7 @@ TEST_CASE("views: thin lenses and parallel rays") {
   CHECK(part(lens, "scene.sensor") ==
         "{ type: thin_lens, fov: 40, aperture_radius: 0.15, focus_distance: 5 }");
   CHECK_THROWS_AS(view({value("aperture_radius", 0.15)}, "thinlens"), InputError);
-  // Two units wide unless scaled.
+  // The image is two units wide unless scaled.
   const LoadedConfig flat =
       built(view({value("to_world", Transform::scale({3, 3, 1}))}, "orthographic"));
   const auto sensor = flat.config.scene.sensor->prepare(64, 64);

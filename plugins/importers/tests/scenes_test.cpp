@@ -1,4 +1,4 @@
-// Scenes made by others, where PHAROS_MITSUBA_SCENES says where some are.
+// Scenes made by others, in the folder PHAROS_MITSUBA_SCENES if it is set.
 
 #include <filesystem>
 #include <string>

@@ -1,5 +1,5 @@
-// Colors and spectra, against values from other sources: D65 is the white of Rec.709, equal power
-// has the chromaticity (1/3, 1/3), black bodies have colors that tables state.
+// Colors and spectra compared with values from other sources: D65 is the white of Rec.709, equal
+// power has the chromaticity (1/3, 1/3), and tables give the colors of black bodies.
 
 #include <cmath>
 #include <string>
@@ -48,7 +48,8 @@ TEST_CASE("a flat reflectance is gray, flat emission has equal power") {
   CHECK(is_near(read("spectrum", flat).value, Rgb(0.5f), 1e-5f));
   CHECK(read("spectrum", flat).approximated);
   CHECK_FALSE(read("spectrum", flat).is_gray);
-  // XYZ of equal power is (1, 1, 1): the sums of the rows of the matrix to Rec.709.
+  // The XYZ of equal power is (1, 1, 1), so the color is the sums of the rows of the matrix to
+  // Rec.709.
   CHECK(is_near(read("spectrum", flat, "emitter").value,
                 0.5f * Rgb(1.204794f, 0.948291f, 0.908916f), 1e-5f));
 }
@@ -61,7 +62,7 @@ TEST_CASE("spectra out of gamut and beyond one") {
   const Rgb orange = read("spectrum", "value=\"565:0, 570:1, 900:1\"").value;
   CHECK(orange.r == 1);
   const Rgb brighter = read("spectrum", "value=\"565:0, 570:1.001, 900:1.001\"").value;
-  CHECK(brighter.r > 1.01f);  // no reflectance, hence no limit
+  CHECK(brighter.r > 1.01f);  // not a reflectance, so there is no limit
   const Rgb index = read("spectrum", "value=\"300:1.5, 900:3.0\"").value;
   CHECK(index.r > index.g);
   CHECK(index.g > index.b);
@@ -70,7 +71,7 @@ TEST_CASE("spectra out of gamut and beyond one") {
 }
 
 TEST_CASE("weights are those of the CIE's tables") {
-  // A ramp from 0 at 400 nm to 1 at 700 nm, summed with the tables of the CIE each 5 nm.
+  // A ramp from 0 at 400 nm to 1 at 700 nm, summed with the CIE tables in steps of 5 nm.
   const auto ramp = [](double nm) { return nm < 400 || nm > 700 ? 0.0 : (nm - 400) / 300; };
   CHECK(is_near(color_in_daylight(ramp), {0.8057f, 0.4769f, 0.1362f}, 0.004f));
   CHECK(is_near(color_of_light(ramp), {0.9412f, 0.4547f, 0.1136f}, 0.004f));

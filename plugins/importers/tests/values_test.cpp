@@ -78,7 +78,7 @@ TEST_CASE("lookat, with and without up") {
     CHECK(is_near(t.vector({0, 1, 0}), {0, 1, 0}));
     CHECK(is_near(t.vector({1, 0, 0}), {1, 0, 0}));
   }
-  // Where 0.x and 2/3 look along z with no up, by their own rules.
+  // Each dialect has its own rule for a view along z without `up`.
   const std::string bare = "<lookat origin=\"0 0 0\" target=\"0 0 4\"/>";
   CHECK(is_near(read_steps(bare, true).vector({0, 1, 0}), {1, 0, 0}));
   CHECK(is_near(read_steps(bare).vector({0, 1, 0}), {1, 0, 0}));

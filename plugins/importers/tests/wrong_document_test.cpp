@@ -1,4 +1,4 @@
-// Wrong files, each with the whole message that it ends in.
+// Invalid files, each with its complete error message.
 
 #include <map>
 #include <string>
@@ -11,7 +11,7 @@
 namespace pharos::mitsuba {
 namespace {
 
-/// What a scene of one line with this inside is refused with, behind "scene.xml:1:".
+/// Returns the error message, after "scene.xml:1:", for a scene of one line with this content.
 std::string wrong(const std::string& inside) {
   constexpr std::string_view head = "scene.xml:1:";
   const std::string message = refusal("<scene version=\"0.6.0\">" + inside + "</scene>");

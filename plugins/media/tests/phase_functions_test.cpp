@@ -11,7 +11,7 @@
 namespace pharos {
 namespace {
 
-constexpr Vec3 kBack{0, 0, -1};  // towards where the path came from: it flies along +z
+constexpr Vec3 kBack{0, 0, -1};  // towards the start of the path, which travels along +z
 
 Vec3 at_angle(double t) {
   return {static_cast<float>(std::sin(t)), 0, static_cast<float>(std::cos(t))};

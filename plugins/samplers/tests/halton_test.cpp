@@ -46,7 +46,7 @@ TEST_CASE("halton: blocks of 6^k samples have one in each cell of 2^-k by 3^-k")
   for (std::uint32_t block = 0; block < 6; ++block) {
     const auto points = test::points_of(*sampler, {}, kDimension, 216, 216 * block);
     CHECK(test::fills_grid(points, 8, 27));
-    // As 216 is a multiple of other products, too, so are other grids filled.
+    // 216 is also a multiple of other products 2^a 3^b, so it fills other grids too.
     CHECK(test::fills_grid(points, 8, 9));
   }
 }

@@ -1,4 +1,4 @@
-// Samplers that move the points of others: sheared, toroidal_shift.
+// Samplers that move the points of other samplers: sheared, toroidal_shift.
 #include <cmath>
 #include <memory>
 #include <vector>
@@ -20,7 +20,7 @@ namespace {
 constexpr SamplePlan kPlan{.samples_per_pixel = 64};
 constexpr Dimension kLight{Purpose::light_position, 2};
 
-/// All of whose numbers are the same one.
+/// A sampler whose numbers are all the same.
 class FixedSampler final : public Sampler {
  public:
   explicit FixedSampler(float number) : number_(number) {}
@@ -58,7 +58,8 @@ double fraction(double v) {
   return v - std::floor(v);
 }
 
-/// Whether the multiples x * slope_x + y * slope_y, modulo one, lie one each in as many intervals.
+/// Returns whether the values x * slope_x + y * slope_y, modulo one, lie one each in as many
+/// intervals as there are points.
 bool is_stratified(const std::vector<Vec2>& points, double slope_x, double slope_y) {
   std::vector<int> counts(points.size());
   for (const Vec2 p : points) {
@@ -82,7 +83,7 @@ TEST_CASE("sheared: along the axes nothing moves") {
 }
 
 TEST_CASE("sheared: points are stratified across lines of the direction") {
-  // At 45 degrees across lines y - x; at 135 degrees (steep) lines y + x.
+  // At 45 degrees the points are stratified in y - x, at -45 degrees (135) in y + x.
   const auto base = MultiJitteredSampler().prepare({}, kPlan, nullptr);
   const auto points = test::points_of(*base, {.index = 3}, kLight, 64);
   CHECK_FALSE(is_stratified(points, -1, 1));
@@ -147,7 +148,7 @@ TEST_CASE("toroidal_shift: numbers that are no multiples of 2^-24 never become o
   for (std::uint64_t pixel = 0; pixel < 4000; ++pixel) {
     const float by = number(0, pixel), back = 1 - by;
     for (const float u : {by, back}) {
-      // Where floats lie this dense, the number just below what leads to one.
+      // Small floats are dense enough to represent the number just below the one that moves to 1.
       if (u >= 0x1p-7f || u == 0) continue;
       ++small_offsets;
       const float moved = number(u - 0x1p-30f, pixel);
@@ -159,7 +160,7 @@ TEST_CASE("toroidal_shift: numbers that are no multiples of 2^-24 never become o
 }
 
 TEST_CASE("toroidal_shift: a shift of a shift moves twice, by different offsets") {
-  // Of a point that stays at zero, what is left are the offsets.
+  // The base point is always zero, so the moved points are the offsets.
   const auto zero = std::make_shared<FixedSampler>(0.0f);
   const auto once =
       std::make_shared<ToroidalShiftSampler>(ToroidalShiftSampler::Settings{.base = zero});
@@ -171,7 +172,7 @@ TEST_CASE("toroidal_shift: a shift of a shift moves twice, by different offsets"
     return Vec2{static_cast<float>(fraction(double{sum.x} - outer.x)),
                 static_cast<float>(fraction(double{sum.y} - outer.y))};
   };
-  // The inner shift sees the first pixel only, and is not the outer one's of any pixel.
+  // The inner shift always uses the first pixel. It differs from the outer shift of every pixel.
   for (std::uint64_t pixel = 0; pixel < 20; ++pixel) {
     CHECK(inner_part(pixel) == inner_part(0));
     CHECK_FALSE(inner_part(pixel) == SampleStream(*inner, {.index = pixel}).get_2d(kLight));

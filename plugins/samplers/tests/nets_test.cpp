@@ -1,4 +1,4 @@
-// Samplers whose prefixes are (0,2)-nets: sobol, pmj02, pmj02bn; and what tells these apart.
+// Samplers whose prefixes are (0,2)-nets (sobol, pmj02, pmj02bn), and the differences between them.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -47,7 +47,7 @@ std::vector<Vec2> numbers(const std::vector<pmj02::Point>& points, std::size_t f
   return all;
 }
 
-/// The mean distance of a point to the nearest other one on the torus, in units of n^-1/2.
+/// Returns the mean distance of a point to its nearest neighbor on the torus, in units of n^-1/2.
 double mean_distance(const std::vector<Vec2>& points) {
   double sum = 0;
   for (const Vec2& p : points) {

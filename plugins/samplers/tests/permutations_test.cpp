@@ -1,4 +1,4 @@
-// Permutations of strata, the seeds that pick them, and whose tables they come from.
+// Permutations of strata, the seeds that select them, and the seeds that draw their tables.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -29,7 +29,8 @@ std::vector<std::uint32_t> images_of(const DrawnPermutations& permutations, std:
   return images;
 }
 
-/// Of counts that should be alike: too far apart, and too near to each other, are both faults.
+/// Adds the p-value of counts that should be equal. Counts that differ too much and counts that
+/// agree too closely are both errors.
 void add_both_tails(const std::vector<double>& counts, double each, std::vector<double>& p_values) {
   const std::vector<double> expected(counts.size(), each);
   const double p = statistics::chi_square_test(counts, expected).p_value;
@@ -53,7 +54,8 @@ TEST_CASE("permutations: every image, and every difference of two images, is as 
   constexpr double kEach = 200;
   for (const std::uint32_t count : {16u, 37u, 64u}) {
     const DrawnPermutations permutations(count, 1);
-    // Differences of the images of every pair of indices, modulo the count; images of each index.
+    // The differences of the images of every pair of indices, modulo the count, and the images of
+    // each index.
     std::vector<std::vector<double>> differences(count * count, std::vector<double>(count - 1));
     std::vector<std::vector<double>> images(count, std::vector<double>(count));
     RandomStream random(count);
@@ -128,7 +130,7 @@ TEST_CASE("permutations: large counts have every image, and many permutations") 
   std::vector<bool> hit(kCount);
   for (std::uint32_t i = 0; i < kCount; ++i) hit[permutations(i, 77)] = true;
   CHECK(std::find(hit.begin(), hit.end(), false) == hit.end());
-  // Differences of two images are all but all different: 1000 draws of 65,535.
+  // Nearly all differences of two images are different: 1000 draws of 65,535.
   std::vector<std::uint32_t> differences;
   RandomStream random(1);
   for (int i = 0; i < 1000; ++i) {
@@ -141,7 +143,8 @@ TEST_CASE("permutations: large counts have every image, and many permutations") 
 }
 
 TEST_CASE("permutations: the seed of the plan draws them") {
-  // Of the same paths: the order of digits, of cells, and what is left of the path's own seed.
+  // The keys of the paths are equal, so only the plan's seed can change the points. It draws the
+  // permutations of digits and of cells.
   const auto points = [](const Sampler& sampler, std::uint64_t seed) {
     const auto prepared = sampler.prepare({}, {.seed = seed, .samples_per_pixel = 64}, nullptr);
     return test::points_of(*prepared, {}, {Purpose::lens}, 64);
@@ -153,7 +156,8 @@ TEST_CASE("permutations: the seed of the plan draws them") {
 }
 
 TEST_CASE("seeds: no two bits of the four words are related, nor are four") {
-  // Of 2^14 states; agreements of two bits are binomial with a standard deviation of 64.
+  // Uses 2^14 states. The number of agreements of two bits is binomial with a standard deviation of
+  // 64.
   constexpr std::uint32_t kDraws = 1u << 14;
   constexpr int kLimit = 6 * 64;
   std::vector<std::array<std::uint64_t, 2>> all;
@@ -174,7 +178,7 @@ TEST_CASE("seeds: no two bits of the four words are related, nor are four") {
     }
   }
   CHECK(furthest < kLimit);
-  // The sums of the four words' bits at the same place.
+  // The sums of the bits of the four words at the same place.
   for (std::size_t place = 0; place < 32; ++place) {
     int odd = 0;
     for (const auto& w : all) {

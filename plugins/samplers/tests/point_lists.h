@@ -8,7 +8,7 @@
 
 namespace pharos::test {
 
-/// `count` samples from number `first` on of one dimension of the path that `key` names.
+/// Returns `count` samples, beginning with number `first`, of one dimension of the path of `key`.
 inline std::vector<Vec2> points_of(const PreparedSampler& sampler, PathKey key, Dimension dimension,
                                    std::uint32_t count, std::uint32_t first = 0) {
   std::vector<Vec2> points;
@@ -18,7 +18,7 @@ inline std::vector<Vec2> points_of(const PreparedSampler& sampler, PathKey key, 
   return points;
 }
 
-/// The same in 1D, as the points (u, 0).
+/// Returns the same for 1D numbers, as the points (u, 0).
 inline std::vector<Vec2> numbers_of(const PreparedSampler& sampler, PathKey key,
                                     Dimension dimension, std::uint32_t count) {
   std::vector<Vec2> points;
@@ -28,7 +28,7 @@ inline std::vector<Vec2> numbers_of(const PreparedSampler& sampler, PathKey key,
   return points;
 }
 
-/// Whether each cell of a grid of `columns` by `rows` cells holds as many points as the others.
+/// Returns whether all cells of a grid of `columns` by `rows` cells hold equally many points.
 inline bool fills_grid(const std::vector<Vec2>& points, std::size_t columns, std::size_t rows) {
   std::vector<std::size_t> counts(columns * rows);
   for (const Vec2 p : points) {

@@ -53,8 +53,9 @@ constexpr std::array kDimensions{Dimension{Purpose::pixel},
                                  Dimension{Purpose::bsdf_direction, 1},
                                  Dimension{Purpose::bsdf_direction, 2}};
 
-/// The p-value of two lists of numbers in [0, 1), `samples` of each pixel, being uncorrelated.
-/// Pixels are independent; samples of one are not, so the error is told by the spread over pixels.
+/// Returns the p-value of the hypothesis that two lists of numbers in [0, 1), with `samples` per
+/// pixel, are uncorrelated. Pixels are independent but the samples of one pixel are not, so the
+/// error comes from the spread over pixels.
 double uncorrelated_p_value(const std::vector<float>& a, const std::vector<float>& b,
                             std::size_t samples) {
   std::vector<double> sums(a.size() / samples);
@@ -124,7 +125,7 @@ TEST_CASE("samplers: numbers stay below one and 1D numbers are uniform") {
 }
 
 TEST_CASE("samplers: dimensions, pixels and seeds are uncorrelated") {
-  // Within a pixel as over pixels: the samples of 3,000 pixels, pairwise over dimensions.
+  // Tests the samples of 3,000 pixels for each pair of dimensions, within a pixel and over pixels.
   std::vector<double> p_values;
   for (const Subject& s : subjects()) {
     for (const std::uint32_t samples : {4u, 16u}) {

@@ -1,6 +1,6 @@
-// Expected power spectra of samplers against closed forms, with sinc(x) = sin(pi x) / (pi x): n
-// points that lie one each in n equal strata, uniformly and unrelated, have 1 less the squared
-// Fourier coefficient of a stratum.
+// Expected power spectra of samplers against closed forms, with sinc(x) = sin(pi x) / (pi x). If n
+// points lie one each in n equal strata, uniformly and unrelated, their power is 1 minus the
+// squared Fourier coefficient of a stratum.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -28,7 +28,7 @@ constexpr int kMost = 12;
 constexpr int kPixels = 600;
 constexpr Dimension kDimension{Purpose::light_position, 1};
 
-/// Over pixels, with a seed each: those of z_sobol fit together.
+/// Averages over pixels. Each pixel has its own seed, because z_sobol relates pixels of one seed.
 statistics::PowerSpectrum spectrum_of(const Sampler& sampler, std::uint32_t samples) {
   const auto prepared =
       sampler.prepare({40, 40}, {.seed = 2, .samples_per_pixel = samples}, nullptr);
@@ -45,7 +45,7 @@ double squared_sinc(double x) {
   return x == 0 ? 1 : std::pow(std::sin(angle) / angle, 2);
 }
 
-/// A single realization's power spreads by as much as its mean, about; six times the error.
+/// The standard deviation of one realization's power is about its mean. Allows six times the error.
 bool is_near(double power, double expected) {
   return std::abs(power - expected) < 6 * expected / std::sqrt(kPixels);
 }
@@ -53,7 +53,7 @@ bool is_near(double power, double expected) {
 }  // namespace
 
 TEST_CASE("spectra: stratified points have that of jittering, 1 - sinc^2") {
-  // 4 by 8 cells.
+  // The grid has 4 by 8 cells.
   const auto spectrum = spectrum_of(StratifiedSampler(), 32);
   for (int y = -kMost; y <= kMost; ++y) {
     for (int x = 0; x <= kMost; ++x) {
@@ -82,13 +82,13 @@ TEST_CASE("spectra: the axes of multi-jittered points and of nets are dark") {
   dark("uncorrelated", MultiJitteredSampler({.correlated = false}), 1.25);
   dark("sobol", SobolSampler(), 1.25);
   dark("z_sobol", ZSobolSampler(), 1.25);
-  // The sequences of these are few.
+  // These two samplers have only few sequences.
   dark("pmj02", Pmj02Sampler(), 2);
   dark("pmj02bn", Pmj02bnSampler(), 2);
 }
 
 TEST_CASE("spectra: shearing turns an arm of the cross") {
-  // At 45 degrees y moves by x: frequency (x, y) has the power that (x + y, y) had.
+  // At 45 degrees y moves by x: frequency (x, y) gets the power of frequency (x + y, y).
   const auto base = std::make_shared<MultiJitteredSampler>();
   const auto spectrum = spectrum_of(ShearedSampler({.base = base, .direction = 45}), 64);
   const auto unmoved = spectrum_of(*base, 64);
@@ -98,7 +98,7 @@ TEST_CASE("spectra: shearing turns an arm of the cross") {
     CHECK(is_near(spectrum.at(-f, f), dark));
     CHECK(is_near(spectrum.at(f, 0), dark));
     CHECK(is_near(unmoved.at(0, f), dark));
-    // At the edge of the cells' own spectrum, at 8, all is dark.
+    // Near frequency 8, the edge of the spectrum of the cells, all powers are low.
     if (f > 6) continue;
     CHECK(spectrum.at(0, f) > 2 * dark);
     CHECK(unmoved.at(-f, f) > 2 * dark);

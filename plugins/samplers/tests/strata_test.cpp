@@ -1,4 +1,4 @@
-// Samplers over grids of strata, and what they are made of.
+// Samplers over grids of strata, and their parts.
 #include "../strata.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace {
 
 constexpr Dimension kDimension{Purpose::lens};
 
-/// One of the samplers with sets of `samples`.
+/// Prepares a sampler of type S with sets of `samples`.
 template <class S>
 std::unique_ptr<const PreparedSampler> prepared(std::uint32_t samples) {
   return S().prepare({}, {.samples_per_pixel = samples}, nullptr);
@@ -42,7 +42,7 @@ TEST_CASE("strata: grids are as square as the number of samples allows") {
   for (std::uint32_t samples = 1; samples <= SetPlace::kMostSamples; ++samples) {
     REQUIRE(grid_of(samples).cells() >= samples);
     REQUIRE(grid_of(samples).cells() <= SetPlace::kMostSamples);
-    // Quotients by reciprocals err first, if anywhere, at the end of a row.
+    // If quotients by reciprocals were wrong anywhere, the end of a row would be wrong first.
     const StrataGrid grid = grid_of(samples);
     const GridCells cells(grid);
     bool exact = true;
@@ -139,7 +139,7 @@ TEST_CASE("multi_jittered: uncorrelated ones fill columns and rows, each in its 
   CHECK(test::fills_grid(points, 8, 8));
   CHECK(test::fills_grid(points, 64, 1));
   CHECK(test::fills_grid(points, 1, 64));
-  // Whether the places of a row's points within their columns differ.
+  // The places of a row's points within their columns must differ.
   std::vector<std::uint32_t> places;
   for (const Vec2 p : points) {
     if (p.y < 0.125f) places.push_back(static_cast<std::uint32_t>(p.x * 64) % 8);

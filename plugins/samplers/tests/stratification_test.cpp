@@ -13,7 +13,7 @@ double fraction(std::uint32_t reversed) {
   return owen::reverse_bits(reversed) * 0x1p-32;
 }
 
-/// Mean squared error, over pixels, of the integral of x y from n samples.
+/// Returns the mean squared error, over pixels, of the integral of x y from n samples.
 double integration_error(const PreparedSampler& sampler, std::uint32_t n) {
   constexpr int kPixels = 200;
   double error = 0;
@@ -37,7 +37,7 @@ TEST_CASE("Sobol' points: the first ones of the sequence") {
     CHECK(fraction(i) == x[i]);
     CHECK(fraction(owen::sobol_y_reversed(i)) == y[i]);
   }
-  // The second dimension's direction numbers: v_j = v_(j-1) xor (v_(j-1) >> 1).
+  // The direction numbers of the second dimension: v_j = v_(j-1) xor (v_(j-1) >> 1).
   std::uint32_t direction = 0x80000000u;
   for (int bit = 0; bit < 32; ++bit) {
     CHECK(owen::reverse_bits(owen::sobol_y_reversed(1u << bit)) == direction);
@@ -73,7 +73,7 @@ TEST_CASE("Owen scrambling: a digit depends on itself and those before it alone"
 TEST_CASE("sobol: smooth integrals converge faster than with independent samples") {
   const auto sobol = SobolSampler().prepare({}, {}, nullptr);
   const auto independent = IndependentSampler().prepare({}, {}, nullptr);
-  // Variance of x y is 7/144; Owen-scrambled nets err by about n^-3.
+  // The variance of x y is 7/144. The variance of Owen-scrambled nets falls as about n^-3.
   CHECK(integration_error(*independent, 64) == doctest::Approx(7.0 / 144 / 64).epsilon(0.4));
   CHECK(integration_error(*sobol, 64) < 0.02 * integration_error(*independent, 64));
   CHECK(integration_error(*sobol, 256) < integration_error(*sobol, 64) / 20);

@@ -22,7 +22,7 @@ std::unique_ptr<const PreparedSampler> prepared(std::uint32_t samples) {
   return ZSobolSampler().prepare({kWidth, 80}, {.samples_per_pixel = samples}, nullptr);
 }
 
-/// All samples of a block of pixels.
+/// Returns all samples of a block of pixels.
 std::vector<Vec2> block_points(const PreparedSampler& sampler, std::uint64_t x0, std::uint64_t y0,
                                std::uint64_t columns, std::uint64_t rows, std::uint32_t samples) {
   std::vector<Vec2> all;
@@ -35,14 +35,15 @@ std::vector<Vec2> block_points(const PreparedSampler& sampler, std::uint64_t x0,
   return all;
 }
 
-/// The mean of x y over the samples of a pixel, less the integral.
+/// Returns the mean of x y over the samples of a pixel, minus the integral.
 double pixel_error(const PreparedSampler& sampler, std::uint64_t x, std::uint64_t y) {
   double sum = 0;
   for (const Vec2 u : block_points(sampler, x, y, 1, 1, 4)) sum += double{u.x} * u.y / 4;
   return sum - 0.25;
 }
 
-/// The mean squared error of single pixels over that of means over 4 by 4 pixels.
+/// Returns the mean squared error of single pixels, divided by the mean squared error of averages
+/// over 4 by 4 pixels.
 double gain_by_blocks(const PreparedSampler& sampler) {
   double single = 0, blocks = 0;
   constexpr int kEdge = 64;
@@ -94,7 +95,7 @@ TEST_CASE("z_sobol: pairs are rows or columns for a quarter each, else they lie 
   const auto point = [&](std::uint64_t x, std::uint64_t y) {
     return test::points_of(*sampler, {.index = y * kWidth + x}, kDimension, 1)[0];
   };
-  // Two pixels of a quad together are a net where they are a pair.
+  // Two pixels of a quad form a net together if they are a pair.
   const auto share = [&](std::uint64_t right, std::uint64_t down) {
     double nets = 0;
     for (std::uint64_t i = 0; i < 1000; ++i) {
@@ -111,7 +112,7 @@ TEST_CASE("z_sobol: pairs are rows or columns for a quarter each, else they lie 
 }
 
 TEST_CASE("z_sobol: every level of the z-order has each pairing, over nodes as over dimensions") {
-  // A child's pair is told by y, by x or by their sum: which, tells the images of the children.
+  // A child's pair is determined by y, by x or by their sum. The images of the children show which.
   const auto shares = [](int level, bool over_nodes) {
     std::array<double, 3> counts{};
     RandomStream random(1);
@@ -134,7 +135,7 @@ TEST_CASE("z_sobol: every level of the z-order has each pairing, over nodes as o
   for (int level = 0; level < 16; ++level) {
     CAPTURE(level);
     for (const bool over_nodes : {false, true}) {
-      // The first levels have few nodes.
+      // The first levels have only few nodes.
       if (over_nodes && level < 6) continue;
       const auto [rows, columns, crosswise] = shares(level, over_nodes);
       CHECK(std::abs(rows - 0.25) < 0.07);
@@ -162,7 +163,8 @@ TEST_CASE("z_sobol: sets follow each other where the number of samples is unknow
 }
 
 TEST_CASE("z_sobol: pixels far apart in large images are unrelated") {
-  // 2^20 pixels of 2^12 samples use up the 32 bits of a place; this pixel is the 2^21st.
+  // 2^20 pixels of 2^12 samples use up the 32 bits of a place. The far pixel has z-order index
+  // 2^21.
   const auto sampler = prepared(4096);
   const auto near = test::points_of(*sampler, {.index = 0}, kDimension, 64);
   const auto far = test::points_of(*sampler, {.index = 1024 * kWidth}, kDimension, 64);

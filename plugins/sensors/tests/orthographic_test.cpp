@@ -9,7 +9,7 @@ namespace pharos {
 namespace {
 
 TEST_CASE("rays are parallel and evenly spaced over the width, upright and not mirrored") {
-  // Looking along +y with +z up, +x is on the right.
+  // In a view along +y with +z up, +x is on the right.
   const Transform to_world = Transform::look_at({1, 2, 3}, {1, 7, 3}, {0, 0, 1});
   const OrthographicSensor camera({.to_world = to_world, .width = 8});
   CHECK(camera.position() == Point3{1, 2, 3});

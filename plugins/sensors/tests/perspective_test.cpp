@@ -21,7 +21,7 @@ Ray ray_at(const PreparedSensor& sensor, Vec2 film) {
 }
 
 TEST_CASE("the image is upright and not mirrored") {
-  // Looking along +y with +z up, +x is on the right.
+  // In a view along +y with +z up, +x is on the right.
   const auto sensor = camera(90, 200, 100);
   const Ray center = ray_at(*sensor, {0.5f, 0.5f});
   CHECK(center.origin == Point3{1, 2, 3});

@@ -135,7 +135,7 @@ TEST_CASE("lens points are uniform on the disk or the square") {
       const Point3 p = 2 * sensor->sample_lens(random.next_2d()).position;
       CHECK(p.z == 0);
       const float turn = std::atan2(p.y, p.x) / (2 * kPi) + 0.5f;
-      // Two coordinates of [0,1] in which a uniform point is uniform.
+      // Two coordinates in [0,1] that are uniform if the point is uniform.
       const Vec2 v = shape == ApertureShape::round ? Vec2{p.x * p.x + p.y * p.y, turn}
                                                    : Vec2{p.x / 2 + 0.5f, p.y / 2 + 0.5f};
       CHECK(std::max(v.x, v.y) <= 1.00001f);

@@ -11,7 +11,7 @@ namespace {
 
 const Cylinder::Settings kTube{.p0 = {0, 0, 1}, .p1 = {0, 0, 4}, .radius = 2};
 
-/// Distance from the axis of a tube along z, in double precision.
+/// Returns the distance from the axis of a tube along z, in double precision.
 double axis_distance(Point3 p, Point3 axis = {}) {
   return std::hypot(double{p.x} - axis.x, double{p.y} - axis.y);
 }
@@ -41,7 +41,8 @@ TEST_CASE("a tube is open and hit from both sides") {
   CHECK_FALSE(scene->occluded({{-5, 0, 0.999f}, {1, 0, 0}}));
   CHECK_FALSE(scene->occluded({{-5, 0, 4.001f}, {1, 0, 0}}));
   CHECK_FALSE(scene->occluded({{-5, 0, 2}, {1, 0, 0}, 2.999f}));
-  // In through the end at p1, past the near wall, onto the inner side of the far one.
+  // The ray enters through the end at p1, passes the near wall and hits the inner side of the far
+  // wall.
   const Vec3 d = normalize(Vec3{1, 0, -1});
   CHECK(scene->intersect({{-2.5f, 0, 6}, d}, p) == doctest::Approx(4.5 * std::sqrt(2.0)));
   CHECK(p.position.x == doctest::Approx(2));
@@ -62,7 +63,7 @@ TEST_CASE("hits on a thin tube far away lie on it, and all that its samples prom
     SurfacePoint p;
     const Vec3 d = normalize(s.point.position - from);
     if (scene->intersect({from, d}, p) == kInfinity) {
-      // Directions are floats: 1e-7 of the distance is 2 % of the radius, at the silhouette.
+      // Directions are floats: 1e-7 of the distance is 2 % of the radius at the silhouette.
       CHECK((abs_dot(d, s.point.normal) < 0.3f || std::abs(s.point.uv.y - 0.5f) > 0.499f));
       ++missed;
       continue;

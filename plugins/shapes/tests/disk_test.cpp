@@ -81,7 +81,7 @@ TEST_CASE("points of a disk keep their error away from the rim") {
   SurfacePoint p;
   scene->intersect({map.point({0, x, 2}), {0, 0, -1}}, p);
   CHECK(1 - p.position.y >= 0.9f * p.error);
-  CHECK(1 - p.position.y <= 200 * p.error);  // the narrow way is 100 times shorter
+  CHECK(1 - p.position.y <= 200 * p.error);  // the short radius is 100 times shorter
   CHECK(p.uv.y == doctest::Approx(1));
 }
 

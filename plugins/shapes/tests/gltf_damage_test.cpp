@@ -1,4 +1,4 @@
-// Every kind of damage to a glTF file has one message, which says where it is.
+// Every kind of damage to a glTF file causes one message, which names the place.
 
 #include <limits>
 
@@ -16,7 +16,7 @@ std::string refusal(const std::string& bytes) {
   return test::input_error([&] { read_gltf({"file.gltf", bytes, ""}); });
 }
 
-/// The triangle with a change in its JSON, in a GLB file.
+/// Returns the message for the triangle with a change in its JSON, in a GLB file.
 std::string refusal(const std::string& what, const std::string& by) {
   return refusal(test::glb(test::with(test::kGltfTriangle, what, by), test::triangle_bytes()));
 }
@@ -168,7 +168,7 @@ TEST_CASE("glTF: extensions that a file needs are known to leave the triangles a
 }
 
 TEST_CASE("glTF: files that would not fit into memory") {
-  // A mesh of 65534 triangles that 4000 nodes place.
+  // A mesh of 65534 triangles, placed by 4000 nodes.
   std::string nodes = "{\"mesh\": 0}", roots = "[0";
   for (int i = 1; i < 4000; ++i) {
     nodes += ", {\"mesh\": 0}";

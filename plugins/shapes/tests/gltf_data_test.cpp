@@ -1,4 +1,4 @@
-// What glTF allows of buffers, accessors, primitives and nodes.
+// The buffers, accessors, primitives and nodes that glTF allows.
 
 #include <array>
 #include <cmath>
@@ -17,7 +17,7 @@ TriangleMesh read(const std::string& bytes, const std::string& part = "") {
   return read_gltf({"file.gltf", bytes, part});
 }
 
-/// The triangle with a change in its JSON.
+/// Reads the triangle with a change in its JSON.
 TriangleMesh changed(const std::string& what, const std::string& by) {
   return read(test::glb(test::with(test::kGltfTriangle, what, by), test::triangle_bytes()));
 }
@@ -29,7 +29,7 @@ std::string refusal(const std::string& bytes) {
 using Corners = std::array<std::uint32_t, 3>;
 
 TEST_CASE("glTF: numbers of all types mean what glTF says") {
-  // Vertex i has its three numbers at byte 3 + 16 i.
+  // The three numbers of vertex i begin at byte 3 + 16 i.
   const auto positions = [](int type, bool normalized, const std::string& bytes) {
     const std::string json = R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}],
       "nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
@@ -126,7 +126,7 @@ TEST_CASE("glTF: nodes are scaled, then rotated, then moved; matrices stand colu
   const std::string quarter = "[0, 0, " + std::to_string(s) + ", " + std::to_string(s) + "]";
   check_near(corner(R"("translation": [1, 2, 3], "scale": [2, 1, 1], "rotation": )" + quarter),
              {1, 4, 3});
-  check_near(corner(R"("rotation": [0, 2, 0, 2])"), {0, 0, -1});  // about y, of any length
+  check_near(corner(R"("rotation": [0, 2, 0, 2])"), {0, 0, -1});  // about y, for any length
   check_near(corner(R"("rotation": [1, 0, 0, 1])"), {1, 0, 0});
   check_near(corner(R"("matrix": [0, 3, 0, 0,  -1, 0, 0, 0,  0, 0, 1, 0,  5, 6, 7, 1])"),
              {5, 9, 7});
@@ -163,7 +163,7 @@ TEST_CASE("glTF: a buffer is a chunk, base64 of any length, or a file beside") {
                              }) ==
         "buffers[0].uri is 'my bufer.bin': there is no such file (did you mean "
         "'my buffer.bin'?)");
-  // Two buffers of one file may be of different lengths.
+  // Two buffers may have the same file but different lengths.
   const std::string shared = test::with(
       test::with(json, "{\"buffer\": 0, \"byteOffset\": 36", "{\"buffer\": 1, \"byteOffset\": 36"),
       "\"buffers\": [", "\"buffers\": [{\"byteLength\": 106, \"uri\": \"my%20buffer.bin\"}, ");

@@ -1,5 +1,5 @@
-// glTF files, written here, through the same door as other meshes: hierarchy, parts, orientation
-// and texture coordinates.
+// Hierarchy, parts, orientation and texture coordinates of glTF files, written here and read in the
+// same way as other meshes.
 
 #include <array>
 #include <cstring>
@@ -14,8 +14,8 @@
 namespace pharos {
 namespace {
 
-/// A right triangle in the plane z = 0, its tilted normal and its texture coordinates as glTF has
-/// them, v from the top; then the same triangle one higher.
+/// A right triangle in the plane z = 0, its tilted normal, and its texture coordinates as in glTF,
+/// with v from the top. The same triangle follows, one unit higher.
 struct Buffer {
   std::array<Point3, 3> low{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};
   std::array<Vec3, 3> normals{{{0.6f, 0, 0.8f}, {0.6f, 0, 0.8f}, {0.6f, 0, 0.8f}}};
@@ -31,8 +31,8 @@ struct Buffer {
 };
 static_assert(sizeof(Buffer) == 36 + 36 + 24 + 12 + 36);
 
-/// A boat at x = 10: its sail twice as large, the same sail mirrored and stretched along z, and a
-/// deck without normals and texture coordinates.
+/// A boat at x = 10: its sail at twice the size, the same sail mirrored and stretched along z, and
+/// a deck without normals and texture coordinates.
 std::string boat_json(const std::string& uri) {
   return R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
   "nodes": [
@@ -70,14 +70,14 @@ std::string boat_glb() {
   return test::glb(boat_json(""), Buffer{}.bytes());
 }
 
-/// A boat in a file of its own, as text and as binary.
+/// A boat in its own file, as text and as binary.
 struct Boats {
   test::TemporaryFolder folder;
   std::array<std::filesystem::path, 2> paths{folder.write("boat.gltf", boat_gltf()),
                                              folder.write("boat.glb", boat_glb())};
 };
 
-/// The triangle's surface at its vertices 0, 1 and 2.
+/// Returns the surface of the triangle at its vertices 0, 1 and 2.
 std::array<SurfacePoint, 3> corners(const Mesh& mesh, std::uint32_t triangle) {
   const TriangleMesh& m = *mesh.mesh();
   return {m.surface_point(triangle, 0, 0), m.surface_point(triangle, 1, 0),

@@ -7,10 +7,10 @@
 
 #include <doctest/doctest.h>
 
-/// What glTF files are made of.
+/// The parts of glTF files.
 namespace pharos::test {
 
-/// The bytes of numbers, one after the other.
+/// Returns the bytes of numbers, one after the other.
 template <class T>
 std::string bytes_of(const std::vector<T>& numbers) {
   std::string bytes(sizeof(T) * numbers.size(), '\0');
@@ -37,7 +37,7 @@ inline std::string little_endian(std::size_t v) {
   return bytes_of<std::uint32_t>({static_cast<std::uint32_t>(v)});
 }
 
-/// A GLB file.
+/// Returns a GLB file.
 inline std::string glb(std::string json, const std::string& binary) {
   json.resize((json.size() + 3) / 4 * 4, ' ');
   const std::string chunks = little_endian(json.size()) + "JSON" + json +
@@ -45,7 +45,7 @@ inline std::string glb(std::string json, const std::string& binary) {
   return "glTF" + little_endian(2) + little_endian(12 + chunks.size()) + chunks;
 }
 
-/// A right triangle with normals and texture coordinates; the buffer is the binary chunk of a GLB
+/// A right triangle with normals and texture coordinates. Its buffer is the binary chunk of a GLB
 /// file.
 inline const std::string kGltfTriangle = R"({"asset": {"version": "2.0"}, "scene": 0,
   "scenes": [{"nodes": [0]}],
@@ -70,7 +70,7 @@ inline std::string triangle_bytes(float x = 1, std::uint16_t third_index = 2) {
          bytes_of<std::uint16_t>({0, 1, third_index, 0});
 }
 
-/// `text` with the first `what` replaced.
+/// Returns `text` with the first `what` replaced.
 inline std::string with(std::string text, const std::string& what, const std::string& by) {
   const std::size_t at = text.find(what);
   REQUIRE(at != std::string::npos);

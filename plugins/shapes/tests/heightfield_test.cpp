@@ -10,7 +10,7 @@
 namespace pharos {
 namespace {
 
-/// A texture of any formula in the texture coordinates.
+/// A texture given by a formula of the texture coordinates.
 template <class Formula>
 class FormulaTexture : public Texture {
  public:

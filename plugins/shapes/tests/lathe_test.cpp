@@ -13,7 +13,7 @@ namespace {
 using Profile = std::vector<Vec2>;
 
 const Profile kSpindle{{0, -1}, {1, 0}, {0, 1}};
-/// A ring of square section about the circle of radius 2, closed on itself.
+/// A closed ring of square cross section around the circle of radius 2.
 const Profile kRing{{1.5f, -0.5f}, {2.5f, -0.5f}, {2.5f, 0.5f}, {1.5f, 0.5f}, {1.5f, -0.5f}};
 
 Profile half_circle(int points) {
@@ -31,7 +31,8 @@ std::string refusal(const Profile& profile) {
   return test::input_error([&] { Lathe({.profile = profile}); });
 }
 
-/// The volume that the triangles enclose if their outer side is outside (divergence theorem).
+/// Returns the volume enclosed by the triangles if their outer side faces outwards (divergence
+/// theorem).
 double enclosed_volume(const TriangleMesh& mesh) {
   double volume = 0;
   for (const auto& [a, b, c] : mesh.triangles) {
@@ -41,7 +42,7 @@ double enclosed_volume(const TriangleMesh& mesh) {
 }
 
 TEST_CASE("a lathe's area and volume approach those of the frustum it stands for") {
-  // Frustum from radius 2 to 1, 1.5 high, with both lids.
+  // A frustum of height 1.5 with radii from 2 to 1, with both lids.
   const Profile frustum{{0, 0}, {2, 0}, {1, 1.5f}, {0, 1.5f}};
   const double pi = std::acos(-1.0);
   const double area = pi * (4 + 1) + pi * (2 + 1) * std::hypot(1.0, 1.5);
@@ -49,8 +50,9 @@ TEST_CASE("a lathe's area and volume approach those of the frustum it stands for
   const Lathe fine({.profile = frustum, .segments = 2000});
   CHECK(fine.area() == doctest::Approx(area).epsilon(1e-5));
   CHECK(enclosed_volume(*fine.mesh()) == doctest::Approx(volume).epsilon(1e-4));
-  CHECK(fine.primitive_count() == 2000 * 4);  // lids of one triangle, the side of two a facet
-  // n facets have the area and volume of the inscribed polygon.
+  CHECK(fine.primitive_count() == 2000 * 4);  // one triangle per facet for each lid, two per facet
+                                              // for the side
+  // With n facets the area and volume are those of the inscribed polygon.
   const Lathe coarse({.profile = frustum, .segments = 6});
   CHECK(enclosed_volume(*coarse.mesh()) ==
         doctest::Approx(volume * 6 * std::sin(2 * pi / 6) / (2 * pi)));
@@ -104,13 +106,13 @@ TEST_CASE("points on the axis make no triangles without area, nor do pieces alon
 }
 
 TEST_CASE("smooth normals follow the curve but for creases") {
-  // Of a sphere they point away from the center, at the poles too.
+  // On a sphere the normals point away from the center, at the poles too.
   const Lathe ball({.profile = half_circle(32), .crease = 30});
   for (std::size_t i = 0; i < ball.mesh()->positions.size(); ++i) {
-    // On the axis each vertex serves one facet only, at its middle azimuth.
+    // On the axis each vertex serves one facet only, at the azimuth of its middle.
     CHECK(dot(ball.mesh()->normals[i], normalize(ball.mesh()->positions[i])) > 0.99999f);
   }
-  // The corners of a ring of square section stay sharp, or are rounded when told to.
+  // The corners of a ring of square cross section stay sharp, or become round if requested.
   const Lathe sharp({.profile = kRing});
   for (const Vec3 n : sharp.mesh()->normals) {
     CHECK(std::max(std::abs(n.z), std::hypot(n.x, n.y)) == doctest::Approx(1));
@@ -118,7 +120,7 @@ TEST_CASE("smooth normals follow the curve but for creases") {
   const Lathe round({.profile = kRing, .crease = 91});
   for (const Vec3 n : round.mesh()->normals)
     CHECK(std::abs(n.z) == doctest::Approx(std::sqrt(0.5)));
-  // The tip of a cone stays sharp, and its facets' middles know their own slope.
+  // The tip of a cone stays sharp, and the middles of its facets have the correct slope.
   const Lathe cone({.profile = {{1, 0}, {0, 1}}});
   for (const Vec3 n : cone.mesh()->normals) CHECK(n.z == doctest::Approx(std::sqrt(0.5)));
   CHECK(Lathe({.profile = kSpindle, .smooth = false}).mesh()->normals.empty());
@@ -151,7 +153,7 @@ TEST_CASE("the spline runs through all points and stays close to the circle they
     CHECK(met);
   }
   for (const Point3 p : positions) CHECK(length(p) == doctest::Approx(1).epsilon(0.003));
-  // Where the curve would cross the axis it stays on it.
+  // Where the curve would cross the axis, it follows the axis.
   const Lathe dip({.profile = {{3, 0}, {0.01f, 1}, {0.01f, 1.1f}, {3, 2}},
                    .interpolation = ProfileInterpolation::catmull_rom});
   CHECK(dip.area() > 0);

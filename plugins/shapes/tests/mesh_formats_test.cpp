@@ -1,4 +1,4 @@
-// One shape, written in every format, is the same mesh.
+// The same shape in every format must give the same mesh.
 
 #include <algorithm>
 #include <functional>
@@ -15,7 +15,7 @@
 namespace pharos {
 namespace {
 
-/// A wave over 9 x 9 points, in numbers that have few digits.
+/// A wave over 9 x 9 points, whose coordinates have few digits.
 TriangleMesh wave() {
   constexpr std::uint32_t n = 9;
   TriangleMesh mesh;
@@ -99,7 +99,7 @@ std::string binary_stl(const TriangleMesh& mesh) {
          });
 }
 
-/// JSON whose buffer is at `uri`, and the buffer.
+/// Returns JSON whose buffer is at `uri`, and the buffer.
 std::pair<std::string, std::string> gltf_parts(TriangleMesh mesh, const std::string& uri) {
   for (Vec2& uv : mesh.uvs) uv.y = 1 - uv.y;
   const std::array<std::string, 4> views{test::bytes_of(mesh.positions),

@@ -20,7 +20,7 @@ const char* const kTwoObjects =
     "v 0 0 1\nv 2 0 1\nv 0 2 1\n"
     "f 5/1/1 6/2/1 7/3/1\n";
 
-/// A mesh file of its own.
+/// A temporary mesh file.
 struct MeshFile {
   test::TemporaryFolder folder;
   std::filesystem::path path;
@@ -119,7 +119,7 @@ TEST_CASE("other formats are refused with a list and the nearest") {
   CHECK(message("mesh", "") == "mesh 'mesh': the format '' is not known" + list);
   CHECK(test::input_error([] {
           Mesh({.file = "/dev/zero"});
-        }).starts_with("mesh '/dev/zero': the format '' is not known"));  // nothing is read before
+        }).starts_with("mesh '/dev/zero': the format '' is not known"));  // no file is read before
   CHECK(message("a.stl", "lid") == "mesh 'a.stl': .stl files have no parts");
   CHECK(message("a.ply", "lid") == "mesh 'a.ply': .ply files have no parts");
   const auto numbered = [&](const std::string& name, const std::string& part) {

@@ -17,7 +17,7 @@ std::string refusal(const std::string& text, const std::string& part = "") {
 
 const std::string kSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
-/// The first vertex of each triangle.
+/// Returns the first vertex of each triangle.
 std::vector<Point3> first_corners(const TriangleMesh& mesh) {
   std::vector<Point3> corners;
   for (const auto& triangle : mesh.triangles) corners.push_back(mesh.positions[triangle[0]]);

@@ -29,7 +29,7 @@ std::string refusal(const std::string& text) {
   return test::input_error([&] { read_ply(text); });
 }
 
-/// Appends a number as a file of that byte order has it.
+/// Appends a number in the byte order of the file.
 template <class T>
 void append(std::string& text, T value, bool big_endian) {
   char bytes[sizeof(T)];
@@ -129,7 +129,7 @@ TEST_CASE("PLY: an element comes once, so that every vertex has the same propert
 }
 
 TEST_CASE("PLY: counts are believed no further than the bytes reach") {
-  // Rows without properties take none: such a loop would not end.
+  // Rows without properties take no bytes, so a loop over the rows would not end.
   const std::string empty = "element nothing 18446744073709551615\n";
   const TriangleMesh mesh =
       read_ply(test::with(header("ascii", "3", "1"), "element face", empty + "element face") +
@@ -192,7 +192,7 @@ TEST_CASE(
 
 TEST_CASE(
     "welding tells zeros apart by their sign, joins NaN, and refuses lists of other lengths") {
-  // As numbers all of these are equal.
+  // As numbers all of these compare equal.
   const float nan = std::numeric_limits<float>::quiet_NaN();
   TriangleMesh mesh;
   for (int i = 0; i < 64; ++i) {

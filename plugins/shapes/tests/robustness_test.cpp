@@ -1,5 +1,5 @@
-// Rays that leave a closed surface must neither meet it again at once nor slip through it, at any
-// scale and far from the origin.
+// Rays that leave a closed surface must neither hit it again at once nor slip through it, at any
+// scale and at any distance from the origin.
 
 #include <doctest/doctest.h>
 
@@ -38,13 +38,14 @@ Transform to_world(const Placement& p) {
 }
 
 struct Faults {
-  int leaks = 0;         ///< rays inside that met nothing
-  int self_hits = 0;     ///< rays inside that met the face they left
-  int outer_hits = 0;    ///< rays outside that met the convex shape they left
-  int blocked_self = 0;  ///< the same as occlusion queries
+  int leaks = 0;         ///< rays inside that hit nothing
+  int self_hits = 0;     ///< rays inside that hit the face they left
+  int outer_hits = 0;    ///< rays outside that hit the convex shape they left
+  int blocked_self = 0;  ///< self hits that occlusion queries report
 };
 
-/// Walks from wall to wall inside a convex shape and sends a ray off its outer side at each step.
+/// Walks from wall to wall inside a convex shape. At each step it also sends a ray from the outer
+/// side.
 template <class IsSelfHit>
 Faults walk(const Scene& scene, Point3 start, const IsSelfHit& is_self_hit) {
   Faults faults;
@@ -94,7 +95,7 @@ TEST_CASE("no ray leaks out of a sphere or meets the point it leaves") {
     Sphere::Settings settings;
     settings.to_world = to_world(p);
     const auto scene = test::scene_of<Sphere>(settings);
-    // A chord from the surface has length 2 r cos; the step inwards moves its start by `error`.
+    // A chord from the surface has length 2 r cos. The step inwards moves its start by `error`.
     const auto wrong_chord = [&](const SurfacePoint& a, const SurfacePoint&, Vec3 d, float t) {
       const float chord = 2 * p.scale * abs_dot(a.normal, d);
       return std::abs(t - chord) > 1e-4f * p.scale + 40 * std::sqrt(a.error * p.scale);
@@ -115,7 +116,7 @@ TEST_CASE("no ray leaks out of a closed lathe or meets the facet it leaves") {
   }
 }
 
-/// A tube with a disk at either end.
+/// Builds a tube with a disk at each end.
 std::unique_ptr<const Scene> closed_tube(const Placement& p) {
   SceneParts parts;
   const Cylinder::Settings tube{.to_world = to_world(p)};
@@ -130,7 +131,7 @@ std::unique_ptr<const Scene> closed_tube(const Placement& p) {
 
 TEST_CASE("no ray leaks out of a tube with lids or meets the surface it leaves") {
   for (const Placement& p : placements()) {
-    // Far from the origin tube and lids are rounded apart, by more than the walk would miss.
+    // Far from the origin, rounding separates tube and lids by more than the walk could tolerate.
     if (p.offset != Vec3{}) continue;
     const auto scene = closed_tube(p);
     const auto self_hit = [](const SurfacePoint& a, const SurfacePoint& b, Vec3, float t) {
@@ -140,7 +141,7 @@ TEST_CASE("no ray leaks out of a tube with lids or meets the surface it leaves")
   }
 }
 
-/// Sends rays from samples of a shape, on both sides; counts those that meet it at once.
+/// Sends rays from samples of a shape, on both sides, and counts the rays that hit it at once.
 template <class IsSelfHit>
 int self_hits(const Scene& scene, const IsSelfHit& is_self_hit) {
   int count = 0;
@@ -163,7 +164,7 @@ TEST_CASE("samples of disks and tubes do not meet their own surface") {
     CHECK(self_hits(*disk, [](const SurfacePoint&, Vec3, float) { return true; }) == 0);
     const auto tube = test::scene_of<Cylinder>({.to_world = to_world(p)});
     const Vec3 axis = normalize(to_world(p).vector({0, 0, 1}));
-    // Inside, a chord in projection along the axis has length 2 r cos.
+    // Inside, a chord has length 2 r cos in projection along the axis.
     const auto wrong_chord = [&](const SurfacePoint& a, Vec3 d, float t) {
       const float across = std::sqrt(std::max(0.0f, 1 - square(dot(d, axis))));
       const float chord = 2 * p.scale * -dot(a.normal, d) / across;

@@ -1,5 +1,5 @@
-// Samples of every shape against the densities it claims, and both against solid angles that are
-// known in closed form.
+// Compares the samples of every shape with the densities it returns, and both with solid angles
+// that are known in closed form.
 
 #include <doctest/doctest.h>
 
@@ -16,15 +16,15 @@
 namespace pharos {
 namespace {
 
-/// Solid angle of a triangle (Van Oosterom and Strackee 1983), positive when `from` sees its
-/// counter-clockwise side.
+/// Returns the solid angle of a triangle (Van Oosterom and Strackee 1983), positive if `from` sees
+/// its counter-clockwise side.
 double solid_angle(Point3 from, Point3 p0, Point3 p1, Point3 p2) {
   const Vec3 a = normalize(p0 - from), b = normalize(p1 - from), c = normalize(p2 - from);
   const double volume = -dot(a, cross(b, c));
   return 2 * std::atan2(volume, 1.0 + dot(a, b) + dot(b, c) + dot(c, a));
 }
 
-/// Of all triangles of a convex mesh that face `from`.
+/// Returns the solid angle of all triangles of a convex mesh that face `from`.
 double visible_solid_angle(Point3 from, const TriangleMesh& mesh) {
   double total = 0;
   for (const auto& [a, b, c] : mesh.triangles) {
@@ -38,7 +38,7 @@ Transform sheared() {
   return Transform({{{1.5f, 0.4f, 0.2f, 0.3f}, {0, 0.8f, -0.3f, 1}, {0.1f, 0.2f, 1.1f, -2}}});
 }
 
-/// The direction to a sample, but for those that the shape itself hides, as a draw of directions.
+/// Draws the direction to a sample. Samples that the shape itself hides are rejected.
 statistics::Draw<Vec3> draw_from(const Scene& scene, const Shape& shape, Point3 from) {
   return [&scene, &shape, from](RandomStream& random) -> std::optional<Vec3> {
     const ShapeSample s = shape.sample_from(from, random.next_2d());
@@ -49,7 +49,7 @@ statistics::Draw<Vec3> draw_from(const Scene& scene, const Shape& shape, Point3 
   };
 }
 
-/// The density of that draw, at the point that a ray finds.
+/// Returns the density of that draw, at the point that a ray finds.
 statistics::Density<Vec3> density_from(const Scene& scene, const Shape& shape, Point3 from) {
   return [&scene, &shape, from](Vec3 direction) -> double {
     SurfacePoint point;
@@ -69,7 +69,7 @@ void check_density(const typename S::Settings& settings, Point3 from) {
   CHECK(fit.integral + fit.missed == doctest::Approx(1).epsilon(0.02));
 }
 
-/// The mean of 1/pdf over samples that face `from`: the visible solid angle.
+/// Returns the mean of 1/pdf over samples that face `from`, which is the visible solid angle.
 double estimated_solid_angle(const Shape& shape, Point3 from, bool facing_only) {
   constexpr int count = 400;
   double sum = 0;
@@ -124,7 +124,7 @@ TEST_CASE("samples of a lathe follow their density over directions") {
 }
 
 TEST_CASE("a disk's density integrates to its solid angle on the axis") {
-  // 2 pi (1 - cos) of the cone that the rim subtends.
+  // The cone of the rim has the solid angle 2 pi (1 - cos).
   const Disk disk(Disk::Settings{.to_world = Transform::scale({2, 2, 2})});
   for (const double height : {0.5, 2.0, 50.0}) {
     const double exact = 2 * std::acos(-1.0) * (1 - height / std::sqrt(height * height + 4));
@@ -134,16 +134,16 @@ TEST_CASE("a disk's density integrates to its solid angle on the axis") {
 }
 
 TEST_CASE("a cylinder's density integrates to the solid angle of the side that faces the point") {
-  // From the axis, inside: the sphere less both openings.
+  // From the axis, inside: the sphere minus both openings.
   const Cylinder inside(Cylinder::Settings{.radius = 0.5f, .flip_normals = true});
   const double opening = 2 * std::acos(-1.0) * (1 - 1 / std::sqrt(1.25));
   CHECK(estimated_solid_angle(inside, {}, true) ==
         doctest::Approx(4 * std::acos(-1.0) - 2 * opening).epsilon(1e-3));
-  // From far outside, level with the middle: the silhouette, a rectangle.
+  // From far outside, level with the middle: the silhouette is a rectangle.
   const Cylinder outside(Cylinder::Settings{.radius = 0.5f});
   CHECK(estimated_solid_angle(outside, {500, 0, 0}, true) ==
         doctest::Approx(1.0 * 2.0 / (500 * 500)).epsilon(3e-3));
-  // Nothing that faces away is drawn from there.
+  // From there no sample faces away.
   const Point3 from{2, 1, 0.3f};
   for (int i = 0; i < 1000; ++i) {
     const Vec2 u{(i % 40 + 0.5f) / 40, (i / 40 + 0.5f) / 25};
@@ -189,7 +189,7 @@ TEST_CASE("a sphere's density integrates to its solid angle, near, far and insid
         doctest::Approx(4 * kPi).epsilon(2e-3));
 }
 
-/// Counts samples in 8 x 8 cells that `cell` maps to [0,1]^2 and that share the area evenly.
+/// Counts samples in 8 x 8 cells of equal area, which `cell` maps to [0,1]^2.
 template <class Cell>
 void check_uniform_over_area(const Shape& shape, const Cell& cell) {
   RandomStream random(3);
@@ -218,7 +218,7 @@ TEST_CASE("samples of exact shapes are uniform over the area, sheared too") {
 }
 
 TEST_CASE("samples are uniform over the area") {
-  // A box with faces of areas 24, 12 and 8 twice each: count points by face.
+  // A box whose faces have the areas 24, 12 and 8, twice each. Counts points by face.
   const Box box(Box::Settings{.to_world = Transform::scale({1, 2, 3})});
   CHECK(box.area() == doctest::Approx(88));
   RandomStream random(3);

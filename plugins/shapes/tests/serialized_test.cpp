@@ -20,7 +20,7 @@ std::string bytes(std::initializer_list<T> numbers) {
   return test::bytes_of(std::vector<T>(numbers));
 }
 
-/// A zlib stream of `plain`.
+/// Returns a zlib stream of `plain`.
 std::string packed(const std::string& plain) {
   uLongf size = compressBound(plain.size());
   std::string result(size, '\0');
@@ -30,7 +30,7 @@ std::string packed(const std::string& plain) {
   return result;
 }
 
-/// What a mesh is made of, before it is packed.
+/// The content of a mesh before compression.
 struct Content {
   std::uint32_t flags = 0x1000;
   std::optional<std::string> name = "plate";  ///< none: version 3
@@ -47,7 +47,7 @@ struct Content {
   }
 };
 
-/// A file of `meshes`, with 64-bit places unless `narrow`.
+/// Returns a file of `meshes`, with 64-bit places unless `narrow`.
 std::string file_of(const std::vector<std::string>& meshes, bool narrow = false) {
   std::string file, list;
   for (const std::string& mesh : meshes) {
@@ -71,7 +71,7 @@ std::string refusal(const std::string& file, std::optional<int> index = {},
   return test::input_error([&] { read(file, index, part); });
 }
 
-/// A triangle that says which one it is.
+/// A triangle that identifies its mesh.
 Content numbered(float x, const std::string& name) {
   Content content{.name = name};
   content.data = bytes<float>({x, 0, 0, x + 1, 0, 0, x, 1, 0}) + bytes<std::uint32_t>({0, 1, 2});

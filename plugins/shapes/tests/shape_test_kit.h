@@ -5,7 +5,7 @@
 
 #include <pharos/tests/scene_fixtures.h>
 
-/// What the suites of this folder share.
+/// Helpers that the tests of this folder share.
 namespace pharos::test {
 
 template <class S>
@@ -15,9 +15,9 @@ std::unique_ptr<const Scene> scene_of(typename S::Settings settings) {
   return std::make_unique<const Scene>(std::move(parts));
 }
 
-/// On the side of `normal`; every other one grazes, with cosines down to 1e-3. (At 1e-5 and below,
-/// one ray in millions that runs along an edge at the distance of rounding slips past it in
-/// Embree.)
+/// Returns a direction on the side of `normal`. Every other direction is grazing, with cosines down
+/// to 1e-3. (At 1e-5 and below, one ray in millions that runs along an edge, at a distance of the
+/// order of rounding, slips past it in Embree.)
 inline Vec3 random_departure(Vec3 normal, RandomStream& random) {
   const Frame frame = Frame::from_normal(normal);
   for (;;) {

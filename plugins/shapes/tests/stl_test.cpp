@@ -26,7 +26,7 @@ std::string binary_triangle(float x) {
   return test::bytes_of<float>({0, 0, -1, 0, 0, 0, x, 0, 0, 0, 1e-3f, 0}) + "..";
 }
 
-/// `text` in the file's beginning.
+/// Returns a binary file that begins with `text`.
 std::string binary(const std::string& text, std::size_t count, const std::string& triangles) {
   std::string bytes = text;
   bytes.resize(80);

@@ -1,5 +1,5 @@
-// Tangents of every shape against differences between neighboring hits, in the world and in
-// instances.
+// Compares the tangents of every shape with differences between neighboring hits, in the world and
+// in instances.
 
 #include <string>
 
@@ -17,7 +17,7 @@
 namespace pharos {
 namespace {
 
-/// Gentle hills.
+/// A texture of gentle hills.
 class Hills final : public Texture {
  public:
   Rgb evaluate(const SurfacePoint& point) const override {
@@ -57,7 +57,7 @@ struct Subject {
   Ref<Shape> shape;
 };
 
-/// Every shape, plain, flipped, and mapped; round ones by even maps.
+/// Returns every shape, plain, flipped and transformed; round shapes by uniform maps.
 std::vector<Subject> subjects() {
   std::vector<Subject> all;
   for (const bool flip : {false, true}) {
@@ -108,7 +108,7 @@ void check_frame(const SurfacePoint& p) {
   CHECK(std::abs(dot(f.t, du)) < 1e-4f * length(du));
 }
 
-/// Compares hits of neighboring rays with what the tangents foretell.
+/// Compares hits of neighboring rays with the prediction of the tangents.
 void check_tangents(const Scene& scene) {
   const Point3 center = scene.bounds().center();
   const float size = scene.bounds().diagonal(), step = 5e-4f * size;
@@ -126,7 +126,7 @@ void check_tangents(const Scene& scene) {
     if (!both || p.primitive != q.primitive || abs_dot(p.normal, direction) < 0.2f) continue;
     if (dot(p.normal, q.normal) < 0.99f) continue;
     const Vec2 change = q.uv - p.uv;
-    if (std::abs(change.x) > 0.01f) continue;  // around the seam, or where a pole is near
+    if (std::abs(change.x) > 0.01f) continue;  // across the seam, or near a pole
     ++met;
     check_frame(p);
     const Vec3 moved = q.position - p.position;

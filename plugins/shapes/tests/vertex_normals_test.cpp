@@ -22,7 +22,7 @@ TriangleMesh loaded(const std::string& name, const std::string& text, Mesh::Sett
   return *Mesh(more).mesh();
 }
 
-/// The largest angle [rad] between a vertex's normal and what it should be there.
+/// Returns the largest angle [rad] between a vertex's normal and the expected normal.
 template <class Expected>
 double largest_error(const TriangleMesh& mesh, const Expected& expected) {
   REQUIRE(mesh.normals.size() == mesh.positions.size());
@@ -35,7 +35,8 @@ double largest_error(const TriangleMesh& mesh, const Expected& expected) {
   return largest;
 }
 
-/// Mean cosine between shading and geometric normals over the middles of the triangles; 1: flat.
+/// Returns the mean cosine between shading and geometric normals over the middles of the triangles;
+/// 1: flat.
 double flatness(const TriangleMesh& mesh) {
   double sum = 0;
   for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
@@ -45,7 +46,7 @@ double flatness(const TriangleMesh& mesh) {
   return sum / static_cast<double>(mesh.triangles.size());
 }
 
-/// Of a cube around the origin, at its corners.
+/// Returns the diagonal of a cube around the origin at its corner `p`.
 Vec3 diagonal(Point3 p) {
   return {std::copysign(1.0f, p.x), std::copysign(1.0f, p.y), std::copysign(1.0f, p.z)};
 }
@@ -55,7 +56,7 @@ const std::string kCubeCorners =
 constexpr int kCubeFaces[6][4] = {{1, 3, 4, 2}, {5, 6, 8, 7}, {1, 2, 6, 5},
                                   {3, 7, 8, 4}, {1, 5, 7, 3}, {2, 4, 8, 6}};
 
-/// A cube as OBJ; bit i of `diagonals` says how face i is cut into triangles.
+/// Returns a cube as OBJ. Bit i of `diagonals` selects how face i is cut into triangles.
 std::string cube_obj(unsigned diagonals = 0) {
   std::string text = kCubeCorners;
   for (unsigned i = 0; i < 6; ++i) {
@@ -68,8 +69,8 @@ std::string cube_obj(unsigned diagonals = 0) {
   return text;
 }
 
-/// The unit sphere in `rings` rows of twice as many quads around z. Those at the poles have two
-/// corners in one place, so that half of each is a triangle without area.
+/// Returns the unit sphere in `rings` rows of twice as many quads around z. The quads at the poles
+/// have two corners in the same place, so half of each is a triangle without area.
 std::string sphere_obj(int rings) {
   const int columns = 2 * rings;
   std::string vertices = "v 0 0 1\nv 0 0 -1\n", faces;
@@ -128,8 +129,8 @@ TEST_CASE("the same mesh has the same bits") {
 
 TEST_CASE("triangles without area or thinner than rounding do not count") {
   // A floor in two halves. Vertex 5, in the middle of the edge between them, is off the floor by
-  // less than a step of single precision at the far end; the gap is closed by an upright triangle,
-  // whose angle there is as large as those of all others together.
+  // less than a step of single precision at the far end. An upright triangle closes the gap; its
+  // angle there is as large as the angles of all other triangles together.
   const TriangleMesh floor = loaded("floor.obj",
                                     "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 1 0\nv 1 1 1e-7\nv 1 2 0\n"
                                     "f 1 2 3 4\nf 4 5 6\nf 5 3 6\nf 4 3 5\nf 3 3 6\nf 1 4 1\n");
@@ -138,15 +139,15 @@ TEST_CASE("triangles without area or thinner than rounding do not count") {
 }
 
 TEST_CASE("a vertex that no triangle gives a normal has that of each of its triangles") {
-  // Alone, thinner than rounding.
+  // A single triangle, thinner than rounding.
   const TriangleMesh thin = loaded("thin.obj", "v 0 0 1\nv 1 0 1\nv 0.5 0 1.0000001\nf 1 2 3\n");
   CHECK(largest_error(thin, [](Point3) { return Vec3{0, -1, 0}; }) < 1e-6);
-  // Both sides of a sheet, which cancel out.
+  // Both sides of a sheet, whose normals cancel out.
   const TriangleMesh sheet =
       loaded("sheet.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\nf 4 3 2 1\n",
              {.to_world = Transform::rotate({1, 2, 3}, 40)});
   CHECK(flatness(sheet) == doctest::Approx(1));
-  // A sheet with a triangle along one edge, whose normal is not to spread.
+  // A sheet with a triangle along one edge. The normal of the triangle must not spread.
   const TriangleMesh flag = loaded(
       "flag.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nf 1 2 3 4\nf 4 3 2 1\nf 1 4 5\n");
   for (std::size_t i = 0; i < flag.positions.size(); ++i) {
@@ -175,7 +176,7 @@ TEST_CASE("vertices that the file has twice keep an edge, also where the texture
   CHECK(flatness(loaded("whole.obj", textured + "f 1/1 2/2 3/3\nf 1/1 4/4 2/2\n")) < 0.95);
   CHECK(flatness(loaded("seam.obj", textured + "f 1/1 2/2 3/3\nf 1/3 4/4 2/1\n")) ==
         doctest::Approx(1));
-  // Two entries of the same numbers are two vertices, too.
+  // Two entries with the same numbers are also two vertices.
   CHECK(
       flatness(loaded("same.obj", textured + "v 0 0 0\nv 1 0 0\nf 1/1 2/2 3/3\nf 5/1 4/4 6/2\n")) ==
       doctest::Approx(1));
@@ -198,7 +199,7 @@ TEST_CASE("triangles of STL files are smoothed where they agree") {
 }
 
 TEST_CASE("glTF: triangles that name few of many vertices share them") {
-  // Two triangles at a right angle, without normals, of a list of nine vertices.
+  // Two triangles at a right angle, without normals, in a list of nine vertices.
   std::string bytes = test::bytes_of<float>({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1});
   bytes += test::bytes_of(std::vector<float>(15, 7.0f));
   bytes += test::bytes_of<std::uint32_t>({0, 1, 2, 0, 3, 1});

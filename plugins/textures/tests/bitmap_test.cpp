@@ -12,7 +12,7 @@
 namespace pharos {
 namespace {
 
-/// An image file that lives as long as this object.
+/// An image file that exists as long as this object.
 class ImageFile {
  public:
   ImageFile(const std::string& name, const Image& image) : path_(folder_ / name) {

@@ -104,7 +104,8 @@ TEST_CASE("scale: the product, a bound on it, and its average") {
   CHECK(tinted.maximum() == Rgb(0.5f, 1, 2));
   CHECK(tinted.average() == checker->average() * tint->average());
 
-  // Black where the other is white: the mean of the product is not the product of means.
+  // One texture is black where the other is white, so the mean of the product is not the product of
+  // the means.
   const Ref<Texture> opposite =
       std::make_shared<Checkerboard>(Checkerboard::Settings{.color0 = Rgb(0), .color1 = Rgb(1)});
   const ScaleTexture masked({.texture = checker, .factor = opposite});

@@ -7,7 +7,7 @@
 namespace pharos {
 namespace {
 
-/// Shows the coordinates that it is asked at.
+/// A texture whose color is the coordinates of the point.
 class Coordinates final : public Texture {
  public:
   Rgb evaluate(const SurfacePoint& point) const override {

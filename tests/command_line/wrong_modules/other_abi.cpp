@@ -1,4 +1,4 @@
-// A module that was built for another program.
+// A module that was built for another version of the program.
 #include <pharos/config/registry.h>
 #include <pharos/core/export.h>
 

@@ -1,4 +1,4 @@
-// A module with a command of the program's own name.
+// A module whose command has the name of a command of the program.
 #include <pharos/config/command.h>
 #include <pharos/config/module.h>
 

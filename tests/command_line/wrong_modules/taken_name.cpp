@@ -1,4 +1,4 @@
-// A module with the name of a plugin that is there already.
+// A module that registers a name which another plugin already has.
 #include <pharos/config/module.h>
 #include <pharos/rendering/filter.h>
 

@@ -29,7 +29,8 @@ ImageFile read(const std::filesystem::path& file, const std::string& label) {
   return result;
 }
 
-/// Names without folder and extension where these differ, else whole paths.
+/// Returns the names without folder and extension if they are all different, otherwise the whole
+/// paths.
 std::vector<std::string> labels_of(std::span<const std::filesystem::path> files) {
   const auto name_of = [](const std::filesystem::path& file) {
     return one_line(file.stem().string());
@@ -100,7 +101,7 @@ Comparison compare_files(std::span<const std::filesystem::path> images,
     pair_pixels(comparison.images[i].source.image, comparison.reference.image, images[i].string(),
                 "'" + reference.string() + "'");
   }
-  // All files are fine: now the work.
+  // All files are valid. The measurements start here.
   for (MeasuredImage& image : comparison.images) {
     image.errors = measure(image.source.image, comparison.reference.image);
   }

@@ -10,19 +10,21 @@
 #include <pharos/experiments/metrics/metrics.h>
 #include <pharos/experiments/report/report.h>
 
-/// Image files against a reference: measured once, shown as text, as JSON and as a page.
+/// Comparison of image files with a reference. Errors are measured once and written as text, as
+/// JSON and as a report page.
 namespace pharos {
 
-/// An image file and what Pharos wrote into it.
+/// An image file with the metadata that Pharos wrote into it.
 struct ImageFile {
   std::filesystem::path file;
-  std::string label;  ///< short and different for all images of a comparison; "reference" for it
+  std::string label;  ///< short and unique within a comparison; "reference" for the reference
   Image image;        ///< R, G, B
-  Metadata metadata;  ///< entries whose names begin with "pharos:"; none from other programs
+  Metadata metadata;  ///< entries named "pharos:…"; empty for images of other programs
 
-  /// Samples a pixel; empty when not stated.
+  /// Returns the samples per pixel; empty if the metadata does not state them.
   std::optional<double> samples() const;
-  /// Training, updates and rendering, as `pharos render` counts them [s]; empty when not stated.
+  /// Returns the time of training, updates and rendering, as `pharos render` counts it [s]; empty
+  /// if the metadata does not state it.
   std::optional<double> seconds() const;
 };
 
@@ -33,32 +35,34 @@ struct MeasuredImage {
 
 struct Comparison {
   ImageFile reference;
-  std::vector<MeasuredImage> images;  ///< at least one; the first is what ratios refer to
+  std::vector<MeasuredImage> images;  ///< at least one; ratios are relative to the first
 
-  /// False for images with more invalid pixels than another: their errors are means over fewer
-  /// pixels, so they are neither best nor in a ratio.
+  /// Returns false for images with more invalid pixels than another image. Their errors are means
+  /// over fewer pixels, so these images are neither best nor part of a ratio.
   bool is_comparable(std::size_t i) const;
-  /// Whether image `i` has the best value of this metric. None has where all are equal, one image
-  /// included.
+  /// Returns whether image `i` has the best value of this metric. Returns false if all values are
+  /// equal, and if there is only one image.
   bool is_best(std::size_t i, Metric metric) const;
-  /// The value of image `i` over that of the first; empty for the first itself, for metrics without
-  /// ratios, and where it is not a number.
+  /// Returns the value of image `i` divided by the value of the first image. Returns empty for the
+  /// first image, for metrics without ratios, and if the ratio is not a number.
   std::optional<double> ratio(std::size_t i, Metric metric) const;
 };
 
-/// Reads all files and measures by every metric. Throws InputError with one line that names the
-/// files: for what read_image() refuses, for images of other sizes than the reference, without
-/// channels R, G and B, without any pixel that is finite in both, and for a file named twice.
+/// Reads all files and measures every metric. Throws InputError, with one line that names the
+/// files, if read_image() rejects a file, if an image has another size than the reference, no
+/// channels R, G and B, or no pixel that is finite in both images, and if a file is named twice.
 Comparison compare_files(std::span<const std::filesystem::path> images,
                          const std::filesystem::path& reference);
 
-/// Aligned columns, an image each; the best of each row is marked, ratios are to the first image.
+/// Returns a text table with one aligned column per image. The best value of each row is marked,
+/// and ratios are relative to the first image.
 std::string comparison_table(const Comparison& comparison);
 
-/// The same as JSON; docs/experiments/metrics.md has the schema.
+/// Returns the comparison as JSON; docs/experiments/metrics.md has the schema.
 std::string comparison_json(const Comparison& comparison);
 
-/// The same as a page, with the images, maps of relMSE, FLIP and HDR-FLIP, and the configs.
+/// Returns the comparison as a report page with the images, maps of relMSE, FLIP and HDR-FLIP, and
+/// the configs.
 Report comparison_report(const Comparison& comparison);
 
 }  // namespace pharos

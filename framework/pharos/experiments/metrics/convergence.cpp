@@ -1,4 +1,4 @@
-// Convergence curves of an experiment, and what follows from them.
+// Convergence curves of an experiment, and the times to equal error.
 
 #include <algorithm>
 #include <array>
@@ -11,11 +11,11 @@
 namespace pharos {
 namespace {
 
-/// One run's errors over its work, both as logarithms.
+/// The errors of one run over its work, both as logarithms.
 struct Track {
   std::vector<double> x, y;
 
-  /// By straight lines between points; empty beyond the ends.
+  /// Interpolates linearly between points; empty beyond the ends.
   std::optional<double> at(double log_x) const {
     const auto above = std::lower_bound(x.begin(), x.end(), log_x);
     if (above == x.end() || (above == x.begin() && *above != log_x)) return std::nullopt;
@@ -26,11 +26,11 @@ struct Track {
   }
 };
 
-/// What errors are shown over.
+/// The horizontal axis of a curve.
 struct Axis {
   const char* name;
   double Checkpoint::*member;
-  double (*training)(const RunRecord&);  ///< the part of it that training took
+  double (*training)(const RunRecord&);  ///< the part of the work that training took
 };
 constexpr std::array<Axis, 2> kAxes{{{"samples", &Checkpoint::samples_per_pixel,
                                       [](const RunRecord& run) { return run.training_samples; }},
@@ -38,7 +38,7 @@ constexpr std::array<Axis, 2> kAxes{{{"samples", &Checkpoint::samples_per_pixel,
                                         return run.times.training + run.times.update;
                                       }}}};
 
-/// A run's errors over its work, less `offset` of it.
+/// Returns a run's errors over its work minus `offset`.
 Track track_of(const RunRecord& run, const Axis& axis, Metric metric, double offset) {
   Track track;
   for (const Checkpoint& checkpoint : run.checkpoints) {
@@ -52,10 +52,11 @@ Track track_of(const RunRecord& run, const Axis& axis, Metric metric, double off
   return track;
 }
 
-/// Where the curve of several tracks has points: from where all have begun to where the first ends,
-/// with the first track's points in between that are not next to one of these.
+/// Returns the positions of the points of the mean curve of several tracks. They reach from where
+/// all tracks have begun to where the first one ends. In between are the points of the first track
+/// that are not close to either end.
 std::vector<double> common_grid(const std::vector<Track>& tracks) {
-  constexpr double kNext = 0.1;  // of a logarithm
+  constexpr double kNext = 0.1;  // difference of logarithms
   double low = tracks.front().x.front(), high = tracks.front().x.back();
   for (const Track& track : tracks) {
     low = std::max(low, track.x.front());
@@ -83,7 +84,7 @@ std::vector<ReportCurve::Point> mean_points(const std::vector<Track>& tracks) {
   return points;
 }
 
-/// The slope of a run's errors over the work of its final image.
+/// Returns the slope of a run's errors over the work of its final image.
 std::optional<double> slope_of(const RunRecord& run, const Axis& axis, Metric metric) {
   const Track track = track_of(run, axis, metric, axis.training(run));
   if (track.x.size() < 3) return std::nullopt;
@@ -97,7 +98,7 @@ void set_slope(const std::vector<double>& slopes, ReportCurve& curve) {
   if (slopes.size() > 1) curve.slope_interval = mean.interval;
 }
 
-/// A curve without points when no run has any.
+/// Returns the mean curve of some runs, without points if no run has any.
 ReportCurve curve_of(const std::vector<const RunRecord*>& runs, const Axis& axis, Metric metric) {
   ReportCurve curve;
   std::vector<Track> tracks;
@@ -114,7 +115,7 @@ ReportCurve curve_of(const std::vector<const RunRecord*>& runs, const Axis& axis
   return curve;
 }
 
-/// The moment after which a track stays at or below `target` [log]; NaN when it ends above it. A
+/// Returns the time after which a track stays at or below `target` [log]; NaN if it ends above. A
 /// track that begins below counts from its first point.
 double time_below(const Track& track, double target) {
   if (track.x.empty() || track.y.back() > target) return std::nan("");

@@ -18,16 +18,17 @@ namespace {
 using Eigen::Matrix3f;
 using Eigen::Vector3f;
 
-// Constants of the paper of 2020.
-constexpr double kColorExponent = 0.7;    // q_c, of the distance between colors
-constexpr double kFeatureExponent = 0.5;  // q_f, of the difference of features
-constexpr double kKnee = 0.4;             // p_c, of the largest distance: up to there errors …
-constexpr double kKneeError = 0.95;       // p_t: … fill this much of the range
-constexpr double kEdgeWidth = 0.082;      // w [degrees], from peak to trough of the edge detector
+// Constants of the paper from 2020.
+constexpr double kColorExponent = 0.7;    // q_c, exponent of the color distance
+constexpr double kFeatureExponent = 0.5;  // q_f, exponent of the feature difference
+constexpr double kKnee = 0.4;             // p_c, fraction of the largest distance at the knee
+constexpr double kKneeError = 0.95;       // p_t, error at the knee
+constexpr double kEdgeWidth =
+    0.082;  // w [degrees], distance from peak to trough of the edge detector
 constexpr double kRadiusInDeviations = 3;
 
-/// One or two Gaussians sum a sqrt(pi/b) exp(-pi^2 d^2 / b), d in degrees: contrast sensitivity of
-/// the eye as a filter in space.
+/// A contrast sensitivity of the eye as a spatial filter: the sum of one or two Gaussians a
+/// sqrt(pi/b) exp(-pi^2 d^2 / b), with d in degrees.
 struct Sensitivity {
   struct Term {
     double a, b;
@@ -39,25 +40,27 @@ constexpr Sensitivity kRedGreen{{{{1, 0.0053}, {0, 1e-5}}}};
 constexpr Sensitivity kBlueYellow{{{{34.1, 0.04}, {13.5, 0.025}}}};
 constexpr double kWidestTerm = 0.04;
 
-/// The curve of Narkowicz 2015 without the exposure of 0.6 that it contains:
-/// (n2 x^2 + n1 x) / (d2 x^2 + d1 x + d0).
+/// The tone curve of Narkowicz 2015 without the exposure of 0.6 that it contains: (n2 x^2 + n1 x) /
+/// (d2 x^2 + d1 x + d0).
 struct ToneCurve {
   double n2 = 0.36 * 2.51, n1 = 0.6 * 0.03, d2 = 0.36 * 2.43, d1 = 0.6 * 0.59, d0 = 0.14;
 
   double operator()(double x) const { return (n2 * x + n1) * x / ((d2 * x + d1) * x + d0); }
-  /// The x that is shown as `t`.
+  /// Returns the x that the curve maps to `t`.
   double inverse(double t) const {
     const double a = n2 - t * d2, b = n1 - t * d1, c = -t * d0;
     return (-b + std::sqrt(b * b - 4 * a * c)) / (2 * a);
   }
 };
 constexpr ToneCurve kToneCurve;
-/// The first and the last exposure show their luminance at this share of white.
+/// The share of white at which the first exposure shows the brightest luminance and the last
+/// exposure the median.
 constexpr double kShownLuminance = 0.85;
-/// The curve is at white long before; keeps its square from overflowing.
+/// Input at which the curve has long reached white. Clamping to it keeps the square from
+/// overflowing.
 constexpr double kBeyondWhite = 1e6;
 
-/// Linear Rec.709 to CIE XYZ under D65, relative to white: each row sums to one.
+/// Converts linear Rec.709 to CIE XYZ under D65, relative to white: each row sums to one.
 Matrix3f xyz_from_rgb() {
   Matrix3f m;
   m << 10135552, 8788810, 4435075,  //
@@ -69,8 +72,8 @@ Matrix3f xyz_from_rgb() {
 const Matrix3f kXyzFromRgb = xyz_from_rgb();
 const Matrix3f kRgbFromXyz = kXyzFromRgb.cast<double>().inverse().cast<float>();
 
-/// Lightness and two opponent colors from XYZ: of CIE L*a*b* when the cube root was taken, else of
-/// its linear relative YCxCz.
+/// Converts XYZ to lightness and two opponent colors. With the cube root applied to XYZ, they are
+/// CIE L*a*b*. Without it, they are the related linear space YCxCz.
 Vector3f opponents(const Vector3f& v) {
   return {116 * v.y() - 16, 500 * (v.x() - v.y()), 200 * (v.y() - v.z())};
 }
@@ -79,31 +82,31 @@ Vector3f xyz_from_opponents(const Vector3f& v) {
   return {y + v.y() / 500, y, y - v.z() / 200};
 }
 
-/// The curve of CIE L*a*b*.
+/// The nonlinear curve of CIE L*a*b*.
 float lab_root(float t) {
   constexpr float kDelta = 6.0f / 29;
   return t > kDelta * kDelta * kDelta ? std::cbrt(t) : t / (3 * kDelta * kDelta) + 4.0f / 29;
 }
 
-/// L*a*b* with colors that fade in the dark (Hunt 1952).
+/// Returns L*a*b* with chroma that decreases in the dark (Hunt 1952).
 Vector3f hunt_lab(const Vector3f& rgb) {
   const Vector3f lab = opponents((kXyzFromRgb * rgb).unaryExpr(&lab_root));
   return {lab.x(), 0.01f * lab.x() * lab.y(), 0.01f * lab.x() * lab.z()};
 }
 
-/// The distance HyAB (Abasi, Tehran and Fairchild 2020), raised to q_c.
+/// Returns the distance HyAB (Abasi, Tehran and Fairchild 2020) raised to q_c.
 float color_distance(const Vector3f& a, const Vector3f& b) {
   const Vector3f d = a - b;
   const float hyab = std::abs(d.x()) + std::hypot(d.y(), d.z());
   return std::pow(hyab, static_cast<float>(kColorExponent));
 }
 
-/// The distance of green and blue, the largest there is.
+/// Returns the distance of green and blue, which is the largest possible distance.
 float largest_distance() {
   return color_distance(hunt_lab({0, 1, 0}), hunt_lab({0, 0, 1}));
 }
 
-/// A distance as an error in [0, 1].
+/// Maps a distance to an error in [0, 1].
 float color_error(float distance, float largest) {
   constexpr auto kShare = static_cast<float>(kKneeError);
   const float knee = static_cast<float>(kKnee) * largest;
@@ -111,7 +114,7 @@ float color_error(float distance, float largest) {
   return std::min(1.0f, kShare + (distance - knee) / (largest - knee) * (1 - kShare));
 }
 
-/// A kernel of weights f(i), |i| <= radius.
+/// Makes a kernel with the weights scale * weight(i), |i| <= radius.
 template <class Weight>
 Kernel kernel_of(int radius, double scale, Weight&& weight) {
   Kernel kernel;
@@ -127,7 +130,7 @@ double sum_of(int radius, Weight&& weight) {
   return sum;
 }
 
-/// Filters that add up to the eye's response to one channel.
+/// The filter of one channel: the sum of separable filters that is the eye's response.
 struct EyeFilter {
   struct Term {
     Kernel x, y;
@@ -160,8 +163,8 @@ struct EyeFilter {
   }
 };
 
-/// Detectors of edges and points: derivatives of a Gaussian, positive and negative weights of sum 1
-/// each.
+/// Detectors of edges and points: derivatives of a Gaussian with positive and negative weights that
+/// each sum to 1.
 struct FeatureFilter {
   Kernel blur, edge, point;
 
@@ -196,7 +199,7 @@ struct Eye {
         features(viewer.pixels_per_degree) {}
 };
 
-/// What the eye makes of an image.
+/// An image as the eye perceives it.
 struct Seen {
   std::vector<Vector3f> colors;      ///< Hunt-adjusted L*a*b*
   std::vector<float> edges, points;  ///< magnitudes in [0, sqrt 2]
@@ -213,7 +216,8 @@ std::vector<float> magnitudes(const Plane& x, const Plane& y) {
   return result;
 }
 
-/// `pixels` as the display shows them, linear in [0, 1], by `shown(rgb)`.
+/// Returns the perceived image of `pixels`. `shown(rgb)` converts a pixel to the value that the
+/// display shows, linear in [0, 1].
 template <class Shown>
 Seen see(std::span<const Rgb> pixels, int width, int height, const Eye& eye, Shown&& shown) {
   Plane luminance(width, height), y(width, height), cx(width, height), cz(width, height);
@@ -244,7 +248,8 @@ Seen see(std::span<const Rgb> pixels, int width, int height, const Eye& eye, Sho
   return seen;
 }
 
-/// Raises `worst` to the errors between what was seen.
+/// Raises each entry of `worst` to the error between the two perceived images, if the error is
+/// larger.
 void raise_to_errors(std::vector<double>& worst, const Seen& a, const Seen& b, int height) {
   const float largest = largest_distance();
   const std::size_t width = worst.size() / height;

@@ -5,42 +5,45 @@
 
 #include <pharos/experiments/metrics/pixel_pair.h>
 
-/// The difference that people see when they switch between two images, 0 to 1 a pixel:
+/// The difference that people see when they switch between two images, 0 to 1 for each pixel:
 ///
 /// - Andersson, Nilsson, Akenine-Möller, Oskarsson, Åström and Fairchild 2020, "FLIP: A Difference
 ///   Evaluator for Alternating Images", for images as a display shows them;
 /// - Andersson, Nilsson, Shirley and Akenine-Möller 2021, "Visualizing Errors in Rendered High
-///   Dynamic Range Images", for radiance: the worst of FLIP over a range of exposures.
+///   Dynamic Range Images", for radiance: the largest FLIP over a range of exposures.
 namespace pharos {
 
-/// Who looks at the image.
+/// The viewing conditions.
 struct Viewer {
-  /// Of the displayed image; 67 is a display 0.7 m and 3840 pixels wide seen from 0.7 m.
+  /// Pixels of the displayed image per degree. 67 is a display 0.7 m and 3840 pixels wide, seen
+  /// from 0.7 m.
   double pixels_per_degree = 67;
 };
 
-/// FLIP of every pixel. Values are those of a display: linear, clipped to [0, 1].
+/// Returns the FLIP error of every pixel. Values are interpreted as a display shows them: linear,
+/// clipped to [0, 1].
 std::vector<double> flip_errors(const PixelPair& pair, const Viewer& viewer = {});
 
-/// The exposures that HDR-FLIP looks at, [stops] apart from the image's own.
+/// The exposures that HDR-FLIP evaluates [stops], relative to the exposure of the image.
 struct ExposureRange {
   double first = 0, last = 0;
   int count = 2;
   double at(int i) const { return first + (last - first) * i / (count - 1); }
 };
 
-/// No more exposures than this, so that the time is bounded; the paper has no such bound. It leaves
-/// out what is darker than the brightest pixel by more than so many stops.
+/// The largest number of exposures. It bounds the run time; the paper has no such bound. Parts of
+/// the image that are darker than the brightest pixel by more than this number of stops are not
+/// considered.
 inline constexpr int kMostExposures = 64;
 
-/// From the exposure that shows the brightest pixel of the reference at 85 % of white to the one
-/// that shows its median luminance so, about one a stop and at least two. The median is that of the
-/// pixels that are not black when it would be 0; a black reference is seen at exposure 0. Negative
-/// values count as 0.
+/// Returns the exposures from the one that shows the brightest pixel of the reference at 85 % of
+/// white to the one that shows its median luminance at 85 % of white. There is about one exposure
+/// per stop, and there are at least two. If the median is 0, the median of the pixels that are not
+/// black is used. A black reference is viewed at exposure 0. Negative values count as 0.
 ExposureRange exposure_range(std::span<const Rgb> reference);
 
-/// HDR-FLIP of every pixel: the largest of FLIP over exposure_range(), after the tone mapping curve
-/// of ACES (Narkowicz 2015).
+/// Returns the HDR-FLIP error of every pixel: the largest FLIP over exposure_range(), after the
+/// tone mapping curve of ACES (Narkowicz 2015).
 std::vector<double> hdr_flip_errors(const PixelPair& pair, const Viewer& viewer = {});
 
 }  // namespace pharos

@@ -35,7 +35,7 @@ constexpr std::array<MetricInfo, kMetricCount> kInfos{{
 
 using Errors = std::vector<double>;
 
-/// The mean over R, G and B of `term(value, reference)` at every pixel.
+/// Returns for every pixel the mean of `term(value, reference)` over R, G and B.
 template <class Term>
 Errors rgb_means(const PixelPair& pair, const Term& term) {
   Errors errors(pair.size());
@@ -72,8 +72,8 @@ double symmetric_error(double value, double reference) {
          (0.5 * (std::abs(value) + std::abs(reference)) + kRelativeFloor);
 }
 
-/// The smallest error that at least 99.9 % of the valid pixels do not exceed; of fewer than
-/// kPixelsPerCapped pixels that is the largest.
+/// Returns the smallest error that at least 99.9 % of the valid pixels do not exceed. For fewer
+/// than kPixelsPerCapped pixels, this is the largest error.
 double cap_of(const Errors& errors, const PixelPair& pair) {
   Errors valid;
   for (std::size_t i = 0; i < errors.size(); ++i) {
@@ -147,7 +147,7 @@ Image error_map(Metric metric, const Image& image, const Image& reference) {
   const Errors errors = pixel_errors(metric, pair);
   Image map(pair.width, pair.height, {"Y"});
   for (std::size_t i = 0; i < errors.size(); ++i) {
-    // Squares of large values may be beyond what a float holds.
+    // Squares of large values can exceed the range of a float.
     constexpr double most = std::numeric_limits<float>::max();
     map.values()[i] = pair.valid[i] ? static_cast<float>(std::min<double>(errors[i], most))
                                     : std::numeric_limits<float>::quiet_NaN();

@@ -11,7 +11,7 @@
 namespace pharos {
 namespace {
 
-/// The colors of an image whose channels may stand in any order.
+/// Reads the colors of an image with channels in any order.
 class ColorReader {
  public:
   ColorReader(const Image& image, std::string_view name) : image_(image) {

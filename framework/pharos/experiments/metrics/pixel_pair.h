@@ -10,8 +10,8 @@
 namespace pharos {
 
 /// An image and its reference, pixel by pixel, rows from the top. Pixels with a value that is not
-/// finite in either are invalid: black in both, so that no filter spreads them, and left out of
-/// every mean.
+/// finite in either image are invalid. They are black in both images, so that no filter spreads
+/// them, and are left out of every mean.
 struct PixelPair {
   int width = 0, height = 0;
   std::vector<Rgb> image, reference;
@@ -21,18 +21,18 @@ struct PixelPair {
   std::size_t size() const { return valid.size(); }
 };
 
-/// The channels R, G and B of `image`, in this order and no others. Throws InputError, naming it,
-/// when it has none.
+/// Returns the channels R, G and B of `image`, in this order and no others. Throws InputError, with
+/// the name of the image, if a channel is missing.
 Image rgb_only(const Image& image, std::string_view name = "the image");
 
-/// Channels R, G and B of both. Throws InputError, naming both, when sizes differ, when one has no
-/// such channels, and when no pixel is finite in both.
+/// Pairs the channels R, G and B of both images. Throws InputError, with both names, if the sizes
+/// differ, if an image lacks these channels, or if no pixel is finite in both.
 PixelPair pair_pixels(const Image& image, const Image& reference,
                       std::string_view image_name = "the image",
                       std::string_view reference_name = "the reference");
 
-/// The mean of `errors`, one a pixel, over the valid pixels: summed by rows, so that the bits are
-/// the same for any number of threads.
+/// Returns the mean of `errors`, one per pixel, over the valid pixels. The sum is accumulated by
+/// rows, so it has the same bits for any number of threads.
 double mean_error(const std::vector<double>& errors, const PixelPair& pair);
 
 }  // namespace pharos

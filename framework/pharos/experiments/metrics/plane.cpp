@@ -6,7 +6,7 @@
 namespace pharos {
 namespace {
 
-/// to[x] += weight * from[x]; simple enough for the compiler to use vector instructions.
+/// Adds weight * from[x] to each to[x]. The loop is simple enough for the compiler to vectorize.
 void accumulate(float* to, const float* from, float weight, int count) {
   for (int x = 0; x < count; ++x) to[x] += weight * from[x];
 }

@@ -5,7 +5,7 @@
 
 namespace pharos {
 
-/// One float a pixel, rows from the top.
+/// One float per pixel, rows from the top.
 struct Plane {
   Plane() = default;
   Plane(int w, int h) : width(w), height(h), values(static_cast<std::size_t>(w) * h) {}
@@ -23,8 +23,9 @@ struct Kernel {
   std::vector<float> weights;  ///< 2 radius + 1
 };
 
-/// The plane seen through the separable filter along_x(i) along_y(j): the value at (x, y) is the
-/// sum of weights times the values at (x + i, y + j), the border's values going on outside.
+/// Returns the plane filtered by the separable filter along_x(i) along_y(j). The value at (x, y) is
+/// the sum of weights times the values at (x + i, y + j). Outside of the plane, the values at the
+/// border continue.
 Plane filtered(const Plane& plane, const Kernel& along_x, const Kernel& along_y);
 
 /// Adds `other`, of the same size, to `plane`.

@@ -7,7 +7,7 @@
 namespace pharos {
 namespace {
 
-/// The values of the methods, each by seed.
+/// The values of all methods. Each method has one value per seed.
 using MethodValues = std::vector<std::vector<double>>;
 
 bool has_run(const ExperimentResults& results, const std::string& scene,

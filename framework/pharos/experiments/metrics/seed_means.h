@@ -8,15 +8,18 @@
 
 namespace pharos {
 
-/// What is told of a run, given the baseline's run of the same scene and seed, which may be null;
-/// NaN for nothing.
+/// Returns a value of `run`. `baseline` is the baseline's run of the same scene and seed, or null.
+/// NaN means that there is no value.
 using RunValue = std::function<double(const RunRecord& run, const RunRecord* baseline)>;
 
-/// The means of a scene's runs, method by method, over the seeds that all methods have; others
-/// could not be compared. With `has_ratios` they are geometric, with the geometric mean of the
-/// ratios to the baseline of the same seed, provided that all values of the row are positive; else
-/// arithmetic. A method with a value that is not finite has none. Intervals of 95 % where there are
-/// several seeds.
+/// Returns one row of a table: for each method the mean of a scene's runs. Only those seeds count
+/// that all methods have, except methods without any run of the scene, because other seeds could
+/// not be compared.
+///
+/// With `has_ratios`, and if all values of the row are positive, the means are geometric and come
+/// with the geometric mean of the ratios to the baseline of the same seed. Otherwise the means are
+/// arithmetic. A method with a value that is not finite has no mean. If there are several seeds,
+/// means and ratios have 95 % intervals.
 ReportTable::Row row_over_seeds(const ExperimentResults& results, const std::string& scene,
                                 bool has_ratios, const RunValue& value);
 

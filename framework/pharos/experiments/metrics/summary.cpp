@@ -13,11 +13,11 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-/// What is told of a run.
+/// A measure of runs and its table.
 struct RunMeasure {
-  ReportTable head;  ///< without rows
-  bool has_ratios;   ///< values are positive, and twice as much is as much again
-  bool is_error;     ///< shown even where it is zero
+  ReportTable head;  ///< the table without rows
+  bool has_ratios;   ///< values are positive and their ratios are meaningful
+  bool is_error;     ///< also shown if all values are zero
   std::function<double(const RunRecord&)> value;
 };
 

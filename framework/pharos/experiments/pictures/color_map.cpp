@@ -11,7 +11,7 @@
 namespace pharos {
 namespace {
 
-/// Every 17th of the 256 colors, sRGB-encoded.
+/// Every 17th of the 256 colors of magma, sRGB-encoded.
 constexpr std::array<Rgb, 16> kMagma{{
     {0.001462f, 0.000466f, 0.013866f},
     {0.043830f, 0.033830f, 0.141886f},

@@ -9,16 +9,16 @@
 namespace pharos {
 namespace {
 
-/// Brightness of surfaces that are seen head-on and edge-on, linear: dark enough for the cloud to
+/// The linear brightness of surfaces seen head-on and edge-on. It is dark enough for the cloud to
 /// stand out.
 constexpr float kHeadOn = 0.16f, kEdgeOn = 0.02f;
-/// A cloud's opacity is its position on the scale to this power: only what is densest hides the
-/// rest.
+/// The exponent that turns the position on the scale into a cloud's opacity. Only the densest parts
+/// hide what is behind them.
 constexpr double kThinning = 2;
-/// Brightness and half width [pixels] of the box's edges.
+/// Brightness and half the width [pixels] of the box's edges.
 constexpr float kEdgeBrightness = 0.25f, kEdgeHalfWidth = 0.75f;
 
-/// Calls `set(x, y)` for every pixel, rows concurrently.
+/// Calls `set(x, y)` for every pixel. Rows run concurrently.
 template <class Set>
 void for_each_pixel(int width, int height, const Set& set) {
   parallel_for(static_cast<std::size_t>(height), [&](std::size_t row) {
@@ -26,13 +26,13 @@ void for_each_pixel(int width, int height, const Set& set) {
   });
 }
 
-/// The ray through the middle of a pixel.
+/// Returns the ray through the center of a pixel.
 Ray pixel_ray(const CloudView& view, int x, int y) {
   return view.ray((static_cast<float>(x) + 0.5f) / static_cast<float>(view.width),
                   (static_cast<float>(y) + 0.5f) / static_cast<float>(view.height));
 }
 
-/// The part of a ray within a box, as distances; empty when begin >= end.
+/// The part of a ray within a box, as distances. It is empty if begin >= end.
 struct Stretch {
   float begin, end;
 };
@@ -52,7 +52,7 @@ Stretch within(const Bounds3& box, const Ray& ray) {
   return all;
 }
 
-/// A view from afar without perspective: a square of space that is seen along its normal.
+/// A view from afar without perspective: a square in space, viewed along its normal.
 struct ObliqueSquare {
   explicit ObliqueSquare(const Bounds3& bounds) : center(bounds.center()) {
     constexpr float kMargin = 1.02f;
@@ -62,7 +62,7 @@ struct ObliqueSquare {
   Ray ray(float u, float v) const {
     return {center + edge * ((u - 0.5f) * right + (0.5f - v) * up - forward), forward};
   }
-  /// The position in the picture that shows `point`.
+  /// Returns the position of `point` in the picture.
   Vec2 position(Point3 point) const {
     const Vec3 offset = (point - center) / edge;
     return {0.5f + dot(offset, right), 0.5f - dot(offset, up)};
@@ -83,7 +83,7 @@ float distance_to_segment(Vec2 p, Vec2 a, Vec2 b) {
   return std::hypot(p.x - nearest.x, p.y - nearest.y);
 }
 
-/// The twelve edges of a box in the picture.
+/// Returns the twelve edges of a box in the picture.
 std::vector<std::pair<Vec2, Vec2>> projected_edges(const Bounds3& bounds) {
   const ObliqueSquare square(bounds);
   const auto corner = [&](unsigned i) {

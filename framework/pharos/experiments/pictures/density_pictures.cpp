@@ -6,7 +6,7 @@
 namespace pharos {
 namespace {
 
-/// Longer edge of a slice, and height of a picture over directions [pixels].
+/// The longer edge of a slice, and the height of a picture over directions [pixels].
 constexpr int kEdge = 192;
 
 DensityPicture slice(const GuidingModel& model, const Bounds3& bounds, int axis) {

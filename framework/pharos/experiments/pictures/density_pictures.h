@@ -9,16 +9,16 @@
 
 namespace pharos {
 
-/// A picture of a learned density, one channel "Y", up to a constant factor.
+/// A picture of a learned density in one channel "Y", up to a constant factor.
 struct DensityPicture {
-  std::string name;  ///< such as "slice-z"; names a file
+  std::string name;  ///< such as "slice-z"; part of a file name
   std::string caption;
   Image image;
 };
 
-/// Slices of the density over the scene's bounds through their center, seen along x, y and z, and
-/// the density over directions (latitude-longitude, +y up) at the surface in the middle of a
-/// picture of `width` x `height` pixels, where there is one.
+/// Returns slices of the density through the center of the scene's bounds, viewed along x, y and z.
+/// If there is a surface in the middle of a picture of `width` x `height` pixels, also returns the
+/// density over directions at this surface (latitude-longitude, +y up).
 std::vector<DensityPicture> density_pictures(const GuidingModel& model, const Scene& scene,
                                              int width, int height);
 

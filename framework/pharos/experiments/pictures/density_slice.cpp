@@ -9,17 +9,17 @@
 namespace pharos {
 namespace {
 
-/// Most that the brightest color of a scale is above the darkest.
+/// The largest ratio of the values of the brightest and the darkest color.
 constexpr float kDecades = 1e6f;
 
-/// The axes of a slice: along its rows, and along its columns.
+/// The axes of a slice along its rows and along its columns.
 struct SliceAxes {
   int row, column;
-  bool upwards;  ///< whether the columns' axis runs up, not down
+  bool upwards;  ///< whether the columns' axis points up instead of down
 };
 constexpr SliceAxes kSliceAxes[3] = {{2, 1, true}, {0, 2, false}, {0, 1, true}};
 
-/// An image of `value(u, v)` at pixel centres.
+/// Returns an image of `value(u, v)` at pixel centers.
 template <class Value>
 Image image_of(int width, int height, const Value& value) {
   Image image(width, height, {"Y"});
@@ -73,8 +73,10 @@ Vec3 latlong_direction(float u, float v) {
 }
 
 Image density_directions(const GuidingModel& model, Point3 point, int height) {
-  return image_of(2 * height, height,
-                  [&](float u, float v) { return model.density(point, latlong_direction(u, v)); });
+  return image_of(2 * height, height, [&](float u, float v) {
+    const Vec3 direction = latlong_direction(u, v);
+    return model.density(point, &direction);
+  });
 }
 
 ColorScale density_scale(const Image& map) {
@@ -86,7 +88,7 @@ ColorScale density_scale(const Image& map) {
   }
   if (high == 0) return {};
   low = std::max(low, high / kDecades);
-  // A map of one value has the brightest color.
+  // A map with one single value gets the brightest color.
   return {.low = low < high ? low : high / 10, .high = high, .logarithmic = true};
 }
 

@@ -11,36 +11,38 @@ namespace pharos {
 /// The names of the axes 0, 1 and 2.
 inline constexpr char kAxisNames[] = "xyz";
 
-/// A rectangle in space and the picture of it. The position (u, v) in [0,1]^2 is counted from the
-/// left upper corner, v downwards.
+/// A rectangle in space and the size of its picture. A position (u, v) in [0,1]^2 starts at the
+/// upper left corner, with v downwards.
 struct SlicePlane {
-  Point3 corner;      ///< left upper [scene units]
-  Vec3 right, down;   ///< its edges, orthogonal [scene units]
+  Point3 corner;      ///< upper left corner [scene units]
+  Vec3 right, down;   ///< orthogonal edges [scene units]
   int width, height;  ///< [pixels]
-  int axis;           ///< that it is orthogonal to
+  int axis;           ///< the axis orthogonal to the rectangle
 
   Point3 at(float u, float v) const { return corner + u * right + v * down; }
-  /// Which way the axes run: "x to the right, y up".
+  /// Returns the directions of the axes, such as "x to the right, y up".
   std::string orientation() const;
 };
 
-/// The slice through `bounds` on which coordinate `axis` is `value`, its longer edge `size` pixels.
-/// y runs upwards where it can; the slice orthogonal to y is seen from above, x to the right.
+/// Returns the slice through `bounds` on which coordinate `axis` is `value`. The longer edge has
+/// `size` pixels. y points up, except in the slice orthogonal to y, which is seen from above with x
+/// to the right.
 SlicePlane slice_plane(const Bounds3& bounds, int axis, float value, int size);
 
-/// GuidingModel::density(point) at the pixels' centres; one channel, "Y".
+/// Returns GuidingModel::density(point) at the pixels' centers, in one channel "Y".
 Image density_slice(const GuidingModel& model, const SlicePlane& plane);
 
-/// The direction that a latitude-longitude image shows at (u, v), counted from the left upper
-/// corner: y is up, the middle of the image is +z (docs/conventions.md, environment maps).
+/// Returns the direction that a latitude-longitude image shows at (u, v), where (0, 0) is the upper
+/// left corner. y is up, and the middle of the image is +z (docs/conventions.md, environment maps).
 Vec3 latlong_direction(float u, float v);
 
-/// GuidingModel::density(point, direction) at the pixels' centres of a latitude-longitude image
-/// twice as wide as it is high; one channel, "Y".
+/// Returns GuidingModel::density(point, direction) at the pixels' centers of a latitude-longitude
+/// image, in one channel "Y". The image is twice as wide as it is high.
 Image density_directions(const GuidingModel& model, Point3 point, int height);
 
-/// A logarithmic scale up to the largest finite value of `map`, over at most six decades and not
-/// below its smallest positive value. Where no value is positive, 0 to 1.
+/// Returns a logarithmic scale up to the largest finite value of `map`. It spans at most six
+/// decades and does not begin below the smallest positive value. If no value is positive, the scale
+/// is 0 to 1.
 ColorScale density_scale(const Image& map);
 
 }  // namespace pharos

@@ -10,23 +10,23 @@
 namespace pharos {
 namespace {
 
-/// How much of what is behind it the ellipsoid of most weight hides; the others' opacities are in
-/// proportion to the roots of their weights, so that wide faint ones do not hide the rest.
+/// The opacity of the ellipsoid with the largest weight. The other opacities are proportional to
+/// the square roots of the weights, so that wide faint ellipsoids do not hide the rest.
 constexpr float kOpacity = 0.7f;
-/// The map's darker part is for what has no weight: an ellipsoid never is as dark as the backdrop.
+/// The darkest position on the color map. Ellipsoids are never as dark as the backdrop.
 constexpr double kDarkest = 0.3;
 
-/// An ellipsoid as the unit ball that L^-1 / reach makes of it.
+/// An ellipsoid, mapped to the unit ball by L^-1 / reach.
 class Ellipsoid {
  public:
-  /// `share` is its weight over the largest one.
+  /// `share` is the weight divided by the largest weight.
   Ellipsoid(const SpatialGaussian& g, float share)
       : g_(g),
         color_(magma(kDarkest + (1 - kDarkest) * share)),
         opacity_(kOpacity * std::sqrt(share)) {}
 
-  /// Where a ray enters it and how much its surface faces the viewer there; negative distances for
-  /// none.
+  /// The point where a ray enters the ellipsoid, and the cosine between the surface there and the
+  /// viewer. The distance is negative if the ray misses.
   struct Hit {
     float distance, cosine, opacity;
     Rgb color;
@@ -40,7 +40,7 @@ class Ellipsoid {
   }
 
  private:
-  /// L^-1 x / reach.
+  /// Returns L^-1 x / reach.
   Vec3 within(Vec3 x) const {
     const std::array<double, 3> z = whitened(g_, {x.x, x.y, x.z});
     return Vec3{static_cast<float>(z[0]), static_cast<float>(z[1]), static_cast<float>(z[2])} /
@@ -52,7 +52,7 @@ class Ellipsoid {
   float opacity_;
 };
 
-/// Scatters evenly in all directions.
+/// A phase function that scatters evenly in all directions.
 class EvenScattering final : public PhaseFunction {
  public:
   float evaluate(Vec3, Vec3) const override { return warp::sphere_pdf(); }
@@ -94,18 +94,22 @@ Image ellipsoid_picture(std::span<const SpatialGaussian> components, const Cloud
   return picture;
 }
 
-SpatialMixture::View mixture_for_picture(const SpatialMixture& model, Point3 point, Point3 from,
-                                         Arena& arena) {
+std::span<const SpatialGaussian> mixture_for_picture(const GuidingModel& model, Point3 point,
+                                                     Point3 from, Arena& arena) {
+  const auto* mixture = dynamic_cast<const SpatialMixture*>(&model);
+  if (mixture == nullptr) return {};
   const EvenScattering even;
   const Vec3 way = from - point;
   const Vec3 back = length_squared(way) > 0 ? normalize(way) : Vec3{0, 0, 1};
   const LocalScattering scattering(even, Rgb(1), back, Transport::radiance);
   const GuidingVertex previous{.position = from, .kind = VertexKind::sensor};
+  const GuidingVertex current{.position = point, .kind = VertexKind::volume};
   const GuidingQuery query{.previous = &previous,
-                           .current = {.position = point, .kind = VertexKind::volume},
+                           .current = current,
                            .towards_previous = back,
-                           .scattering = scattering};
-  return model.mixture_at(query, arena);
+                           .scattering = &scattering,
+                           .region = model.place(current).region};
+  return mixture->mixture_at(query, arena);
 }
 
 }  // namespace pharos

@@ -8,18 +8,19 @@
 
 namespace pharos {
 
-/// How many standard deviations ellipsoids reach: a rod or a plate of even density ends there, at
-/// sqrt(3) of its own.
+/// The reach of ellipsoids [standard deviations]. A rod or a plate of even density ends at sqrt(3)
+/// of its standard deviation.
 inline constexpr float kEllipsoidReach = 1.7320508f;
 
-/// The components of a mixture as ellipsoids over `backdrop`, all of them in front of it and half
-/// transparent: the larger its weight, the brighter a component. Three channels, linear.
+/// Draws the components of a mixture as ellipsoids over `backdrop`, all in front of it and half
+/// transparent. The larger the weight of a component, the brighter its ellipsoid. Returns three
+/// linear channels.
 Image ellipsoid_picture(std::span<const SpatialGaussian> components, const CloudView& view,
                         const Image& backdrop);
 
 /// The mixture that a model offers to a path at a point which comes from `from`, as an even
 /// scatterer would ask for it; it lives in the model or in `arena`.
-SpatialMixture::View mixture_for_picture(const SpatialMixture& model, Point3 point, Point3 from,
-                                         Arena& arena);
+std::span<const SpatialGaussian> mixture_for_picture(const GuidingModel& model, Point3 point,
+                                                     Point3 from, Arena& arena);
 
 }  // namespace pharos

@@ -8,7 +8,7 @@ namespace pharos {
 namespace {
 
 constexpr Rgb kPaper{1, 1, 1}, kEdge{0.5f, 0.5f, 0.5f}, kInk{0.01f, 0.015f, 0.03f};
-constexpr int kGap = 12;  // between the pictures of a contact sheet [pixels]
+constexpr int kGap = 12;  // gap between the pictures of a contact sheet [pixels]
 
 void fill(Image& image, Rgb color) {
   for (int y = 0; y < image.height(); ++y) {
@@ -25,7 +25,7 @@ void draw_frame(Image& image, Rgb color) {
   }
 }
 
-/// A disk with soft edges; parts off the image are cut.
+/// Draws a disk with soft edges. Parts outside of the image are cut off.
 void draw_disk(Image& image, Vec2 center, float radius, Rgb color) {
   const auto first = [&](float c) { return std::max(0, static_cast<int>(c - radius - 1)); };
   const auto last = [&](float c, int size) {

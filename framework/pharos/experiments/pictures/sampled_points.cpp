@@ -13,7 +13,7 @@ void NamedSampler::describe(Schema<NamedSampler>& s) {
   s.field("name", &NamedSampler::name, "Name in tables")
       .required()
       .check(kEntryNameRule, is_entry_name);
-  s.field("sampler", &NamedSampler::sampler, "Where points come from").required();
+  s.field("sampler", &NamedSampler::sampler, "Sampler that makes the points").required();
 }
 
 std::unique_ptr<const PreparedSampler> prepare_for_points(const Sampler& sampler,

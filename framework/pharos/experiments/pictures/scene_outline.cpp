@@ -7,18 +7,18 @@
 namespace pharos {
 namespace {
 
-/// Width of the lines [pixels].
+/// The width of the lines [pixels].
 constexpr float kLineWidth = 2;
 
-/// A line of pixels of the slice, along a row or a column.
+/// A line of pixels in the slice, along a row or a column.
 struct PixelLine {
-  Ray ray;          ///< from a pixel before the first one, along the line
-  int count;        ///< of pixels
-  float pixel;      ///< its length along the line [scene units]
+  Ray ray;          ///< along the line, from one pixel before the first
+  int count;        ///< number of pixels
+  float pixel;      ///< length of a pixel along the line [scene units]
   float* first;     ///< coverage of the first pixel
-  std::size_t gap;  ///< from a pixel's coverage to the next one's
+  std::size_t gap;  ///< stride between the coverages of neighboring pixels
 
-  /// Covers what is near `position`, in pixels from the beginning of the first.
+  /// Covers the pixels near `position` [pixels from the beginning of the first pixel].
   void mark(float position) const {
     const int nearest = static_cast<int>(std::floor(position));
     for (int i = std::max(nearest - 1, 0); i <= std::min(nearest + 1, count - 1); ++i) {
@@ -29,7 +29,7 @@ struct PixelLine {
     }
   }
 
-  /// Marks all that lies on the line, seen from its beginning or from its end.
+  /// Marks all surfaces on the line, traced from its beginning or from its end.
   void mark_surfaces(const Scene& scene, bool from_the_end) const {
     const float length = static_cast<float>(count + 2);
     const Vec3 way = pixel * ray.direction;
@@ -70,12 +70,13 @@ PixelLine column_of(const SlicePlane& plane, int x, Image& image) {
 
 Image scene_outline(const Scene& scene, const SlicePlane& plane) {
   Image image(plane.width, plane.height, {"Y"});
-  if (length(plane.right) == 0 || length(plane.down) == 0) return image;  // it shows a line
+  if (length(plane.right) == 0 || length(plane.down) == 0)
+    return image;  // the slice is only a line
   const auto mark = [&](const PixelLine& line) {
     line.mark_surfaces(scene, false);
     line.mark_surfaces(scene, true);
   };
-  // Columns after rows: both mark the same pixels.
+  // Columns run after rows, because both mark the same pixels.
   parallel_for(static_cast<std::size_t>(plane.height),
                [&](std::size_t y) { mark(row_of(plane, static_cast<int>(y), image)); });
   parallel_for(static_cast<std::size_t>(plane.width),

@@ -6,13 +6,15 @@
 
 namespace pharos {
 
-/// Where the scene's surfaces cross a slice: how much of each pixel a line two pixels wide covers,
-/// 0 to 1; one channel, "Y". Rays within the plane, through the pixels' centres along its rows and
-/// its columns, in both directions, mark what they meet. Surfaces that lie within the plane are not
-/// met. Of surfaces that are nearer to each other than half a pixel one may stand for all.
+/// Draws where the scene's surfaces cross a slice, in one channel "Y": the fraction of each pixel
+/// that a line two pixels wide covers, 0 to 1. Rays within the plane, through the pixels' centers
+/// along rows and columns in both directions, mark the surfaces they hit. Surfaces that lie within
+/// the plane are not hit. If surfaces are closer to each other than half a pixel, one may represent
+/// all.
 Image scene_outline(const Scene& scene, const SlicePlane& plane);
 
-/// Draws white over `colors` (three channels, linear) as far as `coverage`, of the same size, says.
+/// Draws white over `colors` (three channels, linear) with the opacity `coverage`, which has the
+/// same size.
 void draw_over(Image& colors, const Image& coverage);
 
 }  // namespace pharos

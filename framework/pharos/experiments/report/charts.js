@@ -1,4 +1,5 @@
-// Errors over the work done: a chart for each scene (or other subject), of the chosen metric and axis.
+// Charts of errors over the work done: one per scene (or other subject), for the chosen metric and
+// axis.
 
 const kAxisTitles = { samples: "samples a pixel", seconds: "seconds", points: "points" };
 let charts = [];
@@ -6,19 +7,19 @@ let charts = [];
 const chosenCurves = (metric, axis) =>
   report.curves.filter((curve) => curve.metric === metric && curve.axis === axis);
 
-/** Points that a logarithmic axis can show. */
+/** Returns the points that a logarithmic axis can show. */
 const drawnPoints = (curve) =>
   curve.points
     .map((point) => ({ x: toNumber(point.x), y: toNumber(point.y), interval: toInterval(point.interval) }))
     .filter((point) => point.x > 0 && point.y > 0 && Number.isFinite(point.x * point.y))
     .sort((a, b) => a.x - b.x);
 
-/** From a little below to a little above the values, all of them positive. */
+/** Returns the range from a little below to a little above the values, all of them positive. */
 function padded(values, factor) {
   return { min: Math.min(...values) / factor, max: Math.max(...values) * factor };
 }
 
-/** {x, y}: what the axes show, which is all points and the ends of their intervals. */
+/** Returns the ranges {x, y} of the axes, which contain all points and the ends of their intervals. */
 function rangesOf(curves) {
   const points = curves.flatMap(drawnPoints);
   const ends = points.flatMap((point) =>
@@ -26,7 +27,7 @@ function rangesOf(curves) {
   return { x: padded(points.map((point) => point.x), 1.2), y: padded(ends, 1.4) };
 }
 
-/** The curve and the two edges of its band, which no legend names. */
+/** Returns the datasets of the curve and of the two edges of its band. The legend does not list the edges. */
 function datasetsOf(curve, range) {
   const look = methodLook(curve.method);
   const points = drawnPoints(curve);
@@ -45,13 +46,13 @@ function datasetsOf(curve, range) {
 }
 
 function logAxis(title, ink, line, limits) {
-  // Decades, and what lies well between them where there are few decades.
+  // Labels decades. If there are only a few decades, it also labels 2 and 5 within each.
   const digits = Math.log10(limits.max / limits.min) > 1.7 ? [1] : [1, 2, 5];
   const label = (value) => {
     const exponent = Math.floor(Math.log10(value) + 1e-9);
     const leading = value / 10 ** exponent;
     const digit = Math.round(leading);
-    // Without a label there is no line of the grid either.
+    // A value without a label has no grid line either.
     if (!digits.includes(digit) || Math.abs(leading - digit) > 1e-6) return null;
     return digit === 1 && commonExponent(value) !== 0 ? powerOfTen(exponent) : formatNumber(value, 1);
   };
@@ -98,7 +99,7 @@ function slopeText(curve) {
   return `slope ${text}` + (interval ? ` [${low}, ${high}]` : "");
 }
 
-/** Buttons that show and hide curves, with their slopes. */
+/** Returns buttons that show and hide curves, with the slopes of the curves. */
 function legend(curves, chart) {
   return make("ul", { className: "legend" }, ...curves.map((curve, i) => {
     const button = make("button", { type: "button" }, mark(curve.method), curve.method,
@@ -150,7 +151,7 @@ function showCharts() {
   for (const chart of charts) chart.draw();
 }
 
-/** Offers the axes that the metric has curves over. */
+/** Offers the axes for which the metric has curves. */
 function offerAxes() {
   const metric = find("curve-metric").value;
   const select = find("curve-axis");

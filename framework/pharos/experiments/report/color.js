@@ -1,10 +1,10 @@
-// From halfs to the bytes of a canvas, by tables of all 65536 halfs: changing the exposure costs one
-// table and one look-up a value.
+// Conversion of halfs to the bytes of a canvas, by tables of all 65536 halfs. Changing the exposure
+// costs one table and one look-up per value.
 
 const kNoNumber = [255, 0, 255];
 const isNoNumber = (half) => (half & 0x7fff) > 0x7c00;
 
-/** The byte of sRGB (IEC 61966-2-1) of each half times 2^exposure, clipped. */
+/** Returns the sRGB byte (IEC 61966-2-1) of each half times 2^exposure, clipped. */
 function toneTable(exposure) {
   const scale = 2 ** exposure;
   return Uint8Array.from(halfValues, (value) => {
@@ -29,12 +29,12 @@ function radiancePixels(image, table) {
   return pixels;
 }
 
-// Ten samples of "viridis" (van der Walt and Smith, 2015; dedicated to the public domain): even to
-// the eye, also without colors and to the color-blind.
+// Ten samples of "viridis" (van der Walt and Smith, 2015; dedicated to the public domain). The map
+// is perceptually uniform, also without colors and for color-blind people.
 const kFalseColors = ["440154", "482878", "3e4989", "31688e", "26828e", "1f9e89", "35b779", "6ece58",
   "b5de2b", "fde725"].map((hex) => [0, 2, 4].map((at) => parseInt(hex.slice(at, at + 2), 16)));
 
-/** The color at `t` of [0,1]; what is outside has the color of the end. */
+/** Returns the color at `t` in [0,1]. Values outside of the range have the color of the nearest end. */
 function falseColor(t) {
   if (Number.isNaN(t)) return kNoNumber;
   const place = Math.min(1, Math.max(0, t)) * (kFalseColors.length - 1);
@@ -43,14 +43,17 @@ function falseColor(t) {
     Math.round(from + (place - index) * (kFalseColors[index + 1][channel] - from)));
 }
 
-/** Where `value` stands between `low` and `high` on a logarithmic scale; nothing is below all. */
+/**
+ * Returns the position of `value` between `low` and `high` on a logarithmic scale. Zero and
+ * negative values are at 0.
+ */
 function logPlace(value, low, high) {
   if (Number.isNaN(value)) return NaN;
   return value <= 0 ? 0 : Math.log(value / low) / Math.log(high / low);
 }
 
 function mapPixels(map, low, high) {
-  const table = new Uint32Array(65536);  // whole pixels, in the machine's order of bytes
+  const table = new Uint32Array(65536);  // whole pixels, in the machine's byte order
   const bytes = new Uint8Array(table.buffer);
   halfValues.forEach((value, half) =>
     bytes.set([...falseColor(logPlace(value * map.scale, low, high)), 255], 4 * half));
@@ -60,14 +63,14 @@ function mapPixels(map, low, high) {
   return pixels;
 }
 
-/** A canvas of the pixels' own size. */
+/** Returns a canvas of the pixels' own size. */
 function toCanvas(pixels) {
   const canvas = make("canvas", { width: pixels.width, height: pixels.height });
   canvas.getContext("2d").putImageData(pixels, 0, 0);
   return canvas;
 }
 
-/** A bar of the false colors with numbers below, for values from `low` to `high`. */
+/** Returns a bar of the false colors with numbers below, for values from `low` to `high`. */
 function colorBar(low, high) {
   const canvas = make("canvas", { width: 256, height: 1 });
   const pixels = new ImageData(256, 1);

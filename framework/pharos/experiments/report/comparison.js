@@ -1,22 +1,23 @@
-// The image comparison: which images, how they become colors, and the values under the pointer.
+// The image comparison: the choice of images, their conversion to colors, and the values under the
+// pointer.
 
-const kRadiance = "";  // the choice of "Show" that is no error map
-const kMapDecades = 4;  // shown at first, below the 99.5 % quantile
+const kRadiance = "";  // the choice of "Show" without an error map
+const kMapDecades = 4;  // initial range below the 99.5 % quantile
 const kMapQuantile = 0.995;
 
 const comparison = {
-  scene: null,      // of the data
-  loaded: { left: null, right: null },  // {label, radiance, map} of either side
+  scene: null,  // scene of the data
+  loaded: { left: null, right: null },  // {label, radiance, map} of each side
   ranges: new Map(),  // [low, high] as exponents, by scene and metric
-  point: null,      // of the stage, whose pixel is read
+  point: null,  // point of the stage whose pixel is read
   view: null,
-  turn: 0,          // counts choices: what is unpacked late must not win over a later choice
+  turn: 0,  // counts choices, so that images unpacked late do not replace those of a later choice
 };
 
 const mapMetric = () => find("shown").value;
 const mapOf = (image, metric) => image.error_maps.find((map) => map.metric === metric);
 
-/** The exponents that positive values of maps span: {least, most, usual}. */
+/** Returns the exponents that the positive values of maps span: {least, most, usual}. */
 function exponentsOf(maps) {
   const counts = new Map();
   for (const map of maps) {
@@ -32,7 +33,7 @@ function exponentsOf(maps) {
   return { least: Math.log10(values[0]), most: Math.log10(values.at(-1)), usual: Math.log10(usual) };
 }
 
-/** Sets the range's sliders for the scene and metric: as they were left, or by all its maps. */
+/** Returns the range for the scene and metric: as it was last set, or determined from all maps. */
 async function prepareRange() {
   const metric = mapMetric();
   const key = JSON.stringify([comparison.scene.name, metric]);
@@ -57,7 +58,7 @@ function showRange(range) {
   find("map-bar").replaceChildren(colorBar(10 ** range.low, 10 ** range.high));
 }
 
-/** Keeps the ends apart by a tenth of a decade, the moved one winning. */
+/** Moves one end of the range. The ends stay a tenth of a decade apart, and the moved one has priority. */
 async function moveRange(moved) {
   const range = await prepareRange();
   range[moved] = Number(find(`map-${moved}`).value);
@@ -68,7 +69,7 @@ async function moveRange(moved) {
   paint();
 }
 
-/** Unpacks what one side shows: the radiance, and the map when one is chosen and there is one. */
+/** Unpacks the images of one side: the radiance, and the map if one is chosen and exists. */
 async function loadSide(side) {
   const image = comparison.scene.images[find(`${side}-image`).value];
   const map = mapOf(image, mapMetric());
@@ -79,7 +80,7 @@ async function loadSide(side) {
   };
 }
 
-/** Shows what is chosen, once it is unpacked. */
+/** Shows the chosen images as soon as they are unpacked. */
 async function update() {
   const turn = ++comparison.turn;
   try {
@@ -102,7 +103,7 @@ async function paint() {
   const range = metric === kRadiance ? null : await prepareRange();
   if (range) showRange(range);
   find("map-controls").hidden = !range;
-  // The reference shows its radiance beside maps, since it has none.
+  // The reference has no map, so it shows its radiance beside maps.
   find("radiance-controls").hidden = range !== null && ["left", "right"].every((side) => comparison.loaded[side].map);
   const sides = ["left", "right"].map((side) => {
     const { label, radiance, map } = comparison.loaded[side];
@@ -172,7 +173,7 @@ function startComparison() {
   fillSelect(find("scene"), scenes);
   find("scene").addEventListener("change", () => chooseScene(Number(find("scene").value)));
   for (const id of ["left-image", "right-image", "shown"]) find(id).addEventListener("change", update);
-  // The rest needs images to work on.
+  // The rest needs images.
   chooseScene(Number(scenes[0][0])).then(() => {
     takePointers(comparison.view, onPoint);
     takeKeys(comparison.view, { pick, exchange, onPoint });

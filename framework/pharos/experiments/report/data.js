@@ -1,17 +1,20 @@
-// What the page shows, as write_report() left it in <script> elements that are no scripts.
+// The data of the page, as write_report() wrote it into <script> elements that are not scripts.
 
 const report = JSON.parse(document.getElementById("report-data").textContent);
 
-/** A number of the data: null is NaN; infinities come as text. */
+/** Returns a number of the data: null is NaN, and infinities are strings. */
 const toNumber = (value) => (value === null ? NaN : Number(value));
 
-/** {low, high} of an interval of the data, or null. */
+/** Returns {low, high} of an interval of the data, or null. */
 const toInterval = (value) =>
   value === null ? null : { low: toNumber(value[0]), high: toNumber(value[1]) };
 
 const find = (id) => document.getElementById(id);
 
-/** A new element with properties, then children: elements or texts, which stay texts. */
+/**
+ * Makes an element with properties and children. Children are elements or texts; texts are never
+ * parsed as HTML.
+ */
 function make(name, properties = {}, ...children) {
   const element = Object.assign(document.createElement(name), properties);
   element.append(...children);
@@ -23,7 +26,7 @@ function fillSelect(select, choices) {
   select.replaceChildren(...choices.map(([value, text]) => make("option", { value }, text)));
 }
 
-/** The value of each of the 65536 halfs (IEEE 754 binary16). */
+/** The values of all 65536 halfs (IEEE 754 binary16). */
 const halfValues = Float32Array.from({ length: 65536 }, (_, bits) => {
   const sign = bits & 0x8000 ? -1 : 1;
   const exponent = (bits >> 10) & 31;
@@ -32,7 +35,7 @@ const halfValues = Float32Array.from({ length: 65536 }, (_, bits) => {
   return sign * (exponent ? (mantissa + 1024) * 2 ** (exponent - 25) : mantissa * 2 ** -24);
 });
 
-/** Unpacks what PackedImage describes: {width, height, channels, scale, halfs}, planes of halfs. */
+/** Unpacks a PackedImage to {width, height, channels, scale, halfs} with the halfs in planes. */
 async function unpackImage(index) {
   const element = find(`image-${index}`);
   const [width, height, channels, scale] = ["width", "height", "channels", "scale"].map((key) =>
@@ -47,7 +50,7 @@ async function unpackImage(index) {
 
 const unpacked = new Map();
 
-/** The image of that number, unpacked once. */
+/** Returns the image with this index, which is unpacked only once. */
 function loadImage(index) {
   if (!unpacked.has(index)) unpacked.set(index, unpackImage(index));
   return unpacked.get(index);

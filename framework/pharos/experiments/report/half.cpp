@@ -16,7 +16,7 @@ std::uint16_t half_from_float(float value) {
   if (magnitude > kInfinity) return sign | 0x7e00;
   if (magnitude >= kBeyondHalf) return sign | 0x7c00;
   if (magnitude < kSmallestNormal) {
-    // Whole multiples of 2^-24; 1024 of them are the bits of the smallest normal number.
+    // Counts multiples of 2^-24. 1024 of them are the bits of the smallest normal number.
     return sign | static_cast<std::uint16_t>(std::nearbyint(std::abs(value) * 0x1p24f));
   }
   magnitude += 0xfff + ((magnitude >> 13) & 1);

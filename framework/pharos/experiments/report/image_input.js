@@ -1,11 +1,11 @@
-// What pointers and keys do to an ImageView.
+// Pointer and key input of an ImageView.
 
 const kWheelStep = 1.0015;  // magnification for each unit of the wheel
 const kKeyZoom = 1.25;
 const kKeyMove = 40;    // CSS pixels
-const kKeySplit = 0.02;  // of the width
+const kKeySplit = 0.02;  // fraction of the width
 
-/** Drags the line, moves the image, or pinches, by the number of pointers and where they start. */
+/** Drags the line, moves the image, or pinches, depending on the number of pointers and where they start. */
 function takePointers(view, onPoint) {
   const { stage, split } = view;
   const pointers = new Map();
@@ -75,7 +75,7 @@ function takeKeys(view, { pick, exchange, onPoint }) {
     else if (digit) pick(event.shiftKey ? "left" : "right", Number(digit[1]) - 1);
     else return;
     event.preventDefault();
-    // Without a pointer the values are those in the middle.
+    // Without a pointer, the values are read in the middle.
     onPoint({ x: view.width / 2, y: view.height / 2 });
   });
 }

@@ -1,15 +1,15 @@
-// Two images of one size in one place: the left one up to a line, the right one beyond it. Both are
-// moved and magnified together.
+// Two images of one size in one place, divided by a line: the left image is shown left of it, the
+// right image right of it. Both are moved and magnified together.
 
-const kLargestZoom = 96;  // CSS pixels an image's pixel
+const kLargestZoom = 96;  // CSS pixels per image pixel
 
 class ImageView {
-  /** `stage` holds a canvas and the line; `onChange` is called after each drawing. */
+  /** The `stage` holds a canvas and the line. `onChange` is called after each drawing. */
   constructor(stage, canvas, split, onChange) {
     Object.assign(this, { stage, canvas, split, onChange });
     this.sides = [];
-    this.fraction = 0.5;  // of the stage's width, left of the line
-    this.center = { x: 0, y: 0 };  // the image's point in the middle of the stage
+    this.fraction = 0.5;  // fraction of the stage's width left of the line
+    this.center = { x: 0, y: 0 };  // point of the image in the middle of the stage
     this.zoom = 1;
     this.fitted = true;
     new ResizeObserver(() => this.draw()).observe(stage);
@@ -19,7 +19,7 @@ class ImageView {
   get height() { return this.stage.clientHeight; }
   get size() { return { width: this.sides[0].width, height: this.sides[0].height }; }
 
-  /** Shows two canvases; the place stays when the size does. */
+  /** Shows two canvases. The view stays the same if the size does. */
   show(left, right) {
     const before = this.sides.length ? this.size : null;
     this.sides = [left, right];
@@ -64,7 +64,7 @@ class ImageView {
     this.draw();
   }
 
-  /** The image's point at a point of the stage. */
+  /** Returns the point of the image at a point of the stage. */
   imagePoint(x, y) {
     return {
       x: this.center.x + (x - this.width / 2) / this.zoom,
@@ -72,7 +72,7 @@ class ImageView {
     };
   }
 
-  /** No side of the image comes further in than the stage's middle. */
+  /** Limits the position, so that no edge of the image passes the middle of the stage. */
   place() {
     const { width, height } = this.size;
     if (this.fitted) {
@@ -92,7 +92,7 @@ class ImageView {
     canvas.height = Math.round(this.height * density);
     const context = canvas.getContext("2d");
     const scale = this.zoom * density;
-    // Whole pixels of the screen, so that equal pixels of the image look equal.
+    // Positions are whole pixels of the screen, so that equal pixels of the image look equal.
     const left = Math.round(canvas.width / 2 - this.center.x * scale);
     const top = Math.round(canvas.height / 2 - this.center.y * scale);
     const line = Math.round(this.fraction * canvas.width);

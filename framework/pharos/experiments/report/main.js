@@ -1,4 +1,4 @@
-// The page comes to life: the head, then each section that has something to show.
+// Starts the page: the head, then each section that has content.
 
 function startHead() {
   document.title = report.title;
@@ -19,7 +19,7 @@ onTheme(paintMethods);
 startTheme();
 startHead();
 for (const [id, start] of Object.entries(sections)) {
-  // Shown first: charts and images measure the room they have.
+  // The section is shown first, because charts and images measure the space they have.
   find(id).hidden = false;
   if (start()) {
     find("contents").append(make("a", { href: `#${id}` }, find(id).querySelector("h2").textContent));

@@ -11,7 +11,8 @@
 namespace pharos {
 namespace {
 
-/// Infinities stay: they are faults that the page should show as such.
+/// Clamps finite values to the range of a half. Infinities are kept, because they are errors that
+/// the page should show.
 std::uint16_t clamped_half(float value) {
   return half_from_float(std::isfinite(value) ? std::clamp(value, -kLargestHalf, kLargestHalf)
                                               : value);
@@ -57,8 +58,10 @@ PackedImage pack_radiance(const Image& image) {
 }
 
 PackedImage pack_map(const Image& map) {
-  constexpr int kTopExponent = 15;  // the largest value becomes [2^14, 2^15): no rounding overflows
-  constexpr int kLeastExponent = -126;  // of normal floats, which the scale must be
+  constexpr int kTopExponent =
+      15;  // the largest value is scaled to [2^14, 2^15), so rounding cannot overflow
+  constexpr int kLeastExponent =
+      -126;  // smallest exponent of normal floats; the scale must be normal
   float largest = 0;
   for (std::size_t i = 0; i < map.values().size(); i += map.channel_count()) {
     const float magnitude = std::abs(map.values()[i]);

@@ -7,7 +7,7 @@
 namespace pharos {
 namespace {
 
-// Keeps the order in which things are written.
+// This type keeps the order of insertion.
 using Json = nlohmann::ordered_json;
 
 Json interval(const std::optional<Interval>& bounds) {
@@ -64,7 +64,7 @@ Json json(const ReportCurve& curve) {
           {"slope_interval", interval(curve.slope_interval)}};
 }
 
-/// The number by which the page finds an image.
+/// Adds an image and returns the index by which the page finds it.
 std::size_t add(std::vector<PageImage>& images, const Image& image,
                 PackedImage (*pack)(const Image&)) {
   images.push_back({&image, pack});
@@ -92,7 +92,7 @@ std::string utf8(const Json& value) {
   return value.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-/// `text` with each of the letters `< > & "` given by `replacement(letter)`.
+/// Returns `text` with each of the letters `< > & "` replaced by `replacement(letter)`.
 template <class Replacement>
 std::string escaped(const std::string& text, Replacement&& replacement) {
   std::string result;
@@ -126,7 +126,7 @@ PageData page_data(const Report& report) {
   for (const ReportText& text : report.texts) {
     page["texts"].push_back({{"title", text.title}, {"text", text.text}});
   }
-  // Outside of strings JSON has none of these letters but the quotes.
+  // Outside of strings, quotes are the only letters of this set that occur in JSON.
   data.json = escaped(utf8(page), [](char letter) -> std::string {
     switch (letter) {
       case '<':

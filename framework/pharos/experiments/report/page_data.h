@@ -9,22 +9,22 @@
 
 namespace pharos {
 
-/// An image that the page's data names by its place in PageData::images.
+/// An image of the page. The page's data refer to it by its index in PageData::images.
 struct PageImage {
   const Image* image;
   PackedImage (*pack)(const Image&);
 };
 
-/// What the page's scripts read. Numbers that JSON lacks are null (NaN) or "Infinity" and
-/// "-Infinity"; bytes that are not UTF-8 became U+FFFD.
+/// The data that the page's scripts read. Numbers that JSON lacks are null (NaN) or "Infinity" and
+/// "-Infinity". Bytes that are not UTF-8 become U+FFFD.
 struct PageData {
-  std::string json;               ///< safe within a <script> element: no '<', '>' or '&'
-  std::vector<PageImage> images;  ///< as long as the report lives
+  std::string json;               ///< safe in a <script> element: no '<', '>' or '&'
+  std::vector<PageImage> images;  ///< valid as long as the report exists
 };
 
 PageData page_data(const Report& report);
 
-/// `text` as UTF-8 for HTML's text and quoted attributes, on one line.
+/// Converts `text` to UTF-8 for HTML text and quoted attributes, on one line.
 std::string html_text(std::string_view text);
 
 }  // namespace pharos

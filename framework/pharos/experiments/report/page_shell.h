@@ -4,8 +4,8 @@
 
 namespace pharos {
 
-/// The page without its data: page.html with styles, scripts and the chart library written into it
-/// by embed.cmake. `@title@` and `@data@` stand where those go, once each.
+/// Returns the page without its data: page.html with the styles, scripts and the chart library that
+/// embed.cmake writes into it. The placeholders `@title@` and `@data@` occur once each.
 std::string_view page_shell();
 
 }  // namespace pharos

@@ -1,4 +1,4 @@
-// Pictures that are only looked at, in false colors of their logarithm.
+// Pictures that are only shown, not compared, in false colors of their logarithm.
 
 const kPictureDecades = 4;
 
@@ -12,7 +12,7 @@ async function picture({ caption, image }) {
     most = Math.max(most, value);
   }
   if (most === 0) most = 1;
-  // A constant picture still needs a range.
+  // A constant picture also needs a range.
   const low = Math.min(Math.max(least, most / 10 ** kPictureDecades), most / 2);
   const canvas = toCanvas(mapPixels(map, low, most));
   canvas.setAttribute("role", "img");

@@ -80,7 +80,7 @@ void write_page(std::ostream& out, const Report& report) {
   const std::size_t data = shell.find(kData), after_data = data + kData.size();
   const PageData page = page_data(report);
   out.imbue(std::locale::classic());
-  out.precision(9);  // a float's every bit
+  out.precision(9);  // enough digits for every bit of a float
   out << shell.substr(0, title) << html_text(report.title)
       << shell.substr(after_title, data - after_title)
       << "<script type=\"application/json\" id=\"report-data\">" << page.json << "</script>\n";

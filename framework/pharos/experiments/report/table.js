@@ -1,6 +1,6 @@
-// A table for each measure, one of them shown.
+// One table per measure, one of which is shown.
 
-/** The value nothing in the row beats; NaN when the measure has no better or no values. */
+/** Returns the best value of the row; NaN if the measure has no better direction or no values. */
 function bestOf(values, better) {
   const numbers = values.filter((value) => !Number.isNaN(value));
   if (better === "neither" || numbers.length === 0) return NaN;
@@ -38,12 +38,12 @@ function tableRow(row, table) {
 
 const capital = (text) => text[0].toUpperCase() + text.slice(1);
 
-/** A definition as a sentence: with a capital and a full stop. */
+/** Returns a definition as a sentence with a capital letter and a period. */
 function sentence(text) {
   return capital(text) + (/[.!?]$/.test(text) ? "" : ".");
 }
 
-/** What the small print of the cells means. */
+/** Returns the explanation of the small print in the cells. */
 function legendOf(table) {
   const cells = table.rows.flatMap((row) => row.cells);
   const parts = [];

@@ -1,6 +1,6 @@
-// Texts that belong to the results: shown, copied, saved.
+// Texts that belong to the results. They can be read, copied and saved.
 
-/** A name that every file system takes. */
+/** Returns a file name that every file system accepts. */
 function fileName(title) {
   const plain = title.replace(/[^\p{L}\p{N}._-]+/gu, "-").replace(/^[-.]+|-+$/g, "").slice(0, 80) || "text";
   return /\.[A-Za-z]{2,5}$/.test(plain) ? plain : `${plain}.txt`;
@@ -15,7 +15,7 @@ function save(title, text) {
   setTimeout(() => URL.revokeObjectURL(link.href), 10000);
 }
 
-/** By the clipboard's interface; where the browser keeps that from local files, by a selection. */
+/** Copies by the clipboard interface. If the browser denies it to local files, copies by a selection. */
 async function copy(block) {
   try {
     await navigator.clipboard.writeText(block.textContent);

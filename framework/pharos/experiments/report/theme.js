@@ -1,4 +1,4 @@
-// Dark or light: the system's wish at first, then the button's.
+// Dark or light theme: initially the system's setting, then the button's.
 
 const themeListeners = [];
 
@@ -21,7 +21,7 @@ function startTheme() {
   follow();
   wish.addEventListener("change", follow);
   find("theme").addEventListener("click", () => setTheme(theme() === "dark" ? "light" : "dark"));
-  // Paper is light.
+  // Printed pages are light.
   let before = theme();
   addEventListener("beforeprint", () => ((before = theme()), setTheme("light")));
   addEventListener("afterprint", () => setTheme(before));

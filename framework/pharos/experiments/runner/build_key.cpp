@@ -9,7 +9,7 @@
 namespace pharos {
 namespace {
 
-/// The files of all libraries of the process, by name without folder and extensions.
+/// Returns the files of all libraries of the process, by name without folder and extensions.
 std::map<std::string, std::string> loaded_libraries() {
   std::map<std::string, std::string> files;
   dl_iterate_phdr(
@@ -30,7 +30,7 @@ void collect_scalars(const ConfigNode& node, std::set<std::string>& texts) {
   for (const ConfigNode::Entry& entry : node.entries()) collect_scalars(entry.value, texts);
 }
 
-/// The modules that have a plugin of one of these names.
+/// Returns the modules that have a plugin with one of these names.
 std::set<std::string> modules_of(const std::set<std::string>& names, const Registry& registry) {
   std::set<std::string> modules;
   for (const std::string& contract : registry.contracts()) {

@@ -6,8 +6,9 @@
 
 namespace pharos {
 
-/// Stands for the code that renders a config: the content of libpharos and of the modules whose
-/// plugins `resolved` names. Modules that only share a plugin's name with it count too.
+/// Returns a key of the code that renders a config: the content of libpharos and of the modules
+/// whose plugins `resolved` names. A module also counts if any value of the config happens to equal
+/// the name of one of its plugins.
 std::string build_key(const ConfigNode& resolved, const Registry& registry);
 
 }  // namespace pharos

@@ -12,7 +12,7 @@
 namespace pharos {
 namespace {
 
-/// The files beside a glTF file that its buffers lie in.
+/// Returns the files that hold the buffers of a glTF file.
 std::vector<std::filesystem::path> buffers_of(const std::filesystem::path& gltf) {
   std::vector<std::filesystem::path> files;
   std::ifstream in(gltf);
@@ -26,7 +26,7 @@ std::vector<std::filesystem::path> buffers_of(const std::filesystem::path& gltf)
   return files;
 }
 
-/// A file with those that it names in turn.
+/// Returns the key of a file and of the files that it refers to.
 std::string key_of_input(const std::filesystem::path& path) {
   std::string keys = content_key_of_file(path);
   if (path.extension() != ".gltf") return keys;
@@ -34,7 +34,7 @@ std::string key_of_input(const std::filesystem::path& path) {
   return content_key(keys);
 }
 
-/// Replaces every scalar that is the path of one of `files` by what is in it.
+/// Replaces every scalar that is a path in `files` by the key of the file.
 void replace_paths(ConfigNode& node, const std::set<std::string>& files) {
   if (node.is_scalar() && files.contains(node.text())) {
     node = ConfigNode::scalar(key_of_input(node.text()));

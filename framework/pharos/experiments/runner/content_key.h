@@ -7,15 +7,15 @@
 
 namespace pharos {
 
-/// 32 hexadecimal digits that stand for `text` (XXH3, 128 bits).
+/// Returns a hash of `text` as 32 hexadecimal digits (XXH3, 128 bits).
 std::string content_key(std::string_view text);
 
-/// The same for a file's content. Throws RunError when it cannot be read.
+/// Returns the hash of a file's content. Throws RunError if the file cannot be read.
 std::string content_key_of_file(const std::filesystem::path& path);
 
-/// The same for all that determines a render: the resolved config, but for what is written, and the
-/// contents of the files it names, wherever they lie, with the buffers of glTF files. Throws
-/// RunError when a file cannot be read.
+/// Returns the hash of everything that determines a render: the resolved config without its output,
+/// and the contents of the files it names, wherever they are stored, including the buffers of glTF
+/// files. Throws RunError if a file cannot be read.
 std::string content_key(const LoadedConfig& loaded);
 
 }  // namespace pharos

@@ -8,18 +8,19 @@
 
 #include <pharos/config/node.h>
 
-/// Names that config files give to what they compare.
+/// Names that config files give to the things they compare.
 namespace pharos {
 
-/// What a name is made of, in words for messages.
+/// The characters of a name, in words for messages.
 inline constexpr const char* kEntryNameRule =
     "letters, digits, '.', '_', '+' and '-', not '.' first";
 
-/// Whether a name is one: at most 100 letters, so that it can also be that of a file or folder.
+/// Returns whether a name is valid. It has at most 100 characters, so that it can also be the name
+/// of a file or folder.
 bool is_entry_name(const std::string& name);
 
-/// The names of the entries under `key` of a config, in order. Throws InputError when there is none
-/// or a name stands twice.
+/// Returns the names of the entries under `key` of a config, in order. Throws InputError if there
+/// is no entry or a name occurs twice.
 template <class Entry>
 std::vector<std::string> names_of(const std::vector<Entry>& entries, const ConfigNode& root,
                                   const char* key) {
@@ -36,7 +37,7 @@ std::vector<std::string> names_of(const std::vector<Entry>& entries, const Confi
   return names;
 }
 
-/// Throws InputError at `root`'s key `baseline` unless it names one of `names`.
+/// Throws InputError at the key `baseline` of `root` unless `baseline` is one of `names`.
 void check_baseline(const std::string& baseline, const std::vector<std::string>& names,
                     const char* what, const ConfigNode& root);
 

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Measures an image in progress whenever its own samples have doubled.
+/// Measures an image in progress whenever the number of its own samples has doubled.
 class CheckpointLog {
  public:
   explicit CheckpointLog(const Image& reference) : reference_(reference) {}
@@ -38,7 +38,7 @@ class CheckpointLog {
 
   double training_samples() const { return training_samples_; }
 
-  /// All of them, with the end of the run.
+  /// Returns all checkpoints, including the end of the run.
   std::vector<Checkpoint> finish(const RunRecord& record) {
     if (checkpoints_.empty() || checkpoints_.back().samples_per_pixel < record.samples_per_pixel) {
       Checkpoint end{record.samples_per_pixel, record.seconds(), {}};
@@ -52,10 +52,10 @@ class CheckpointLog {
   const Image& reference_;
   std::vector<Checkpoint> checkpoints_;
   double training_samples_ = 0;
-  double next_ = 0;  ///< samples of the final image at the next checkpoint
+  double next_ = 0;  ///< samples of the final image before the next checkpoint
 };
 
-/// Tells how far an experiment is; the time left by what runs took so far.
+/// Reports the progress of an experiment. The remaining time is estimated from the runs so far.
 class RunCounter {
  public:
   RunCounter(std::size_t count, const ExperimentControl& control)
@@ -120,7 +120,7 @@ class Runner {
     std::optional<RunRecord> record;
   };
 
-  /// Those whose reference is there, in the order in which they are made.
+  /// Returns the runs whose reference exists, in the order of execution.
   std::vector<Run> all_runs() const {
     std::vector<Run> runs;
     const std::uint64_t first = results_.config.first_seed;
@@ -175,7 +175,7 @@ class Runner {
     return run.seed == results_.config.first_seed || results_.config.images == KeptImages::all;
   }
 
-  /// What a run of a time budget comes to depends on the machine, too.
+  /// Returns the key of a run. The result of a run with a time budget also depends on the machine.
   std::string key_of(const Run& run) const {
     std::string key =
         fmt::format("{} {} {}", run.cell->key, results_.references[run.cell->scene].key, run.seed);
@@ -186,7 +186,7 @@ class Runner {
     return content_key(key);
   }
 
-  /// The record of an earlier run that would come out the same, with the files that are wanted.
+  /// Returns the record of an earlier run with the same key, if the files that must be kept exist.
   std::optional<RunRecord> load(const Run& run) const {
     std::optional<RunRecord> record = load_record(file_of(run, ".json"));
     if (!record || record->key != key_of(run)) return std::nullopt;
@@ -194,7 +194,7 @@ class Runner {
     return record;
   }
 
-  /// Makes a run, and its files; empty when it was stopped.
+  /// Makes a run and writes its files. Returns empty if it was stopped.
   std::optional<RunRecord> render(const Run& run) {
     remove_run(file_of(run, ""));
     PeakMemory peak;

@@ -12,7 +12,8 @@ bool is_even(std::uint32_t n) {
   return n % 2 == 0;
 }
 
-/// Whether a name is that of a method: the reference has its own place among the images.
+/// Returns whether a name is a valid method name. The name "reference" is reserved for the
+/// reference among the images.
 bool is_method_name(const std::string& name) {
   return is_entry_name(name) && name != "reference";
 }
@@ -38,7 +39,7 @@ void check_budget(const Budget& budget, const ConfigNode& node) {
   }
 }
 
-/// What no single parameter can check.
+/// Makes the checks that concern several parameters.
 void check_together(const ExperimentConfig& config, const ConfigNode& root) {
   names_of(config.scenes, root, "scenes");
   const std::vector<std::string> methods = names_of(config.methods, root, "methods");
@@ -60,15 +61,15 @@ void check_together(const ExperimentConfig& config, const ConfigNode& root) {
 }  // namespace
 
 void ReferenceSettings::describe(Schema<ReferenceSettings>& s) {
-  s.field("image", &ReferenceSettings::image, "Image file to measure against");
-  s.field("spp", &ReferenceSettings::spp, "Samples a pixel, if it is to be rendered");
+  s.field("image", &ReferenceSettings::image, "Image file of the reference");
+  s.field("spp", &ReferenceSettings::spp, "Samples per pixel of a rendered reference");
   s.field("parts", &ReferenceSettings::parts,
-          "Independent renders it is made of: what is finished is kept, and their difference tells "
-          "the reference's own error")
+          "Number of independent renders; finished ones are kept, and their difference gives the "
+          "reference's own error")
       .at_least(2)
       .at_most(1024)
       .check("even", is_even);
-  s.field("settings", &ReferenceSettings::settings, "Laid over the scene's config");
+  s.field("settings", &ReferenceSettings::settings, "Values that override the scene's config");
 }
 
 void ExperimentScene::describe(Schema<ExperimentScene>& s) {
@@ -76,9 +77,9 @@ void ExperimentScene::describe(Schema<ExperimentScene>& s) {
       .required()
       .check(kEntryNameRule, is_entry_name);
   s.field("config", &ExperimentScene::config, "Render config").required();
-  s.field("settings", &ExperimentScene::settings, "Laid over it");
-  s.field("reference", &ExperimentScene::reference, "Instead of the experiment's");
-  s.field("budget", &ExperimentScene::budget, "Instead of the experiment's");
+  s.field("settings", &ExperimentScene::settings, "Values that override the render config");
+  s.field("reference", &ExperimentScene::reference, "Replaces the experiment's reference");
+  s.field("budget", &ExperimentScene::budget, "Replaces the experiment's budget");
 }
 
 void ExperimentMethod::describe(Schema<ExperimentMethod>& s) {
@@ -86,25 +87,27 @@ void ExperimentMethod::describe(Schema<ExperimentMethod>& s) {
       .required()
       .check(std::string(kEntryNameRule) + ", not 'reference'", is_method_name);
   s.field("config", &ExperimentMethod::config,
-          "A config such as a preset, laid over every scene's");
-  s.field("settings", &ExperimentMethod::settings, "Laid over both");
+          "Config such as a preset; its values override every scene's config");
+  s.field("settings", &ExperimentMethod::settings, "Values that override both configs");
 }
 
 void ExperimentConfig::describe(Schema<ExperimentConfig>& s) {
   s.field("title", &ExperimentConfig::title, "Heading of the report");
-  s.field("description", &ExperimentConfig::description, "What is asked, in a sentence or two");
-  s.field("scenes", &ExperimentConfig::scenes, "What is rendered").required();
-  s.field("methods", &ExperimentConfig::methods, "What is compared").required();
-  s.field("settings", &ExperimentConfig::settings, "Laid over all scenes' configs");
-  s.field("budget", &ExperimentConfig::budget, "Of every run: spp or seconds").required();
+  s.field("description", &ExperimentConfig::description,
+          "Question of the experiment, in a sentence or two");
+  s.field("scenes", &ExperimentConfig::scenes, "Scenes to render").required();
+  s.field("methods", &ExperimentConfig::methods, "Methods to compare").required();
+  s.field("settings", &ExperimentConfig::settings, "Values that override all scenes' configs");
+  s.field("budget", &ExperimentConfig::budget, "Budget of every run: spp or seconds").required();
   s.field("seeds", &ExperimentConfig::seeds, "Runs of each method on each scene")
       .at_least(1)
       .at_most(10000);
   s.field("first_seed", &ExperimentConfig::first_seed, "Seed of the first run").at_least(0);
   s.field("baseline", &ExperimentConfig::baseline,
-          "Method that ratios are to; by default the first");
-  s.field("reference", &ExperimentConfig::reference, "What errors are measured against");
-  s.field("images", &ExperimentConfig::images, "Whose images are kept: the first seed's or all");
+          "Method in the denominator of ratios; by default the first");
+  s.field("reference", &ExperimentConfig::reference, "Reference that errors are measured against");
+  s.field("images", &ExperimentConfig::images,
+          "Runs whose images are kept: runs of the first seed or all");
   s.field("output", &ExperimentConfig::output,
           "Folder, relative to the current one; by default the file's name");
   s.field("cache", &ExperimentConfig::cache,

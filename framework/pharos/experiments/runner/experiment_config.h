@@ -12,42 +12,42 @@
 #include <pharos/rendering/budget.h>
 #include <pharos/rendering/render_config.h>
 
-/// What an experiment file says: scenes x methods x seeds at one budget a scene.
+/// The config of an experiment: scenes x methods x seeds, with one budget per scene.
 namespace pharos {
 
-/// Where the images come from that errors are measured against: an image file, or a render of
-/// `spp` samples a pixel by the scene's own config with `settings` laid over it.
+/// The source of the reference image: an image file, or a render of `spp` samples per pixel with
+/// the scene's own config and `settings` applied to it.
 struct ReferenceSettings {
   std::filesystem::path image;
   std::uint32_t spp = 0;
-  std::uint32_t parts = 8;  ///< independent renders that `spp` is divided into, even
+  std::uint32_t parts = 8;  ///< number of independent renders that share `spp`; even
   ConfigNode settings = ConfigNode::mapping();
 
   bool given() const { return !image.empty() || spp > 0; }
   static void describe(Schema<ReferenceSettings>& schema);
 };
 
-/// A render config, with settings that are laid over it.
+/// A render config and settings that override its values.
 struct ExperimentScene {
   std::string name;
   std::filesystem::path config;
   ConfigNode settings = ConfigNode::mapping();
-  ReferenceSettings reference;   ///< instead of the experiment's
-  std::optional<Budget> budget;  ///< instead of the experiment's
+  ReferenceSettings reference;   ///< replaces the experiment's reference
+  std::optional<Budget> budget;  ///< replaces the experiment's budget
 
   static void describe(Schema<ExperimentScene>& schema);
 };
 
-/// Settings that are laid over every scene's config: what is compared.
+/// A method: settings that override values of every scene's config.
 struct ExperimentMethod {
   std::string name;
-  std::filesystem::path config;  ///< such as a preset, below `settings`; empty: none
+  std::filesystem::path config;  ///< such as a preset; `settings` override it; empty: none
   ConfigNode settings = ConfigNode::mapping();
 
   static void describe(Schema<ExperimentMethod>& schema);
 };
 
-/// Whose images are kept as files; the first seed's stand in the report.
+/// The runs whose images are kept as files. The report shows the first seed's images.
 enum class KeptImages { first, all };
 
 template <>
@@ -60,19 +60,19 @@ struct ExperimentConfig {
   std::string title, description;
   std::vector<ExperimentScene> scenes;
   std::vector<ExperimentMethod> methods;
-  ConfigNode settings = ConfigNode::mapping();  ///< laid over all scenes' configs
-  Budget budget;                                ///< of every run, training included
-  std::uint32_t seeds = 8;                      ///< runs of each method on each scene
+  ConfigNode settings = ConfigNode::mapping();  ///< applied to the configs of all scenes
+  Budget budget;                                ///< budget of every run, training included
+  std::uint32_t seeds = 8;                      ///< number of runs of each method on each scene
   std::uint64_t first_seed = 1;
-  std::string baseline;  ///< the method that ratios are to; empty: the first
+  std::string baseline;  ///< denominator of ratios; empty: the first method
   ReferenceSettings reference;
   KeptImages images = KeptImages::first;
   std::string output;           ///< folder, relative to the current one
-  std::filesystem::path cache;  ///< of references; empty: the user's cache folder
+  std::filesystem::path cache;  ///< folder of references; empty: the user's cache folder
 
-  std::filesystem::path source;  ///< the file it was read from, absolute
+  std::filesystem::path source;  ///< absolute path of the file it was read from
 
-  /// What every run of a scene may cost.
+  /// Returns the budget of every run of a scene.
   const Budget& budget_of(const ExperimentScene& scene) const {
     return scene.budget ? *scene.budget : budget;
   }
@@ -80,8 +80,8 @@ struct ExperimentConfig {
   static void describe(Schema<ExperimentConfig>& schema);
 };
 
-/// Reads an experiment file, follows `extends`, applies `overrides` and checks what no single value
-/// shows: names are there and different, the baseline is a method. Throws InputError.
+/// Reads an experiment file, follows `extends`, applies `overrides` and makes the checks that
+/// concern several values: names exist and are unique, the baseline is a method. Throws InputError.
 ExperimentConfig load_experiment(const std::filesystem::path& path,
                                  const std::vector<std::string>& overrides,
                                  const Registry& registry);

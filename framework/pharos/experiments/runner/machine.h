@@ -4,10 +4,10 @@
 
 namespace pharos {
 
-/// Threads that parallel work may use here.
+/// Returns the number of threads that parallel work may use.
 int thread_count();
 
-/// The processor's name as Linux tells it; empty elsewhere.
+/// Returns the processor's name as Linux reports it; empty on other systems.
 std::string processor_name();
 
 }  // namespace pharos

@@ -6,12 +6,13 @@
 
 namespace pharos {
 
-/// Makes the folder of an experiment's results, and keeps it for this process as long as the lock
-/// lives. Throws InputError when it holds the results of another file than `source`, or another
-/// process is at work in it.
+/// Creates the folder of an experiment's results and reserves it for this process while the lock
+/// exists. Throws InputError if the folder holds the results of another file than `source`, or if
+/// another process is using it.
 FileLock claim_folder(const std::filesystem::path& folder, const std::filesystem::path& source);
 
-/// Removes the files of a run, `stem` with any extension, so that none of an earlier config stays.
+/// Removes the files of a run, which are `stem` with any extension, so that no file of an earlier
+/// config remains.
 void remove_run(const std::filesystem::path& stem);
 
 }  // namespace pharos

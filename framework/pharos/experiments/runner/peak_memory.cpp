@@ -8,7 +8,7 @@
 namespace pharos {
 
 PeakMemory::PeakMemory() {
-  malloc_trim(0);  // what earlier work has freed is not this one's
+  malloc_trim(0);  // memory that earlier work has freed must not count
   reset();
 }
 
@@ -20,7 +20,7 @@ std::optional<double> PeakMemory::bytes() {
 
 void PeakMemory::reset() {
   std::ofstream refs("/proc/self/clear_refs");
-  refs << "5" << std::flush;  // the peak starts anew, see proc(5)
+  refs << "5" << std::flush;  // resets the peak, see proc(5)
   known_ = known_ && static_cast<bool>(refs);
 }
 

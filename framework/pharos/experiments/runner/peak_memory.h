@@ -4,20 +4,21 @@
 
 namespace pharos {
 
-/// Measures the most memory that the process holds from its construction on. One at a time; Linux
-/// only: elsewhere, and where the system does not allow it, there is no value.
+/// Measures the largest amount of memory that the process holds after construction. Only one object
+/// may be in use at a time. There is no value on systems other than Linux, and if the system does
+/// not allow the measurement.
 class PeakMemory {
  public:
   PeakMemory();
 
-  /// Runs `work` without counting what it holds.
+  /// Runs `work` without counting the memory that it holds.
   template <class Work>
   void leave_out(Work&& work) {
     take();
     work();
     reset();
   }
-  /// The most memory resident so far [bytes].
+  /// Returns the largest resident memory so far [bytes].
   std::optional<double> bytes();
 
  private:

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A scene's config with the settings for all scenes and its own.
+/// Returns a scene's config with the experiment's settings and the scene's own settings applied.
 ConfigNode scene_config(const ExperimentConfig& experiment, const ExperimentScene& scene,
                         const Registry& registry) {
   ConfigNode node = read_config_or_scene(scene.config, registry);
@@ -61,7 +61,8 @@ PlannedReference plan_reference(const ReferenceSettings& settings, const ConfigN
                                 const Registry& registry) {
   PlannedReference reference{.file = settings.image, .config = merged(scene, settings.settings)};
   if (settings.spp > 0) reference.parts = settings.parts;
-  // A file is compared with images of the scene's size: any budget tells that.
+  // A reference file must have the size of the scene's images. Any budget is enough to determine
+  // this size.
   reference.config.set("budget", budget_node({.spp = std::max(settings.spp / settings.parts, 1u)}));
   const PixelRect window = build_run(reference.config, 0, registry).config.film.window();
   reference.width = window.width(), reference.height = window.height();

@@ -16,10 +16,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Seeds of references: far from those that runs have.
+/// The first seed of references, far from the seeds of runs.
 constexpr std::uint64_t kReferenceSeed = std::uint64_t{1} << 40;
 
-/// The mean of some images of one size.
+/// The mean of images of one size.
 class MeanImage {
  public:
   void add(const Image& image) {
@@ -49,14 +49,15 @@ std::string text_at(const Metadata& metadata, const std::string& key) {
   return entry == metadata.end() ? "" : entry->second;
 }
 
-/// Empty where there is none.
+/// Returns empty if there is no entry.
 std::optional<double> number_at(const Metadata& metadata, const std::string& key) {
   const std::string text = text_at(metadata, key);
   if (text.empty()) return std::nullopt;
   return std::strtod(text.c_str(), nullptr);
 }
 
-/// References of one cache folder, by key; parts of those that are not finished stand beside.
+/// The references of one cache folder, by key. The parts of unfinished references are stored next
+/// to them.
 class Cache {
  public:
   Cache(fs::path folder, std::string key, const PlannedReference& planned)
@@ -86,7 +87,7 @@ class Cache {
                {"pharos:seconds", fmt::format("{}", result.times.budgeted())}});
   }
 
-  /// Makes the whole of its parts.
+  /// Averages all parts to the finished reference and removes the parts.
   void finish(const std::string& config, const std::string& build) const {
     MeanImage whole;
     std::array<MeanImage, 2> halves;
@@ -99,7 +100,8 @@ class Cache {
       samples += number_at(metadata, "pharos:samples_per_pixel").value_or(0);
       seconds += number_at(metadata, "pharos:seconds").value_or(0);
     }
-    // Halves differ by twice the variance of one, which is twice that of the whole.
+    // The mean squared difference of the halves is twice the variance of one half, and the variance
+    // of a half is twice the variance of the whole.
     static constexpr std::array<Metric, 2> metrics{Metric::mse, Metric::relative_mse};
     const ImageErrors difference = measure(halves[0].mean(), halves[1].mean(), metrics);
     write_exr(
@@ -119,7 +121,7 @@ class Cache {
     for (std::uint32_t part = 0; part < planned_.parts; ++part) fs::remove(part_path(part));
   }
 
-  /// Held by the process that renders this reference.
+  /// Returns the file that the process which renders this reference holds locked.
   fs::path lock_path() const { return folder_ / (key_ + ".lock"); }
 
  private:
@@ -155,11 +157,11 @@ std::optional<Reference> find_or_render(const PlannedReference& planned,
                     content_key(content_key(whole) + fmt::format(" in {}", planned.parts)),
                     planned);
   fs::create_directories(cache_folder);
-  // Another process may be rendering the same: its result is then ours.
+  // Another process may be rendering the same reference. In this case, its result is used.
   const auto lock = FileLock::wait(cache.lock_path(), control.stop);
   if (!lock) return std::nullopt;
   if (std::optional<Reference> known = cache.find()) {
-    cache.remove_parts();  // of a process that ended before it could
+    cache.remove_parts();  // parts of a process that ended before it could remove them
     return known;
   }
   for (std::uint32_t part = 0; part < planned.parts; ++part) {

@@ -11,29 +11,30 @@
 
 namespace pharos {
 
-/// What errors are measured against, and where it comes from.
+/// The image that errors are measured against, and its origin.
 struct Reference {
   Image image;                 ///< R, G, B
-  std::string key;             ///< of its content
-  std::filesystem::path file;  ///< given, or in the cache
-  // Of rendered references only; 0 or empty for files that others made.
+  std::string key;             ///< key of its content
+  std::filesystem::path file;  ///< the given file, or the file in the cache
+  // For rendered references only; 0 or empty for files that others made.
   double samples_per_pixel = 0;
   double seconds = 0;
-  std::string version;  ///< of Pharos
-  std::string build;    ///< see build_key(): the code that rendered it
-  /// Its own expected error, from two halves of its parts: results as small as this mean nothing.
+  std::string version;  ///< version of Pharos that rendered it
+  std::string build;    ///< key of the code that rendered it, see build_key()
+  /// The reference's own expected error, from two halves of its parts. Measured errors as small as
+  /// this mean nothing.
   std::optional<double> mse, relative_mse;
 };
 
-/// The folder for references in the user's cache, see user_cache_folder(): references.
+/// Returns the folder "references" in user_cache_folder().
 std::filesystem::path default_reference_cache();
 
 /// Called before each part of a reference is rendered.
 using PartReport = std::function<void(std::uint32_t part, std::uint32_t parts)>;
 
-/// The reference of a plan: from its file or from `cache`, or rendered as far as it is not there
-/// yet; parts that are finished stay in the cache when it is stopped. Empty when it was stopped.
-/// Throws InputError for a file of the cache that is damaged.
+/// Returns the reference of a plan. It is read from its file or from `cache`, or those parts are
+/// rendered that are missing. If the work is stopped, finished parts stay in the cache and the
+/// result is empty. Throws InputError if a file of the cache is damaged.
 std::optional<Reference> find_or_render(const PlannedReference& planned,
                                         const std::filesystem::path& cache,
                                         const Registry& registry, const RenderControl& control,

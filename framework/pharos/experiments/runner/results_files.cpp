@@ -13,10 +13,10 @@ namespace {
 
 using nlohmann::json;
 
-/// Of results.json.
+/// The format version of results.json.
 constexpr int kFormat = 1;
 
-/// The shortest text that reads as the same number; empty for what is not known.
+/// Returns the shortest text that reads as the same number; empty if the value is unknown (NaN).
 std::string csv_number(double value) {
   return std::isnan(value) ? "" : fmt::format("{}", value);
 }
@@ -45,7 +45,7 @@ json cell_json(const ReportCell& cell) {
           {"ratio_interval", interval_json(cell.ratio_interval)}};
 }
 
-/// Measure -> scene -> method -> cell.
+/// Returns cells in the nesting measure -> scene -> method -> cell.
 json tables_json(const Report& report) {
   json tables = json::object();
   for (const ReportTable& table : report.tables) {

@@ -5,17 +5,17 @@
 
 namespace pharos {
 
-/// One line a run: all errors, times and sizes.
+/// Returns CSV with one line per run: all errors, times and sizes.
 std::string runs_csv(const ExperimentResults& results);
-/// One line a checkpoint.
+/// Returns CSV with one line per checkpoint.
 std::string convergence_csv(const ExperimentResults& results);
 
-/// The report of what there is so far: tables, curves, the first seed's images, pictures of learned
-/// densities and the exact configs.
+/// Returns the report of the results so far: tables, curves, the first seed's images, pictures of
+/// learned densities and the exact configs.
 Report experiment_report(const ExperimentResults& results);
 
-/// Writes results.json, runs.csv, convergence.csv and report.html into the output folder; each file
-/// appears whole or not at all. Throws RunError.
+/// Writes results.json, runs.csv, convergence.csv and report.html into the output folder. Each file
+/// is written completely or not at all. Throws RunError.
 void write_results(const ExperimentResults& results);
 
 }  // namespace pharos

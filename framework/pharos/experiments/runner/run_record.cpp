@@ -11,7 +11,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Of the records' files.
+/// The format version of record files.
 constexpr int kFormat = 1;
 
 ImageErrors errors_from(const json& node) {

@@ -53,7 +53,7 @@ std::string comparison_json(const Comparison& comparison) {
   for (std::size_t i = 0; i < comparison.images.size(); ++i) {
     json["images"].push_back(image_json(comparison, i));
   }
-  // File names need not be UTF-8.
+  // File names are not necessarily UTF-8.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 

@@ -8,9 +8,9 @@
 namespace pharos {
 namespace {
 
-/// The only row of every table.
+/// The name of the only row of every table.
 constexpr const char* kScene = "comparison";
-/// Shown beside each image.
+/// The error maps of each image.
 constexpr std::array kMaps{Metric::relative_mse, Metric::flip, Metric::hdr_flip};
 
 std::string file_fact(const ImageFile& image) {

@@ -19,7 +19,7 @@ std::string or_dash(const std::optional<double>& value) {
   return value ? fmt::format("{:.4g}", *value) : "-";
 }
 
-/// A row of what is known of the images, left out when nothing is.
+/// Adds a row with one fact about each image. The row is left out if no image has a value.
 void add_fact(std::vector<TextRow>& rows, const Comparison& comparison, const std::string& title,
               const std::function<std::optional<double>(const MeasuredImage&)>& fact) {
   TextRow row{title};

@@ -19,7 +19,8 @@ std::string budget_text(const Budget& budget) {
                     : fmt::format("{:g} s", *budget.seconds);
 }
 
-/// The experiment's budget, and the scenes that have their own, by budget.
+/// Returns the experiment's budget, followed by the scenes that have a budget of their own, grouped
+/// by budget.
 std::string budgets_text(const ExperimentConfig& config) {
   std::map<std::string, std::string> others;
   for (const ExperimentScene& scene : config.scenes) {
@@ -72,7 +73,7 @@ ReportImage method_image(const fs::path& file, const std::string& method, const 
   return image;
 }
 
-/// The pictures that stand beside a run's image.
+/// Returns the pictures of a run's learned density.
 std::vector<ReportPicture> pictures_of(const fs::path& run, const std::string& method) {
   std::vector<ReportPicture> pictures;
   for (const char* name : {"slice-x", "slice-y", "slice-z", "directions"}) {

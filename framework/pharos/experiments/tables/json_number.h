@@ -9,8 +9,9 @@
 
 namespace pharos {
 
-/// A number in JSON, which has no word for what is not finite: NaN is null, infinities are the
-/// texts "Infinity" and "-Infinity", as JavaScript and Python read them.
+/// Converts a number to JSON, which cannot represent values that are not finite. NaN becomes null,
+/// and infinities become the strings "Infinity" and "-Infinity", as JavaScript and Python read
+/// them.
 template <class Json>
 Json json_number(double value) {
   if (std::isinf(value)) return value > 0 ? "Infinity" : "-Infinity";
@@ -21,7 +22,7 @@ Json json_number(const std::optional<double>& value) {
   return value ? json_number<Json>(*value) : Json(nullptr);
 }
 
-/// The number that json_number() wrote; NaN for everything else.
+/// Returns the number that json_number() wrote; NaN for everything else.
 template <class Json>
 double number_from(const Json& node) {
   if (node.is_number()) return node.template get<double>();

@@ -5,10 +5,11 @@
 
 namespace pharos {
 
-/// A line of a table, one text a column.
+/// One line of a table: one text per column.
 using TextRow = std::vector<std::string>;
 
-/// Rows of one length as lines of columns, two spaces apart, without spaces at their ends.
+/// Formats rows of equal length as lines with aligned columns, two spaces apart, without trailing
+/// spaces.
 std::string aligned(const std::vector<TextRow>& rows);
 
 }  // namespace pharos

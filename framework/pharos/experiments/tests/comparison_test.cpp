@@ -61,7 +61,7 @@ bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-/// The line of `text` that begins with `start`, with single spaces.
+/// Returns the line of `text` that begins with `start`, with single spaces.
 std::string line_of(const std::string& text, const std::string& start) {
   const std::size_t at = text.find("\n" + start) + 1;
   std::string line;
@@ -83,11 +83,11 @@ TEST_CASE("comparison: values, the best, ratios") {
   CHECK(c.images[1].errors[Metric::mse] == 0.0625);
   CHECK_FALSE(c.is_best(0, Metric::mse));
   CHECK(c.is_best(1, Metric::mse));
-  CHECK_FALSE(c.is_best(1, Metric::psnr));  // both are clipped to white: equal
+  CHECK_FALSE(c.is_best(1, Metric::psnr));  // both are clipped to white, so they are equal
   CHECK_FALSE(c.ratio(0, Metric::mse));
   CHECK(*c.ratio(1, Metric::mse) == 0.25);
   CHECK_FALSE(c.ratio(1, Metric::psnr));
-  CHECK_FALSE(c.ratio(1, Metric::flip));  // nothing over nothing: both are clipped to white
+  CHECK_FALSE(c.ratio(1, Metric::flip));  // 0 / 0, because both are clipped to white
 }
 
 TEST_CASE("comparison: for PSNR more is better") {
@@ -163,7 +163,7 @@ TEST_CASE("table: several images") {
   CHECK(line_of(text, "time") == "time [s] - 3.75 -");
   CHECK(line_of(text, "pixels left out") == "pixels left out - - 1");
   CHECK(contains(text, "over 'far'"));
-  // Columns begin at the same place in every row.
+  // Columns begin at the same position in every row.
   const auto column = [&](const std::string& row, const std::string& cell) {
     const std::size_t start = text.find("\n" + row);
     return text.find(cell, start) - start;
@@ -234,7 +234,7 @@ TEST_CASE("error images: the scale covers all maps") {
   Image dark(50, 20, {"Y"}), bright(50, 20, {"Y"});
   for (float& v : dark.values()) v = 0.5f;
   for (float& v : bright.values()) v = 2;
-  bright.values()[0] = 1e9f;  // one of two thousand is above the scale
+  bright.values()[0] = 1e9f;  // one pixel in two thousand is above the scale
   bright.values()[1] = std::numeric_limits<float>::quiet_NaN();
   const ColorScale scale = error_scale(Metric::relative_mse, std::vector{dark, bright});
   CHECK(scale.logarithmic);

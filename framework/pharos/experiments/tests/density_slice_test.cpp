@@ -1,4 +1,5 @@
-// Pictures of densities: planes, directions, scales and clouds, of a model whose mass is known.
+// Tests of pictures of densities: planes, directions, scales and clouds, for models with a known
+// distribution of mass.
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +14,8 @@
 namespace pharos {
 namespace {
 
-/// A Gaussian ball, and over directions one about the direction towards its center.
+/// A density that is a Gaussian ball. Over directions, it is a lobe around the direction towards
+/// the center.
 class BallModel final : public GuidingModel {
  public:
   explicit BallModel(Point3 center) : center_(center) {}
@@ -33,7 +35,7 @@ class BallModel final : public GuidingModel {
   Point3 center_;
 };
 
-/// 1 within a small ball, 0 elsewhere.
+/// A density of 1 within a small ball and 0 elsewhere.
 class PointModel final : public GuidingModel {
  public:
   PointModel(Point3 center, float radius) : center_(center), radius_(radius) {}
@@ -50,12 +52,12 @@ class PointModel final : public GuidingModel {
   float radius_;
 };
 
-/// Four units along x, two along y, one along z.
+/// Bounds of four units along x, two along y and one along z.
 Bounds3 brick() {
   return {{-2, 0, 5}, {2, 2, 6}};
 }
 
-/// The position of the largest value, as (u, v).
+/// Returns the position (u, v) of the largest value.
 Vec2 brightest(const Image& map) {
   Vec2 at;
   float largest = -kInfinity;
@@ -102,7 +104,7 @@ TEST_CASE("slices: the shape of the bounds, brightest where the mass is") {
   check_near(brightest(z), {0.75f, 0.75f}, 0.02f);  // x to the right, y up
   CHECK(slice_plane(brick(), 0, 1, 100).orientation() == "z to the right, y up");
   CHECK(slice_plane(brick(), 1, 1, 100).orientation() == "x to the right, z down");
-  // Away from the mass there is less of it.
+  // The density decreases away from the center.
   const Image away = slice(2, 5.25f);
   CHECK(*away.pixel(75, 37) == doctest::Approx(std::exp(-20 * 0.25) * *z.pixel(75, 37)));
 }
@@ -141,7 +143,7 @@ TEST_CASE("clouds: mass shows where it is seen from the front, the right and abo
   CHECK(seen({middle.x, 2, middle.z}).y < 0.4f);
   CHECK(seen({2, middle.y, middle.z}).x > 0.7f);
   CHECK(seen({-2, middle.y, middle.z}).x < 0.3f);
-  CHECK(seen({middle.x, middle.y, 6}).x < 0.5f);  // the front is at the left of the middle
+  CHECK(seen({middle.x, middle.y, 6}).x < 0.5f);  // the front is to the left of the middle
 }
 
 TEST_CASE("clouds: the largest value on a ray, and nothing outside the bounds") {
@@ -168,7 +170,7 @@ TEST_CASE("clouds: what is dense hides the backdrop, what is not shows it") {
       cloud_picture(row({1, 100, 10}), {.low = 1, .high = 100, .logarithmic = true}, backdrop);
   CHECK(picture.rgb(0, 0) == Rgb(0.25f));
   CHECK(picture.rgb(1, 0) == magma(1));
-  // Halfway on the scale a quarter of the color.
+  // Halfway on the scale, a quarter of the color shows.
   CHECK(picture.rgb(2, 0).b == doctest::Approx(0.75 * 0.25 + magma(0.5).b / 4));
 }
 

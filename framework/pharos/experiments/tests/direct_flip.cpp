@@ -12,7 +12,7 @@ using Triple = std::array<double, 3>;
 using Values = std::vector<double>;
 using Picture = std::vector<Triple>;
 
-// White, and the way back to RGB, as numbers of nine digits.
+// The white point, and the conversion back to RGB, with nine digits.
 constexpr Triple kWhite{0.950428545, 1, 1.088900371};
 
 Triple xyz(const Triple& c) {
@@ -53,7 +53,7 @@ double hyab(const Triple& a, const Triple& b) {
   return std::abs(a[0] - b[0]) + std::sqrt(std::pow(a[1] - b[1], 2) + std::pow(a[2] - b[2], 2));
 }
 
-/// A square table of weights.
+/// A square table of filter weights.
 struct Table {
   int radius;
   Values weights;
@@ -86,7 +86,7 @@ Table sensitivity(double a1, double b1, double a2, double b2, double degrees) {
   return table;
 }
 
-/// A detector along x, or along y when `turned`.
+/// Returns a detector along x, or along y if `turned` is true.
 Table detector(bool point, bool turned, double degrees) {
   const double deviation = 0.5 * 0.082 * degrees;
   Table table(static_cast<int>(std::ceil(3 * deviation)), [&](int x, int y) {
@@ -100,7 +100,7 @@ Table detector(bool point, bool turned, double degrees) {
   return table;
 }
 
-/// What one displayed image gives at a pixel.
+/// The filter responses of one displayed image at a pixel.
 struct Response {
   Triple color;
   double edge, point;
@@ -167,7 +167,8 @@ std::vector<double> direct_flip(const PixelPair& pair, double pixels_per_degree)
 }
 
 std::vector<double> direct_hdr_flip(const PixelPair& pair, double pixels_per_degree) {
-  // Narkowicz' curve of 0.6 x; the x that it shows as 0.85 is the root of a quadratic equation.
+  // Narkowicz' curve is applied to 0.6 x. The x with the value 0.85 is the root of a quadratic
+  // equation.
   const auto tone = [](double v) {
     const double x = 0.6 * std::max(v, 0.0);
     return x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14);

@@ -4,8 +4,9 @@
 
 #include <pharos/experiments/metrics/pixel_pair.h>
 
-/// FLIP and HDR-FLIP a second time, as the papers state them: in double precision, every filter in
-/// full as a table of two dimensions, every pixel by itself. Shares no code with flip.cpp.
+/// A second implementation of FLIP and HDR-FLIP that follows the papers literally: in double
+/// precision, with every filter as a full 2D table, and every pixel independently. It shares no
+/// code with flip.cpp.
 namespace pharos::test {
 
 std::vector<double> direct_flip(const PixelPair& pair, double pixels_per_degree);

@@ -34,7 +34,7 @@ double first_error(const Image& image, const Image& reference) {
   return flip_errors(pair_pixels(image, reference)).front();
 }
 
-/// What single precision may leave; 5e-6 was seen.
+/// The tolerance for rounding in single precision; 5e-6 was observed.
 constexpr double kRounding = 2e-5;
 
 }  // namespace
@@ -65,15 +65,15 @@ TEST_CASE("HDR-FLIP agrees with the papers' formulas, pixel by pixel") {
 }
 
 TEST_CASE("FLIP of constant images in closed form") {
-  // Black and white are 100 apart, green and blue 203.45 after Hunt's adjustment: 41.2761 when
-  // raised to 0.7, as published implementations state it.
+  // The distance of black and white is 100. The distance of green and blue is 203.45 after Hunt's
+  // adjustment, and 41.2761 when raised to 0.7, as published implementations state.
   const double most = 41.2761, white = std::pow(100, 0.7);
   const double expected = 0.95 + 0.05 * (white - 0.4 * most) / (0.6 * most);
   CHECK(first_error(constant(30, 30, Rgb(1)), constant(30, 30, Rgb(0))) ==
         doctest::Approx(expected).epsilon(1e-4));
   CHECK(first_error(constant(30, 30, {0, 1, 0}), constant(30, 30, {0, 0, 1})) ==
         doctest::Approx(1).epsilon(1e-4));
-  // Below the knee: grays of lightness 50 and 60 (CIE L*) are ten apart.
+  // Below the knee: grays of lightness 50 and 60 (CIE L*) have the distance ten.
   const auto gray = [](double lightness) {
     return Rgb(static_cast<float>(std::pow((lightness + 16) / 116, 3)));
   };
@@ -115,7 +115,7 @@ TEST_CASE("HDR-FLIP does not depend on the exposure of both images") {
 }
 
 TEST_CASE("exposures: from the brightest pixel to the median") {
-  // 0.85 of white is shown for 1.9996 on Narkowicz' curve without its exposure.
+  // Narkowicz' curve without its exposure maps 1.9996 to 0.85 of white.
   const auto shown = [](double x) {
     x *= 0.6;
     return x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14);
@@ -134,7 +134,8 @@ TEST_CASE("exposures: from the brightest pixel to the median") {
 TEST_CASE("exposures: dark references") {
   const ExposureRange mostly =
       exposure_range(std::vector<Rgb>{Rgb(4), Rgb(1), Rgb(0.5f), Rgb(0), Rgb(0), Rgb(0), Rgb(0)});
-  CHECK(mostly.last - mostly.first == doctest::Approx(2));  // of 4 over the lit pixels' median 1
+  CHECK(mostly.last - mostly.first ==
+        doctest::Approx(2));  // log2 of 4 divided by the lit pixels' median of 1
   const ExposureRange black = exposure_range(std::vector<Rgb>{Rgb(0), Rgb(-1)});
   CHECK(black.first == 0);
   CHECK(black.last == 0);

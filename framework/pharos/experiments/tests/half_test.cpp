@@ -1,4 +1,4 @@
-// Half precision numbers, against what IEEE 754 says of binary16.
+// Tests of half precision numbers against IEEE 754 binary16.
 
 #include <cmath>
 #include <limits>
@@ -51,7 +51,7 @@ TEST_CASE("floats out of range become infinity or zero") {
   CHECK(half_from_float(65520) == 0x7c00);
   CHECK(half_from_float(1e30f) == 0x7c00);
   CHECK(half_from_float(-std::numeric_limits<float>::infinity()) == 0xfc00);
-  CHECK(half_from_float(0x1p-25f) == 0);  // a tie with zero, which is even
+  CHECK(half_from_float(0x1p-25f) == 0);  // a tie between zero and the smallest half; zero is even
   CHECK(half_from_float(std::nextafter(0x1p-25f, 1.0f)) == 1);
   CHECK(half_from_float(-1e-30f) == 0x8000);
 }

@@ -29,7 +29,7 @@ Image scaled(Image image, float factor) {
   return image;
 }
 
-/// The message of the InputError that `measure` throws.
+/// Returns the message of the InputError that `measure` throws.
 std::string refusal(const Image& image, const Image& reference) {
   try {
     measure(image, reference);
@@ -103,13 +103,14 @@ TEST_CASE("capped MSE: one hot pixel in a thousand counts like its neighbors") {
   image.set_rgb(13, 7, Rgb(1000));
   CHECK(one(Metric::capped_mse, image, reference) == doctest::Approx(0.25));
   CHECK(one(Metric::mse, image, reference) == doctest::Approx((999 * 0.25 + 1e6) / 1000));
-  // A second one is above the quantile's rank.
+  // With two hot pixels, the error of the weaker one is the cap.
   image.set_rgb(14, 7, Rgb(2));
   CHECK(one(Metric::capped_mse, image, reference) == doctest::Approx((998 * 0.25 + 2 * 4) / 1000));
 }
 
 TEST_CASE("capped MSE: known quantiles") {
-  // Errors 0, 1, 4, …, 1999^2: the rank of 99.9 % is 1998, so that the last two are capped.
+  // The errors are 0, 1, 4, …, 1999^2. The rank of 99.9 % is 1998, so the last two errors are
+  // capped.
   const Image reference = constant(100, 20, Rgb(0));
   Image image = reference;
   double sum = 2 * 1997.0 * 1997.0;
@@ -118,7 +119,7 @@ TEST_CASE("capped MSE: known quantiles") {
     if (i < 1998) sum += static_cast<double>(i) * i;
   }
   CHECK(one(Metric::capped_mse, image, reference) == doctest::Approx(sum / 2000));
-  // Fewer than a thousand pixels have no such pixel to cap.
+  // With fewer than a thousand pixels, no pixel is capped.
   const Image few = test::noisy(constant(9, 111, Rgb(1)), 0.5), flat = constant(9, 111, Rgb(1));
   CHECK(one(Metric::capped_mse, few, flat) == one(Metric::mse, few, flat));
 }
@@ -130,7 +131,7 @@ TEST_CASE("metrics: brighter images") {
     CHECK(one(metric, bright, bright_reference) ==
           doctest::Approx(256 * one(metric, image, reference)));
   }
-  // Relative errors stay but for the floor, which hides less in brighter images.
+  // Relative errors stay the same except for the floor, which hides less in brighter images.
   for (const Metric metric : {Metric::relative_mse, Metric::mape, Metric::smape}) {
     const double before = one(metric, scaled(image, 100), scaled(reference, 100));
     const double after = one(metric, scaled(bright, 100), scaled(bright_reference, 100));
@@ -175,7 +176,7 @@ TEST_CASE("metrics: pixels without a value are left out and counted") {
   const ImageErrors clean = measure(image, reference);
   image.set_rgb(3, 3, {kNan, 1, 1});
   image.set_rgb(4, 3, {1, 1, kInfinity});
-  reference.set_rgb(4, 3, Rgb(kNan));  // the same pixel counts once
+  reference.set_rgb(4, 3, Rgb(kNan));  // the same pixel counts only once
   reference.set_rgb(20, 9, {1, -kInfinity, 1});
   const ImageErrors errors = measure(image, reference);
   CHECK(errors.invalid_pixels == 3);

@@ -1,4 +1,4 @@
-// What the page unpacks is the image, up to half precision.
+// Tests that the page unpacks the original image, up to half precision.
 
 #include <algorithm>
 #include <cmath>
@@ -35,7 +35,7 @@ std::string from_base64(const std::string& text) {
   return bytes;
 }
 
-/// The halfs of a packed image, plane after plane, as the page's data.js reads them.
+/// Returns the halfs of a packed image, plane after plane, as the page's data.js reads them.
 std::vector<std::uint16_t> unpacked(const PackedImage& image) {
   const std::string packed = from_base64(image.base64);
   const std::size_t count = static_cast<std::size_t>(image.width) * image.height * image.channels;

@@ -16,8 +16,8 @@ bool is_dark(const Image& image, int x, int y) {
   return luminance(image.rgb(x, y)) < 0.3f;
 }
 
-/// Places each sample on a lattice, so that what it was asked for can be told from the point. Notes
-/// what it is prepared for.
+/// A sampler that places each sample on a lattice, so that the point encodes the request. It
+/// records the settings of its preparations.
 class TellingSampler final : public Sampler {
  public:
   std::unique_ptr<const PreparedSampler> prepare(const PixelGrid& grid, const SamplePlan& plan,
@@ -55,12 +55,13 @@ TEST_CASE("picture of points: x to the right, y up, paper between them") {
   CHECK(image.rgb(25, 10) == Rgb(1));
   CHECK(image.rgb(75, 90) == Rgb(1));
   CHECK(image.rgb(50, 50) == Rgb(1));
-  // A point in the corner is cut at the border.
+  // A point in the corner is cut off at the border.
   CHECK(is_dark(points_picture(std::vector<Vec2>{{0, 0}}, 50), 0, 49));
 }
 
 TEST_CASE("picture of a spectrum: frequencies lie where they belong") {
-  // Equal along (1, -1): all power at multiples of (1, 1), the dual lattice of i (1/4, -1/4).
+  // The points repeat along (1, -1), so all power is at multiples of (1, 1), the dual lattice of i
+  // (1/4, -1/4).
   statistics::PowerSpectrum spectrum(2);
   spectrum.add(std::vector<Vec2>{{0, 0}, {0.25f, 0.75f}, {0.5f, 0.5f}, {0.75f, 0.25f}});
   const Image image = spectrum_picture(spectrum, 50);
@@ -106,7 +107,7 @@ TEST_CASE("sampled points: one pixel's samples in a dimension, a seed a realizat
   const auto spectrum = expected_spectrum(sampler, {{Purpose::pixel}, 16, 3, 17});
   CHECK(spectrum.count() == 3);
   CHECK(sampler.seeds == std::vector<std::uint64_t>{2, 0, 1, 2});
-  // Sixteen points in a row: in phase at (16, 0) and everywhere along y.
+  // Sixteen points in a row are in phase at (16, 0), and in phase at all frequencies along y.
   CHECK(spectrum.at(16, 5) == doctest::Approx(16));
   CHECK(spectrum.at(8, 0) == doctest::Approx(0));
 }

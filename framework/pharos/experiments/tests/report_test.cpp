@@ -1,4 +1,5 @@
-// The report page as a file: what is in it, and that nothing in it breaks out or reaches outside.
+// Tests of the report page as a file: its content, and that nothing in it breaks out of its element
+// or loads anything.
 
 #include <cmath>
 #include <csignal>
@@ -24,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-/// While it lives, writing fails beyond 100 kB of a file, as it does when the disk is full.
+/// Limits the size of files to 100 kB during its lifetime, so that writing fails as on a full disk.
 class SmallFiles {
  public:
   SmallFiles() : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
@@ -59,7 +60,7 @@ std::string written(const Report& report) {
   return content(folder / "report.html");
 }
 
-/// What stands between the first `open` and the next `close` after it.
+/// Returns the text between the first `open` and the next `close` after it.
 std::string between(const std::string& text, const std::string& open, const std::string& close) {
   const std::size_t begin = text.find(open);
   REQUIRE(begin != std::string::npos);
@@ -68,7 +69,7 @@ std::string between(const std::string& text, const std::string& open, const std:
   return text.substr(begin + open.size(), end - begin - open.size());
 }
 
-/// The data as a browser finds it: up to the first end tag.
+/// Returns the data as a browser finds it: up to the first end tag.
 json data_of(const std::string& page) {
   return json::parse(between(page, "id=\"report-data\">", "</script"));
 }
@@ -99,7 +100,7 @@ TEST_CASE("texts come back as they were, whatever they hold") {
   CHECK(data["facts"][0][1] == nasty);
   CHECK(data["texts"][0]["text"] == nasty);
   CHECK(data["scenes"][0]["note"] == nasty);
-  // The same elements as without any text.
+  // The page has the same elements as one without any text.
   const std::string plain = written({});
   for (const char* tag : {"<script", "</script", "<!--", "<b>"}) {
     CAPTURE(tag);
@@ -159,10 +160,10 @@ TEST_CASE("the page forbids itself to load anything, and names nothing to load")
   for (const char* way : {" src=", "href=\"", "@import", "url(", "XMLHttpRequest", "WebSocket(",
                           "sendBeacon", "EventSource", "fetch(", "import("}) {
     CAPTURE(way);
-    // The text of the sample's nasty description is data, which is escaped.
+    // The sample's description contains markup. It is data, so it is escaped.
     CHECK(count(page, way) == (std::string(way) == " src=" ? 1 : 0));
   }
-  // The chart library's notices name where it comes from.
+  // The notices of the chart library contain the addresses of its origin.
   std::size_t addresses = count(page, "http://") + count(page, "https://");
   for (const char* notice :
        {"https://www.chartjs.org\n", "https://github.com/kurkle/color#readme\n"}) {
@@ -206,7 +207,7 @@ TEST_CASE("the file appears whole or not at all") {
   const fs::path path = folder / "report.html";
   std::ofstream(path) << "before";
   Report broken = test::sample_report();
-  // Found out only when most of the page is written.
+  // This error is detected only after most of the page has been written.
   broken.scenes.back().images.back().image = Image(64, 32, {"Y"});
   CHECK_THROWS_AS(write_report(broken, path), InputError);
   CHECK(content(path) == "before");

@@ -1,4 +1,4 @@
-// What an experiment's runs come to.
+// Tests of the tables, curves and CSV files of an experiment's runs.
 
 #include <cmath>
 
@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kScene = 0;
 
-/// A run whose relMSE is `scale` / samples, and that takes `pace` seconds a sample.
+/// Returns a run with the relMSE `scale` / samples that takes `pace` seconds per sample.
 RunRecord run(const std::string& method, std::uint64_t seed, double scale, double pace) {
   RunRecord record{.scene = "s", .method = method, .seed = seed, .samples_per_pixel = 64};
   record.version = "0";
@@ -39,7 +39,7 @@ ExperimentResults results_of(std::vector<RunRecord> records) {
   return results;
 }
 
-/// Two seeds of a baseline, and of a method with half its error at twice its pace.
+/// Returns two seeds of a baseline, and of a method with half its error at twice its speed.
 ExperimentResults two_methods() {
   return results_of({run("base", 1, 1, 0.01), run("fast", 1, 0.5, 0.005), run("base", 2, 4, 0.01),
                      run("fast", 2, 2, 0.005)});
@@ -71,7 +71,8 @@ TEST_CASE("cells are geometric means; ratios pair the seeds") {
   CHECK(base.value == doctest::Approx(2.0 / 64));
   CHECK(fast.value == doctest::Approx(1.0 / 64));
   CHECK(*base.ratio == doctest::Approx(1));
-  // Seeds differ by four times, and yet the ratio is known exactly: it is 1/2 for both.
+  // The seeds differ by a factor of four. The ratio is still known exactly, because it is 1/2 for
+  // both.
   CHECK(*fast.ratio == doctest::Approx(0.5));
   CHECK(fast.ratio_interval->low == doctest::Approx(0.5));
   CHECK(fast.ratio_interval->high == doctest::Approx(0.5));
@@ -89,7 +90,7 @@ TEST_CASE("a single seed has no intervals, a missing method no value, zeros no r
   CHECK(std::isnan(errors.rows[0].cells[1].value));
   CHECK_FALSE(errors.rows[0].cells[1].ratio);
   CHECK_FALSE(table(tables, "seconds_update").rows[0].cells[0].ratio);
-  CHECK_THROWS(table(tables, "model_bytes"));  // nobody has learned anything
+  CHECK_THROWS(table(tables, "model_bytes"));  // no method has a learned model
 }
 
 TEST_CASE("convergence curves are means over seeds, with the slope of each") {
@@ -106,11 +107,11 @@ TEST_CASE("curves of seeds that stopped elsewhere go from where all have begun t
   const ExperimentResults results = results_of({run("base", 1, 1, 0.013), run("base", 2, 1, 0.01)});
   const std::vector<ReportCurve> curves = convergence_curves(results);
   const ReportCurve& seconds = curve(curves, "base", "seconds");
-  // The first runs from 0.013 s to 0.832 s, the second from 0.01 s to 0.64 s.
+  // The first run lasts from 0.013 s to 0.832 s, the second from 0.01 s to 0.64 s.
   REQUIRE(seconds.points.size() == 7);
   CHECK(seconds.points.front().x == doctest::Approx(0.013));
   CHECK(seconds.points.back().x == doctest::Approx(0.64));
-  // Errors fall as one over samples, and so do straight lines between checkpoints.
+  // Errors fall as 1 / samples, and so does the interpolation between checkpoints.
   CHECK(seconds.points.front().y == doctest::Approx(std::sqrt(1 * 0.01 / 0.013)));
   CHECK(seconds.points.back().y == doctest::Approx(std::sqrt(0.013 / 0.64 * 0.01 / 0.64)));
 }
@@ -142,7 +143,8 @@ TEST_CASE("a row's means are of one kind, and errors of zero have a table") {
   const ExperimentResults results = results_of({run("base", 1, 1, 0.01), run("fast", 1, 0, 0.01),
                                                 run("base", 2, 9, 0.01), run("fast", 2, 1, 0.01)});
   const ReportTable errors = table(summary_tables(results), "relative_mse");
-  CHECK(errors.rows[0].cells[0].value == doctest::Approx(5.0 / 64));  // arithmetic, as beside it
+  CHECK(errors.rows[0].cells[0].value ==
+        doctest::Approx(5.0 / 64));  // arithmetic, because another mean of the row is arithmetic
   CHECK(errors.rows[0].cells[1].value == doctest::Approx(0.5 / 64));
   CHECK_FALSE(errors.rows[0].cells[1].ratio);
   const ExperimentResults none = results_of({run("base", 1, 0, 0.01), run("fast", 1, 0, 0.01)});
@@ -153,7 +155,7 @@ TEST_CASE("time to equal error: where a run falls below the baseline's end with 
   const ReportTable table = equal_error_table(two_methods());
   const std::vector<ReportCell>& cells = table.rows[0].cells;
   CHECK(cells[0].value == doctest::Approx(0.64));
-  // Half the error at each sample: 32 samples are enough, at twice the pace.
+  // With half the error at each sample, 32 samples are enough, at twice the speed.
   CHECK(cells[1].value == doctest::Approx(0.16));
   CHECK(*cells[1].ratio == doctest::Approx(0.25));
   CHECK(cells[1].ratio_interval->high == doctest::Approx(0.25));
@@ -161,7 +163,7 @@ TEST_CASE("time to equal error: where a run falls below the baseline's end with 
   const ExperimentResults worse = results_of({run("base", 1, 1, 0.01), run("fast", 1, 3, 0.01)});
   CHECK(std::isnan(equal_error_table(worse).rows[0].cells[1].value));
   CHECK(*equal_error_table(worse).rows[0].cells[0].ratio == doctest::Approx(1));
-  // Ends of the baseline at other times do not move it.
+  // If the baseline's seeds end at different times, its value is the geometric mean of these times.
   const ExperimentResults uneven = results_of({run("base", 1, 1, 0.013), run("fast", 1, 0.5, 0.01),
                                                run("base", 2, 1, 0.01), run("fast", 2, 0.5, 0.01)});
   CHECK(equal_error_table(uneven).rows[0].cells[0].value ==

@@ -8,7 +8,7 @@
 
 namespace pharos::test {
 
-/// Every pixel of one color.
+/// Returns an image with one color in every pixel.
 inline Image constant(int width, int height, Rgb value) {
   Image image(width, height, {"R", "G", "B"});
   for (int y = 0; y < height; ++y) {
@@ -17,7 +17,7 @@ inline Image constant(int width, int height, Rgb value) {
   return image;
 }
 
-/// Colored stripes and a gradient over `stops` stops of brightness.
+/// Returns colored stripes and a gradient over `stops` stops of brightness.
 inline Image pattern(int width, int height, double stops = 2) {
   Image image(width, height, {"R", "G", "B"});
   for (int y = 0; y < height; ++y) {
@@ -33,7 +33,8 @@ inline Image pattern(int width, int height, double stops = 2) {
   return image;
 }
 
-/// `image` times independent numbers of mean 1, spread by `noise`, the same for the same seed.
+/// Returns `image` times independent numbers of mean 1 with the spread `noise`. Equal seeds give
+/// equal results.
 inline Image noisy(const Image& image, double noise, std::uint64_t seed = 1) {
   Image result = image;
   RandomStream random(seed);

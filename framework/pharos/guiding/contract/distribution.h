@@ -10,13 +10,7 @@
 
 namespace pharos {
 
-/// A density with the measure it refers to.
-struct Density {
-  float value = 0;
-  Measure measure = Measure::solid_angle;
-};
-
-/// Kinds of next vertex, as a set.
+/// A set of kinds of path vertices.
 enum class TargetMask : std::uint8_t { surface = 1, volume = 2, environment = 4, all = 7 };
 
 constexpr TargetMask operator|(TargetMask a, TargetMask b) {
@@ -34,31 +28,32 @@ constexpr bool contains(TargetMask set, VertexKind kind) {
   }
 }
 
-/// Whether a vertex of this kind is among `targets`, and in the box, if there is one.
+/// Returns whether a vertex of this kind is among `targets` and inside the box; null: any place.
 inline bool is_target(TargetMask targets, const Bounds3* within, VertexKind kind, Point3 position) {
   return contains(targets, kind) && (within == nullptr || within->contains(position));
 }
 
-/// What a guide proposes for the next vertex.
+/// A proposal for the next path vertex.
 struct Proposal {
-  /// Who decides how far the path goes along `direction`.
+  /// What decides how far the path goes along `direction`.
   enum class Reach : std::uint8_t {
-    medium,   ///< the medium samples a distance, as unguided paths do
-    surface,  ///< through the medium to the next surface or the environment
-    distance  ///< to a volume vertex at `distance`
+    medium,   ///< the medium samples a distance, as in unguided paths
+    surface,  ///< the path crosses the medium to the next surface or the environment
+    distance  ///< the path ends in the medium at `distance`
   };
 
   Vec3 direction;  ///< unit, away from the current vertex
-  /// Events that the step may be. A discrete event here means: take that discrete outcome, along
-  /// its own direction. A smooth direction that turns out to be another event is a zero sample.
+  /// The events that the step may be. A discrete event stands for that discrete outcome, along its
+  /// own direction. If a smooth direction turns out to be an event that is not in the set, the
+  /// sample has value zero.
   EventMask events = EventMask::smooth;
   Reach reach = Reach::medium;
   float distance = 0;                    ///< for Reach::distance [scene units]
-  TargetMask targets = TargetMask::all;  ///< another kind of next vertex is a zero sample
-  const Bounds3* within = nullptr; /**< so is a next vertex outside this box, which lives as long as
-                                        the guide; null: anywhere */
+  TargetMask targets = TargetMask::all;  ///< a next vertex of another kind is a zero sample
+  const Bounds3* within = nullptr; /**< a next vertex outside this box is a zero sample; the box
+                                        lives as long as the guide; null: no limit */
 
-  /// Whether a next vertex like this is one that was proposed.
+  /// Returns whether a next vertex of this kind and position was proposed.
   bool accepts(VertexKind kind, Point3 position) const {
     return is_target(targets, within, kind, position);
   }
@@ -69,34 +64,32 @@ struct Proposal {
 struct ResolvedVertex {
   Vec3 direction;      ///< unit, from the current vertex
   float distance = 0;  ///< infinite for the environment [scene units]
-  Point3 position;     ///< meaningless for the environment
+  Point3 position;     ///< undefined for the environment
   VertexKind kind = VertexKind::surface;
-  Event event = Event::none;  ///< what the step is at the current vertex
-  /// What the medium's own sampling contributes: the density [1/m] of stopping at `distance`
+  Event event = Event::none;  ///< event of the step at the current vertex
+  /// The medium's factor in the density of the step: the density [1/m] of stopping at `distance`
   /// (volume) or the probability [1] of getting there (surface, environment); 1 in empty space.
   float medium_density = 1;
 };
 
-/// How a model is sampled at one vertex: proposes the next vertex and knows its density. Lives in
-/// the arena of the query that made it; constant.
+/// The sampling distribution of a guide at one path vertex. It proposes the next vertex and
+/// evaluates the density of any next vertex. It lives in the arena of the query that made it and is
+/// constant.
 ///
-/// The densities of all vertices that propose() can lead to integrate to at most one (less where
-/// proposals end as zero samples), per discrete event and over direction and distance together.
+/// The densities of all vertices that propose() can lead to integrate to at most one, over discrete
+/// events, directions and distances together. The integral is below one if proposals can end as
+/// zero samples.
 class GuidingDistribution {
  public:
-  /// Draws from the stream's guide_* dimensions. Empty for a valid sample of value zero.
+  /// Draws a proposal from the stream's guide_* dimensions. Empty: a valid sample of value zero.
   virtual std::optional<Proposal> propose(const VertexStream& stream) const = 0;
 
-  /// The density of proposing `vertex`, summed over every branch that could have made it, in the
-  /// measure measure_of(vertex.event, vertex.kind). Branches whose distance the medium decides
-  /// contain the factor `vertex.medium_density`, after discrete events too. Guides that never steer
-  /// distances (GuiderTraits::steers_distance false) leave the factor out and return [1/sr] or, for
-  /// discrete events, [1]; the caller multiplies it in.
-  virtual Density density(const ResolvedVertex& vertex) const = 0;
-
-  /// The part of the model that this comes from; learned mixing is keyed by it. Below
-  /// GuidingModel::region_count().
-  virtual std::uint32_t region() const { return 0; }
+  /// Returns the density with which propose() leads to `vertex`, summed over all ways to propose
+  /// it, in the measure measure_of(vertex.event, vertex.kind). If the medium decides the distance
+  /// of a proposal, its density contains the factor `vertex.medium_density`, after discrete events
+  /// too. Guides that never steer distances (GuiderTraits::steers_distance is false) leave this
+  /// factor out and return [1/sr], or [1] for discrete events; the framework multiplies it in.
+  virtual float density(const ResolvedVertex& vertex) const = 0;
 
  protected:
   ~GuidingDistribution() = default;  // arenas run no destructors

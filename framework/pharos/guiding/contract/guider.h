@@ -5,91 +5,84 @@
 #include <string_view>
 
 #include <pharos/config/component.h>
-#include <pharos/core/arena.h>
 #include <pharos/core/error.h>
 #include <pharos/guiding/contract/distribution.h>
 #include <pharos/guiding/contract/model.h>
-#include <pharos/scene/local_scattering.h>
-#include <pharos/scene/sensor.h>
+#include <pharos/guiding/contract/vertex.h>
 
 namespace pharos {
 
-/// What a guide may know of a path vertex.
-struct GuidingVertex {
-  Point3 position;
-  Vec3 normal;          ///< geometric, unit; zero in media
-  Vec3 shading_normal;  ///< unit; zero in media
-  VertexKind kind = VertexKind::surface;
-  Event event = Event::none;  ///< what happened here; none at the current vertex
-  float roughness = 1;
-};
-
-/// The question a guide is asked: where from here? Everything in it is a function of the path's
-/// prefix.
-struct GuidingQuery {
-  const GuidingVertex* previous = nullptr;  ///< null only at a path's very first vertex
-  GuidingVertex current;
-  Vec3 towards_previous;  ///< unit
-  Transport transport = Transport::radiance;
-  /// Number of the current vertex; the first after the lens is 1. 0: not known, nor is the event at
-  /// `previous`, where paths are made from both ends.
-  std::uint16_t bounce = 1;
-  const LocalScattering& scattering;  ///< BSDF or phase function here
-  const Medium* medium = nullptr;     ///< that the path came through; null: empty space
-};
-
-/// What a guider offers and needs; checked before rendering starts.
+/// What a guider offers. Checked before rendering starts.
 struct GuiderTraits {
-  std::string model;                ///< neutral name of the model contract it binds to
   bool steers_distance = false;     ///< decides how far paths go in media
   bool steers_events = false;       ///< proposes discrete events
-  bool guides_camera = false;       ///< offers the first vertex
-  bool guides_light_paths = false;  ///< is asked along paths from lights too
+  bool guides_camera = false;       ///< proposes the first vertex, and so chooses the pixel
+  bool guides_light_paths = false;  ///< can be asked along paths from lights
 };
 
-/// Proposes the first vertex, and so chooses the pixel.
-class CameraGuider {
- public:
-  virtual ~CameraGuider() = default;
-  /// The distribution of directions from `lens`, or null when nothing is known. Proposals off the
-  /// film are zero samples. Made in `arena`.
-  virtual const GuidingDistribution* query_camera(const PreparedSensor& sensor,
-                                                  const LensPoint& lens, Arena& arena) const = 0;
-};
-
-/// A guider bound to one model: constant, thread-safe, asked at every vertex.
-class BoundGuider {
- public:
-  virtual ~BoundGuider() = default;
-
-  /// The distribution to propose from, made in `arena`; null when nothing is known here. Whether it
-  /// is null depends on the query alone, and so on the path's prefix alone. No heap, no lock.
-  /// Guides that do not steer events must decline purely discrete vertices.
-  virtual const GuidingDistribution* query(const GuidingQuery& query, Arena& arena) const = 0;
-
-  /// Null unless the traits say guides_camera.
-  virtual const CameraGuider* camera() const { return nullptr; }
-};
-
-/// Contract: how a learned model is sampled.
+/// Contract: how a learned model is sampled. Plugins derive from GuiderOf<Model>.
 class Guider : public Component {
  public:
   static constexpr std::string_view contract_name = "guider";
 
   virtual GuiderTraits traits() const = 0;
-  /// Binds to a model; shares its ownership. Throws InputError naming both when the model is none
-  /// that this guider can sample.
-  virtual std::unique_ptr<const BoundGuider> bind(
-      std::shared_ptr<const GuidingModel> model) const = 0;
+
+  // The framework's side of GuiderOf. Only decorators of guiders implement it themselves.
+
+  /// The name of the kind of model that it samples.
+  virtual std::string_view model_name() const = 0;
+  /// Returns the address of that kind of model within `model`; null if `model` is of another kind.
+  virtual const void* find(const GuidingModel& model) const = 0;
+  /// Answers a query; `found` is what find() returned.
+  virtual const GuidingDistribution* query_found(const void* found, const GuidingQuery& query,
+                                                 Arena& arena) const = 0;
 };
 
-/// The model as a Model, for Guider::bind(). Throws InputError naming both when it is none.
+/// Base of guiders that sample models of type `Model`: a class with a member
+/// `static constexpr … kName`, which is a GuidingModel or a neutral contract that models meet.
+/// The framework checks the type once, when a guider is bound to a model.
 template <class Model>
-std::shared_ptr<const Model> bind_model(const std::shared_ptr<const GuidingModel>& model,
-                                        const Guider& guider) {
-  if (auto bound = std::dynamic_pointer_cast<const Model>(model)) return bound;
-  throw InputError("the guider '" + guider.plugin_name() + "' cannot sample the model '" +
-                   model->name() + "'");
-}
+class GuiderOf : public Guider {
+ public:
+  /// Returns the distribution to sample at a vertex, made in `arena`, where it lives until the next
+  /// vertex is known; the query lives as long. Null: nothing is known here, and the vertex is
+  /// sampled by the other methods. Whether it is null depends on the query alone. No heap, no lock.
+  /// Vertices with discrete events only are asked if GuiderTraits::steers_events is true.
+  virtual const GuidingDistribution* query(const Model& model, const GuidingQuery& query,
+                                           Arena& arena) const = 0;
+
+  std::string_view model_name() const final { return Model::kName; }
+  const void* find(const GuidingModel& model) const final {
+    return dynamic_cast<const Model*>(&model);
+  }
+  const GuidingDistribution* query_found(const void* found, const GuidingQuery& question,
+                                         Arena& arena) const final {
+    return query(*static_cast<const Model*>(found), question, arena);
+  }
+};
+
+/// A guider with the model that it samples: constant and thread-safe.
+class BoundGuider {
+ public:
+  /// Shares ownership of the model; the guider must live as long. Throws InputError, naming both,
+  /// if the guider cannot sample the model.
+  BoundGuider(const Guider& guider, std::shared_ptr<const GuidingModel> model)
+      : guider_(&guider), model_(std::move(model)), found_(guider.find(*model_)) {
+    if (found_ != nullptr) return;
+    throw InputError("the guider '" + guider.plugin_name() + "' samples models '" +
+                     std::string(guider.model_name()) + "' and cannot sample the model '" +
+                     model_->info().name + "'");
+  }
+
+  const GuidingModel& model() const { return *model_; }
+  const GuidingDistribution* query(const GuidingQuery& query, Arena& arena) const {
+    return guider_->query_found(found_, query, arena);
+  }
+
+ private:
+  const Guider* guider_;
+  std::shared_ptr<const GuidingModel> model_;
+  const void* found_;
+};
 
 }  // namespace pharos

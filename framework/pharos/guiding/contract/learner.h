@@ -1,13 +1,12 @@
 #pragma once
 
 #include <cstdint>
-#include <iosfwd>
 #include <memory>
-#include <span>
-#include <string>
 #include <string_view>
+#include <vector>
 
 #include <pharos/config/component.h>
+#include <pharos/core/archive.h>
 #include <pharos/core/bounds.h>
 #include <pharos/core/pixel_rect.h>
 #include <pharos/guiding/contract/model.h>
@@ -15,48 +14,39 @@
 
 namespace pharos {
 
-/// Where and with which random numbers a learner works.
+/// The scene and the random numbers of a training.
 struct LearningContext {
   Bounds3 region;                ///< bounds of geometry and sensor [scene units]
   std::uint64_t seed = 0;        ///< random numbers are keyed by (seed, iteration, cell)
-  std::uint32_t iterations = 1;  ///< of training that are planned, each ended by update()
-  PixelRect window{0, 0, 1, 1};  ///< of the film that is rendered [pixels]
+  std::uint32_t iterations = 1;  ///< planned training iterations; update() ends each
+  PixelRect window{0, 0, 1, 1};  ///< the part of the film that is rendered [pixels]
 };
 
-/// What is learned during one render. absorb() and update() are called by one thread at a time;
-/// inside they may use TBB, but the state they leave must not depend on the number of threads.
+/// What one training iteration led to.
+struct Learned {
+  std::shared_ptr<const GuidingModel> model;  ///< null while nothing is known
+  /// For each region of the model the region of the previous model that it came from. Empty: the
+  /// regions are the same as before.
+  std::vector<std::uint32_t> region_origins = {};
+};
+
+/// What is learned during one render. One thread at a time calls its functions. They may use TBB,
+/// but the state they leave must not depend on the number of threads.
 class LearningState {
  public:
   virtual ~LearningState() = default;
 
-  /// The model to start from; null: nothing is known before the first update().
-  virtual std::shared_ptr<const GuidingModel> initial_model() const { return nullptr; }
-
-  /// Takes the recorded paths of one work unit. Called in order of work units.
+  /// Takes the recorded paths of one work unit. Called in the order of work units.
   virtual void absorb(const PathLog& log) = 0;
-  /// Ends training iteration `iteration` (from 0 on); `last` when no further one follows. Returns
-  /// the model for the next iteration; null while nothing is known.
-  virtual std::shared_ptr<const GuidingModel> update(std::uint32_t iteration, bool last) = 0;
-
-  /// Saved state continues training where it stopped; merge() adds what another state absorbed
-  /// since the last update (both began alike and saw the same updates).
-  virtual void save(std::ostream& out) const = 0;
-  virtual void load(std::istream& in) = 0;
-  virtual void merge(const LearningState& other) = 0;
+  /// Ends training iteration `iteration`, counted from 0; `last`: no other iteration follows.
+  virtual Learned update(std::uint32_t iteration, bool last) = 0;
+  /// Saves the state, or loads it into a state that Learner::begin() made for the same render.
+  virtual void archive(Archive& archive) = 0;
 };
 
-/// What a learner offers and needs; checked before rendering starts.
+/// What a learner needs. Checked before rendering starts.
 struct LearnerTraits {
-  std::string model;    ///< neutral name of the model contract that it learns
-  RecordNeeds records;  ///< what paths must carry
-  /// GuidingModel::version() of its models; files of another one are refused.
-  std::uint32_t model_version = 1;
-  std::string also = {};  ///< another model contract that its models meet; empty: none
-
-  /// Whether guiders of this model contract can sample what it learns.
-  bool suits(std::string_view contract) const {
-    return contract == model || (!also.empty() && contract == also);
-  }
+  RecordNeeds records;  ///< what integrators must record
 };
 
 /// Contract: turns recorded paths into a model.
@@ -66,8 +56,9 @@ class Learner : public Component {
 
   virtual LearnerTraits traits() const = 0;
   virtual std::unique_ptr<LearningState> begin(const LearningContext& context) const = 0;
-  /// Reads what GuidingModel::save() wrote. Throws InputError when it is no such model.
-  virtual std::shared_ptr<const GuidingModel> load_model(std::istream& in) const = 0;
+  /// Returns a model that knows nothing, of the type that this learner learns, to load a model
+  /// into.
+  virtual std::shared_ptr<GuidingModel> empty_model() const = 0;
 };
 
 }  // namespace pharos

@@ -2,11 +2,12 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <iosfwd>
 #include <string>
 #include <vector>
 
+#include <pharos/core/archive.h>
 #include <pharos/core/bounds.h>
+#include <pharos/guiding/contract/vertex.h>
 
 namespace pharos {
 
@@ -15,34 +16,41 @@ struct ModelFact {
   std::string name, value;
 };
 
-/// What a learner has learned: immutable, thread-safe. A new one is made for each iteration.
+/// What programs show of a model and need to handle it.
+struct ModelInfo {
+  std::string name;                   ///< of the kind of model
+  std::uint32_t version = 1;          ///< of its saved form: raise it when archive() changes
+  std::size_t bytes = 0;              ///< memory in use
+  std::uint32_t regions = 1;          ///< number of regions that place() may return
+  Bounds3 bounds = {};                ///< where density(point) may be positive; empty: not limited
+  std::vector<ModelFact> facts = {};  ///< depth, leaves, components and the like
+};
+
+/// What a model knows of a vertex before any guide is asked there. Mixing policies decide by it.
+struct Place {
+  std::uint32_t region = 0;  ///< the part of the model that answers here, below ModelInfo::regions
+  float evidence = 1;        ///< training samples behind the answer [1]; 0: nothing is known here
+};
+
+/// What a learner has learned: immutable and thread-safe once it is in use. Each training iteration
+/// makes a new model. Several guiders may sample one model, and a model may also meet neutral
+/// contracts (SpatialMixture, RadianceEstimate).
 class GuidingModel {
  public:
   virtual ~GuidingModel() = default;
 
-  /// Name of the kind of model, and the version of its saved form.
-  virtual std::string name() const = 0;
-  virtual std::uint32_t version() const = 0;
-  /// Memory in use [bytes].
-  virtual std::size_t size_bytes() const = 0;
-  /// Writes what Learner::load_model() reads back to an equal model.
-  virtual void save(std::ostream& out) const = 0;
+  virtual ModelInfo info() const = 0;
 
-  /// Number of regions that distributions may name; learned mixing keeps one state for each.
-  virtual std::uint32_t region_count() const { return 1; }
-  /// For each region the region of the previous iteration's model that it came from. Empty: the
-  /// regions are the same as before.
-  virtual std::vector<std::uint32_t> region_origins() const { return {}; }
+  /// Saves the model, or loads it into the model that Learner::empty_model() returned.
+  virtual void archive(Archive& archive) = 0;
 
-  /// Where density(point) may be positive [scene units]; empty: not limited.
-  virtual Bounds3 bounds() const { return {}; }
-  /// What a reader of its pictures wants to know: depth, leaves, components.
-  virtual std::vector<ModelFact> facts() const { return {}; }
+  /// Returns what the model knows of a vertex. Called once for each vertex of every path: no heap,
+  /// no lock.
+  virtual Place place(const GuidingVertex&) const { return {}; }
 
-  /// How much the model expects around a point, up to a constant factor; for pictures.
-  virtual double density(Point3 point) const = 0;
-  /// How much it expects from `direction` at a point, up to a constant factor; for pictures.
-  virtual double density(Point3 point, Vec3 direction) const = 0;
+  /// Returns how much the model expects around a point, or from `direction` at a point if it is not
+  /// null, up to a constant factor. Used for pictures.
+  virtual double density(Point3 point, const Vec3* direction = nullptr) const = 0;
 };
 
 }  // namespace pharos

@@ -4,9 +4,10 @@
 #include <span>
 #include <string_view>
 
+#include <pharos/core/archive.h>
 #include <pharos/core/arena.h>
 #include <pharos/core/vec.h>
-#include <pharos/guiding/contract/guider.h>
+#include <pharos/guiding/contract/vertex.h>
 
 namespace pharos {
 
@@ -17,6 +18,7 @@ struct SpatialGaussian {
   /// Lower triangle of the Cholesky factor L of the covariance, Sigma = L L^T [scene units]:
   /// l00, l10, l11, l20, l21, l22.
   float cholesky[6] = {1, 0, 1, 0, 0, 1};
+  void archive(Archive& archive) { archive(weight, mean, cholesky); }
 };
 
 /// L^-1 x: where the Gaussian about the origin is a unit one.
@@ -37,21 +39,16 @@ inline double root_determinant(const SpatialGaussian& g) {
 }
 
 /// Neutral contract of models that hold mixtures of 3D Gaussians: guiders of any module can sample
-/// a model that also derives from this. Its name for GuiderTraits and LearnerTraits:
-inline constexpr std::string_view kSpatialMixtureModel = "spatial_mixture";
-
+/// a model that also derives from this.
 class SpatialMixture {
  public:
-  /// A mixture at one vertex and the region it belongs to.
-  struct View {
-    std::span<const SpatialGaussian> components;  ///< empty: nothing known here
-    std::uint32_t region = 0;
-  };
+  static constexpr std::string_view kName = "spatial_mixture";
 
   virtual ~SpatialMixture() = default;
-  /// The mixture of next-vertex positions at a query, perhaps conditioned on its prefix. Lives in
-  /// the model or in `arena`.
-  virtual View mixture_at(const GuidingQuery& query, Arena& arena) const = 0;
+  /// Returns the mixture of positions of the next vertex, which may depend on the prefix of the
+  /// path. It lives in the model or in `arena`. Empty: nothing is known here.
+  virtual std::span<const SpatialGaussian> mixture_at(const GuidingQuery& query,
+                                                      Arena& arena) const = 0;
 };
 
 }  // namespace pharos

@@ -1,104 +1,119 @@
 #include <algorithm>
+#include <array>
 
-#include <pharos/guiding/pipeline/guiding.h>
+#include <pharos/guiding/pipeline/guiding_frame.h>
 
 namespace pharos {
 namespace {
 
+constexpr std::size_t kMostMethods = GuidingSettings::kMostMethods;
+
 /// Branch of guide_choice that chooses among methods; guides number theirs from 0 on.
 constexpr std::uint16_t kMethodBranch = 0xffff;
 
-/// One method's distribution within the mixture.
-struct Part {
-  const GuidingDistribution* distribution = nullptr;
-  float share = 0;
-  bool steers_distance = false;
-  bool steers_events = false;
-
-  std::optional<Proposal> propose(const VertexStream& stream) const {
-    std::optional<Proposal> proposal = distribution->propose(stream);
-    if (!proposal) return proposal;
-    if (!steers_distance) proposal->reach = Proposal::Reach::medium;
-    if (!steers_events) proposal->events = proposal->events & EventMask::smooth;
-    return proposal;
-  }
-
-  float density(const ResolvedVertex& vertex) const {
-    if (is_discrete(vertex.event) && !steers_events) return 0;
-    const float value = distribution->density(vertex).value;
-    return steers_distance ? value : value * vertex.medium_density;
-  }
-};
-
-/// The weighted mixture of all methods that know something at a vertex.
-class Mixture final : public GuidingDistribution {
- public:
-  explicit Mixture(std::span<const Part> parts) : parts_(parts) {}
-
-  std::optional<Proposal> propose(const VertexStream& stream) const override {
-    if (parts_.size() == 1) return parts_[0].propose(stream);
-    float u = stream.get_1d(Purpose::guide_choice, kMethodBranch);
-    std::size_t i = 0;
-    while (i + 1 < parts_.size() && u >= parts_[i].share) u -= parts_[i++].share;
-    return parts_[i].propose(stream);
-  }
-
-  Density density(const ResolvedVertex& vertex) const override {
-    float sum = 0;
-    for (const Part& part : parts_) sum += part.share * part.density(vertex);
-    return {sum, measure_of(vertex.event, vertex.kind)};
-  }
-
- private:
-  std::span<const Part> parts_;
-};
-
-/// Collects what `ask(method)` returns for each method into one distribution.
-template <class Ask>
-Guidance combine(const std::vector<GuidingFrame::Method>& methods, const MixingFractions& fractions,
-                 Arena& arena, Ask&& ask) {
-  Part* parts = arena.make_array<Part>(methods.size());
-  std::size_t count = 0;
+/// Divides the shares of the parts by their sum, so that they share the guided samples.
+void normalize(std::span<GuidePart> parts) {
   float total = 0;
-  Guidance guidance;
-  for (const GuidingFrame::Method& method : methods) {
-    if (method.guider == nullptr) continue;
-    const GuidingDistribution* distribution = ask(method);
-    if (distribution == nullptr) continue;
-    if (count == 0) guidance.region = method.first_region + distribution->region();
-    parts[count++] = {distribution, method.weight, method.steers_distance, method.steers_events};
-    total += method.weight;
-  }
-  if (count == 0) return guidance;
-  for (std::size_t i = 0; i < count; ++i) parts[i].share /= total;
-  guidance.distribution = arena.make<Mixture>(std::span<const Part>(parts, count));
-  guidance.unguided_fraction = fractions.unguided_fraction(guidance.region);
-  return guidance;
+  for (const GuidePart& part : parts) total += part.share;
+  for (GuidePart& part : parts) part.share /= total;
 }
 
 }  // namespace
 
-Guidance GuidingFrame::query(const GuidingQuery& query, Arena& arena) const {
-  const bool purely_discrete = query.scattering.purely_discrete();
-  return combine(methods_, *fractions_, arena, [&](const Method& method) {
-    const bool declines = (purely_discrete && !method.steers_events) ||
-                          (query.transport == Transport::importance && !method.guides_light_paths);
-    return declines ? nullptr : method.guider->query(query, arena);
+std::optional<Proposal> GuidePart::propose(const VertexStream& stream) const {
+  std::optional<Proposal> proposal = distribution->propose(stream);
+  if (!proposal) return proposal;
+  if (!steers_distance) proposal->reach = Proposal::Reach::medium;
+  if (!steers_events) proposal->events = proposal->events & EventMask::smooth;
+  return proposal;
+}
+
+float GuidePart::density(const ResolvedVertex& vertex) const {
+  if (is_discrete(vertex.event) && !steers_events) return 0;
+  const float value = distribution->density(vertex);
+  return steers_distance ? value : value * vertex.medium_density;
+}
+
+std::optional<Proposal> Guidance::propose(const VertexStream& stream) const {
+  if (parts.size() == 1) return parts[0].propose(stream);
+  float u = stream.get_1d(Purpose::guide_choice, kMethodBranch);
+  std::size_t i = 0;
+  while (i + 1 < parts.size() && u >= parts[i].share) u -= parts[i++].share;
+  return parts[i].propose(stream);
+}
+
+float Guidance::density(const ResolvedVertex& vertex) const {
+  float sum = 0;
+  for (const GuidePart& part : parts) sum += part.share * part.density(vertex);
+  return sum;
+}
+
+std::span<const Technique> Guidance::techniques(const ResolvedVertex& vertex, float unguided,
+                                                std::span<Technique, kMostMethods + 1> out) const {
+  out[0] = {unguided_share, unguided};
+  if (!is_guided()) return out.first(1);
+  for (std::uint32_t i = 0; i < methods; ++i) out[1 + i] = {};
+  for (const GuidePart& part : parts) {
+    out[1 + part.method] = {(1 - unguided_share) * part.share, part.density(vertex)};
+  }
+  return out.first(1 + methods);
+}
+
+GuidingFrame::GuidingFrame(std::vector<Method> methods, std::shared_ptr<const MixingShares> shares)
+    : methods_(std::move(methods)), shares_(std::move(shares)) {
+  guides_camera_ = std::any_of(methods_.begin(), methods_.end(), [](const Method& method) {
+    const GuidingVertex lens{.kind = VertexKind::sensor};
+    return method.guider && method.traits.guides_camera &&
+           method.guider->model().place(lens).evidence > 0;
   });
 }
 
-Guidance GuidingFrame::query_camera(const PreparedSensor& sensor, const LensPoint& lens,
-                                    Arena& arena) const {
-  return combine(methods_, *fractions_, arena, [&](const Method& method) {
-    const CameraGuider* camera = method.guider->camera();
-    return camera == nullptr ? nullptr : camera->query_camera(sensor, lens, arena);
-  });
+bool GuidingFrame::can_ask(const Method& method, const GuidingQuery& query) const {
+  if (!method.guider) return false;
+  if (query.current.kind == VertexKind::sensor) return method.traits.guides_camera;
+  if (query.transport == Transport::importance && !method.traits.guides_light_paths) return false;
+  return method.traits.steers_events || !query.scattering->purely_discrete();
 }
 
-bool GuidingFrame::guides_camera() const {
-  return std::any_of(methods_.begin(), methods_.end(), [](const Method& method) {
-    return method.guider != nullptr && method.guider->camera() != nullptr;
-  });
+Guidance GuidingFrame::query(GuidingQuery& query, Arena& arena, PathMemories* memories,
+                             Arena* path_arena) const {
+  const std::size_t count = methods_.size();
+  std::array<Place, kMostMethods> places;
+  bool is_known = false;
+  for (std::size_t i = 0; i < count; ++i) {
+    places[i] = can_ask(methods_[i], query) ? methods_[i].guider->model().place(query.current)
+                                            : Place{.evidence = 0};
+    places[i].region += methods_[i].first_region;
+    is_known |= places[i].evidence > 0;
+  }
+  Guidance guidance;
+  if (!is_known) return guidance;
+  std::array<float, kMostMethods + 1> shares{};
+  const std::uint32_t key =
+      shares_->at({query, std::span(places).first(count)}, std::span(shares).first(count + 1));
+
+  auto* parts = arena.make_array<GuidePart>(count);
+  std::size_t answers = 0;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (!(places[i].evidence > 0) || !(shares[1 + i] > 0)) continue;
+    const Method& method = methods_[i];
+    query.region = places[i].region - method.first_region;
+    std::optional<PathMemory> memory;
+    if (memories != nullptr) memory.emplace((*memories)[i], *path_arena);
+    query.memory = memory ? &*memory : nullptr;
+    const GuidingDistribution* distribution = method.guider->query(query, arena);
+    if (distribution == nullptr) continue;
+    parts[answers++] = {distribution, shares[1 + i], i, method.traits.steers_distance,
+                        method.traits.steers_events};
+  }
+  query.memory = nullptr;
+  if (answers == 0) return guidance;
+  normalize({parts, answers});
+  guidance.parts = {parts, answers};
+  guidance.unguided_share = shares[0];
+  guidance.mixing_key = key;
+  guidance.methods = static_cast<std::uint32_t>(count);
+  return guidance;
 }
 
 }  // namespace pharos

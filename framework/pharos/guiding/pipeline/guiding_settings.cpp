@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include <pharos/config/registry.h>
-#include <pharos/guiding/pipeline/guiding.h>
+#include <pharos/guiding/pipeline/guiding_settings.h>
 #include <pharos/guiding/pipeline/model_file.h>
 
 namespace pharos {
@@ -30,7 +30,10 @@ Schema<GuidingSettings> described() {
 }  // namespace
 
 void GuidingMethod::describe(Schema<GuidingMethod>& s) {
-  s.field("learner", &GuidingMethod::learner, "Turns recorded paths into a model").required();
+  s.field(
+      "learner", &GuidingMethod::learner,
+      "Turns recorded paths into a model; without it, the guider samples the model of the method "
+      "before it");
   s.field("guider", &GuidingMethod::guider, "How the model is sampled").required();
   s.field("weight", &GuidingMethod::weight,
           "Share relative to the other methods that know something at a vertex")
@@ -54,7 +57,13 @@ std::vector<GuidingMethod> GuidingSettings::resolved_methods() const {
   if (in_place == !methods.empty()) {
     throw InputError("guiding needs either a learner and a guider, or a list of methods");
   }
-  if (!in_place) return methods;
+  if (!in_place) {
+    if (methods.front().shares_model()) throw InputError("the first method has no learner");
+    if (methods.size() > kMostMethods) {
+      throw InputError("there are more than " + std::to_string(kMostMethods) + " methods");
+    }
+    return methods;
+  }
   if (learner == nullptr) throw InputError("guiding has no learner");
   if (guider == nullptr) throw InputError("guiding has no guider");
   return {{learner, guider, 1.0f, model_file, model}};

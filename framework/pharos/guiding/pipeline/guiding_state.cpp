@@ -3,123 +3,145 @@
 
 #include <pharos/core/error.h>
 #include <pharos/core/random.h>
-#include <pharos/guiding/pipeline/guiding.h>
+#include <pharos/guiding/pipeline/guiding_state.h>
 
 namespace pharos {
 
-struct GuidingState::Method {
-  GuidingMethod settings;
-  std::unique_ptr<LearningState> state;  ///< null: it does not learn
+/// Where a model comes from: a learner that learns it, or a file. Several guiders may sample it.
+struct GuidingState::Source {
+  Ref<Learner> learner;
+  std::unique_ptr<LearningState> state;  ///< null: the model was read from a file
   std::shared_ptr<const GuidingModel> model;
-  std::shared_ptr<const BoundGuider> bound;
-
-  std::uint32_t region_count() const { return model == nullptr ? 1 : model->region_count(); }
+  std::uint32_t regions = 1;
 
   void take(std::shared_ptr<const GuidingModel> next) {
     model = std::move(next);
-    bound = model == nullptr ? nullptr : settings.guider->bind(model);
+    regions = model == nullptr ? 1 : model->info().regions;
   }
 
-  void start(const LearningContext& context) {
-    if (settings.learns()) state = settings.learner->begin(context);
-    take(settings.learns() ? state->initial_model() : settings.model);
+  Source(const GuidingMethod& method, const LearningContext& context) : learner(method.learner) {
+    if (method.learns()) state = learner->begin(context);
+    take(method.model);
   }
 
-  void absorb(const PathLog& log) {
-    if (state != nullptr) state->absorb(log);
-  }
-
-  void update(std::uint32_t iteration, bool last) {
-    if (state != nullptr) take(state->update(iteration, last));
-  }
-
-  /// Appends where each of this model's regions came from among the `old_regions` before it, which
-  /// are numbered from `first` on. Regions of a first model all come from the one there was.
-  void append_origins(std::uint32_t first, std::uint32_t old_regions,
-                      std::vector<std::uint32_t>& origins) const {
-    const bool is_new = model != nullptr && state != nullptr;
-    std::vector<std::uint32_t> own =
-        is_new ? model->region_origins() : std::vector<std::uint32_t>{};
-    if (own.empty()) {
-      own.assign(region_count(), 0u);
-      if (old_regions == region_count()) std::iota(own.begin(), own.end(), 0u);
+  /// Ends an iteration. Appends where each region of the model came from among the regions before,
+  /// which are numbered from `first` on. The regions of a first model all come from the only one
+  /// there was.
+  void update(std::uint32_t iteration, bool last, std::uint32_t first,
+              std::vector<std::uint32_t>& origins) {
+    const std::uint32_t before = regions;
+    std::vector<std::uint32_t> own;
+    if (state != nullptr) {
+      Learned learned = state->update(iteration, last);
+      take(std::move(learned.model));
+      own = std::move(learned.region_origins);
     }
-    const bool fits = own.size() == region_count() &&
-                      std::all_of(own.begin(), own.end(),
-                                  [&](std::uint32_t origin) { return origin < old_regions; });
-    if (!fits) throw RunError("the model '" + model->name() + "' misstates its regions' origins");
+    if (own.empty()) {
+      own.assign(regions, 0u);
+      if (before == regions) std::iota(own.begin(), own.end(), 0u);
+    }
+    const bool fits =
+        own.size() == regions &&
+        std::all_of(own.begin(), own.end(), [&](std::uint32_t origin) { return origin < before; });
+    if (!fits) {
+      throw RunError("the learner '" + learner->plugin_name() + "' misstates its regions' origins");
+    }
     for (const std::uint32_t origin : own) origins.push_back(first + origin);
+  }
+
+  void archive(Archive& archive) {
+    if (state == nullptr) return;
+    state->archive(archive);
+    bool has_model = model != nullptr;
+    archive(has_model);
+    if (archive.loads()) {
+      const auto loaded = has_model ? learner->empty_model() : nullptr;
+      if (has_model) loaded->archive(archive);
+      take(loaded);
+    } else if (has_model) {
+      std::const_pointer_cast<GuidingModel>(model)->archive(archive);  // which only reads it
+    }
   }
 };
 
-GuidingState::GuidingState(const GuidingSettings& settings, const LearningContext& context)
-    : mixing_(settings.mixing->begin()) {
-  std::uint64_t index = 0;
-  for (GuidingMethod& method : settings.resolved_methods()) {
+GuidingState::GuidingState(const GuidingSettings& settings, const LearningContext& context) {
+  std::vector<float> weights;
+  for (const GuidingMethod& method : settings.resolved_methods()) {
     LearningContext own = context;
-    own.seed = hash_combine(context.seed, index++);
-    Method& added = methods_.emplace_back();
-    added.settings = std::move(method);
-    added.start(own);
+    own.seed = hash_combine(context.seed, sources_.size());
+    if (!method.shares_model()) sources_.emplace_back(method, own);
+    users_.push_back({method.guider, sources_.size() - 1});
+    weights.push_back(method.weight);
   }
+  mixing_ = settings.mixing->begin(weights);
   std::uint32_t regions = 0;
-  for (const Method& method : methods_) regions += method.region_count();
-  fractions_ = mixing_->update(regions, {});
+  for (const Source& source : sources_) regions += source.regions;
+  mixing_->update(regions, {});
   rebuild_frame();
 }
 
 GuidingState::~GuidingState() = default;
 
 void GuidingState::absorb(const PathLog& log) {
-  for (Method& method : methods_) method.absorb(log);
+  for (Source& source : sources_) {
+    if (source.state != nullptr) source.state->absorb(log);
+  }
   mixing_->absorb(log);
 }
 
 void GuidingState::update(std::uint32_t iteration, bool last) {
   std::vector<std::uint32_t> origins;
-  std::uint32_t first_old_region = 0;
-  for (Method& method : methods_) {
-    const std::uint32_t old_regions = method.region_count();
-    method.update(iteration, last);
-    method.append_origins(first_old_region, old_regions, origins);
-    first_old_region += old_regions;
+  std::uint32_t first = 0;
+  for (Source& source : sources_) {
+    const std::uint32_t before = source.regions;
+    source.update(iteration, last, first, origins);
+    first += before;
   }
-  fractions_ = mixing_->update(static_cast<std::uint32_t>(origins.size()), origins);
+  mixing_->update(static_cast<std::uint32_t>(origins.size()), origins);
   rebuild_frame();
 }
 
 void GuidingState::rebuild_frame() {
-  std::vector<GuidingFrame::Method> frame;
-  std::uint32_t first_region = 0;
-  bool anything_known = false;
-  for (const Method& method : methods_) {
-    const GuiderTraits traits = method.settings.guider->traits();
-    frame.push_back({.guider = method.bound,
-                     .weight = method.settings.weight,
-                     .steers_distance = traits.steers_distance,
-                     .steers_events = traits.steers_events,
-                     .guides_light_paths = traits.guides_light_paths,
-                     .first_region = first_region});
-    first_region += method.region_count();
-    anything_known |= method.bound != nullptr;
+  std::vector<std::uint32_t> first_regions(sources_.size(), 0);
+  for (std::size_t i = 1; i < sources_.size(); ++i) {
+    first_regions[i] = first_regions[i - 1] + sources_[i - 1].regions;
   }
-  frame_ = anything_known ? std::make_shared<GuidingFrame>(std::move(frame), fractions_) : nullptr;
+  std::vector<GuidingFrame::Method> methods;
+  bool is_anything_known = false;
+  for (const User& user : users_) {
+    const std::shared_ptr<const GuidingModel>& model = sources_[user.source].model;
+    GuidingFrame::Method& method = methods.emplace_back();
+    if (model != nullptr) method.guider.emplace(*user.guider, model);
+    method.traits = user.guider->traits();
+    method.first_region = first_regions[user.source];
+    is_anything_known |= model != nullptr;
+  }
+  frame_ = is_anything_known
+               ? std::make_shared<const GuidingFrame>(std::move(methods), mixing_->shares())
+               : nullptr;
 }
 
 std::shared_ptr<const GuidingModel> GuidingState::model(std::size_t i) const {
-  return methods_[i].model;
+  return sources_[users_[i].source].model;
 }
 
 const std::string& GuidingState::learner_name(std::size_t i) const {
-  return methods_[i].settings.learner->plugin_name();
+  return sources_[users_[i].source].learner->plugin_name();
 }
 
 std::size_t GuidingState::model_bytes() const {
   std::size_t bytes = 0;
-  for (const Method& method : methods_) {
-    if (method.model != nullptr) bytes += method.model->size_bytes();
+  for (const Source& source : sources_) {
+    if (source.model != nullptr) bytes += source.model->info().bytes;
   }
   return bytes;
+}
+
+void GuidingState::archive(Archive& archive) {
+  archive.heading("guiding", 1);
+  for (Source& source : sources_) source.archive(archive);
+  mixing_->archive(archive);
+  if (archive.loads()) rebuild_frame();
 }
 
 }  // namespace pharos

@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <pharos/core/archive.h>
 #include <pharos/core/atomic_file.h>
-#include <pharos/core/binary_stream.h>
 #include <pharos/core/error.h>
 #include <pharos/guiding/pipeline/model_file.h>
 
@@ -13,7 +13,7 @@ namespace pharos {
 namespace {
 
 constexpr std::array<char, 8> kMagic{'p', 'h', 'a', 'r', 'o', 's', 'g', 'm'};
-constexpr std::uint32_t kForm = 1;
+constexpr std::uint32_t kForm = 2;
 /// Longest name [bytes]: a damaged length must not become memory.
 constexpr std::uint32_t kLongestName = 256;
 
@@ -21,8 +21,13 @@ constexpr std::uint32_t kLongestName = 256;
   throw InputError(fmt::format("the model file '{}' {}", path.string(), what));
 }
 
+template <class T>
+void write_number(std::ostream& out, T number) {
+  out.write(reinterpret_cast<const char*>(&number), sizeof number);
+}
+
 void write_name(std::ostream& out, std::string_view name) {
-  save_number(out, static_cast<std::uint32_t>(name.size()));
+  write_number(out, static_cast<std::uint32_t>(name.size()));
   out.write(name.data(), static_cast<std::streamsize>(name.size()));
 }
 
@@ -95,23 +100,18 @@ class FileReader {
 };
 
 void check_learner(const std::filesystem::path& path, const ModelHeader& header,
-                   const Learner& learner) {
+                   const Learner& learner, const ModelInfo& known) {
   if (header.learner != learner.plugin_name()) {
     fail(path, fmt::format("was learned by '{}', which the learner '{}' cannot read",
                            header.learner, learner.plugin_name()));
   }
-  if (const std::uint32_t known = learner.traits().model_version; header.version != known) {
-    fail(path, fmt::format("holds version {} of the model '{}'; the learner '{}' reads version {}",
-                           header.version, header.model, header.learner, known));
+  if (header.model != known.name) {
+    fail(path, fmt::format("holds a model '{}'; the learner '{}' reads models '{}'", header.model,
+                           header.learner, known.name));
   }
-}
-
-std::shared_ptr<const GuidingModel> load(const std::filesystem::path& path, std::istream& in,
-                                         const Learner& learner) {
-  try {
-    return learner.load_model(in);
-  } catch (const InputError& error) {
-    fail(path, fmt::format("cannot be read: {}", error.what()));
+  if (header.version != known.version) {
+    fail(path, fmt::format("holds version {} of the model '{}'; the learner '{}' reads version {}",
+                           header.version, header.model, header.learner, known.version));
   }
 }
 
@@ -120,16 +120,17 @@ std::shared_ptr<const GuidingModel> load(const std::filesystem::path& path, std:
 void write_model_file(const GuidingModel& model, std::string_view learner,
                       const std::filesystem::path& path) {
   std::ostringstream saved;
-  model.save(saved);
+  save(saved, model);
   const std::string bytes = std::move(saved).str();
+  const ModelInfo info = model.info();
   write_atomically(path, [&](const std::filesystem::path& temporary) {
     std::ofstream out(temporary, std::ios::binary);
     out.write(kMagic.data(), kMagic.size());
-    save_number(out, kForm);
+    write_number(out, kForm);
     write_name(out, learner);
-    write_name(out, model.name());
-    save_number(out, model.version());
-    save_number(out, static_cast<std::uint64_t>(bytes.size()));
+    write_name(out, info.name);
+    write_number(out, info.version);
+    write_number(out, static_cast<std::uint64_t>(bytes.size()));
     out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     out.flush();
     if (!out) throw RunError(fmt::format("cannot write '{}'", path.string()));
@@ -144,13 +145,13 @@ std::shared_ptr<const GuidingModel> read_model_file(const std::filesystem::path&
                                                     const Learner& learner) {
   FileReader file(path);
   const ModelHeader header = file.header();
-  check_learner(path, header, learner);
+  std::shared_ptr<GuidingModel> model = learner.empty_model();
+  check_learner(path, header, learner, model->info());
   std::istringstream in(file.rest(header.bytes));
-  std::shared_ptr<const GuidingModel> model = load(path, in, learner);
-  if (model == nullptr) fail(path, "holds no model");
-  if (model->name() != header.model) {
-    fail(path, fmt::format("has a head that speaks of the model '{}', but holds '{}'", header.model,
-                           model->name()));
+  try {
+    load(in, *model);
+  } catch (const InputError& error) {
+    fail(path, fmt::format("cannot be read: {}", error.what()));
   }
   if (in.peek() != std::istringstream::traits_type::eof()) fail(path, "holds more than its model");
   return model;

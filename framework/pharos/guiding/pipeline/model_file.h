@@ -9,23 +9,23 @@
 #include <pharos/guiding/contract/learner.h>
 
 /// Files of learned models: train once, render many times. A file is a head, which any program can
-/// read, and then what GuidingModel::save() writes; numbers are little-endian as in memory.
+/// read, followed by what GuidingModel::archive() writes. Numbers are little-endian.
 ///
 ///     8 bytes   "pharosgm"
-///     uint32    version of this form, 1
+///     uint32    version of this form, 2
 ///     text      plugin name of the learner        (a text: its length as uint32, its bytes)
-///     text      GuidingModel::name()
-///     uint32    GuidingModel::version()
+///     text      ModelInfo::name
+///     uint32    ModelInfo::version
 ///     uint64    length of the rest [bytes]
 ///
-/// Whatever is wrong with a file is an InputError that names the file in quotes and is not located.
+/// Errors in a file are InputErrors without location that name the file in quotes.
 namespace pharos {
 
 /// The head of a model file.
 struct ModelHeader {
   std::string learner;        ///< plugin name of the learner that can read it
-  std::string model;          ///< GuidingModel::name()
-  std::uint32_t version = 0;  ///< GuidingModel::version()
+  std::string model;          ///< ModelInfo::name
+  std::uint32_t version = 0;  ///< ModelInfo::version
   std::uint64_t bytes = 0;    ///< length of the model itself
 };
 

@@ -2,6 +2,17 @@
 
 namespace pharos {
 
+void RecordedVertex::archive(Archive& archive) {
+  archive(position, normal, kind, event, guidable, roughness, eta, parent, next, twin, throughput,
+          local_weight, direction, pdf, continuation, branch, mixing_key, transmittance,
+          medium_density, emission, joint_emission, first_technique, technique_count);
+}
+
+void RecordedLightSample::archive(Archive& archive) {
+  archive(vertex, position, kind, event, discrete, direction, contribution, joint_contribution,
+          mis_weight);
+}
+
 PathView PathLog::operator[](std::size_t i) const {
   const Head& head = paths_[i];
   const bool is_last = i + 1 == paths_.size();
@@ -11,22 +22,36 @@ PathView PathLog::operator[](std::size_t i) const {
           .light_samples = {light_samples_.data() + head.first_light_sample,
                             light_end - head.first_light_sample},
           .film = head.film,
-          .transport = head.transport};
+          .transport = head.transport,
+          .log_techniques = techniques_};
 }
 
 void PathLog::begin_path(Vec2 film, Transport transport) {
   paths_.push_back({vertices_.size(), light_samples_.size(), film, transport});
 }
 
-std::uint32_t PathLog::add(const RecordedVertex& vertex) {
-  vertices_.push_back(vertex);
-  return static_cast<std::uint32_t>(vertices_.size() - 1 - paths_.back().first_vertex);
+std::uint32_t PathLog::add(RecordedVertex added) {
+  const auto index = static_cast<std::uint32_t>(vertices_.size() - paths_.back().first_vertex);
+  if (added.parent != kNoVertex) {
+    // At the end of the list of records of the same vertex, which are few.
+    std::uint32_t* link = &vertex(added.parent).next;
+    while (*link != kNoVertex) link = &vertex(*link).twin;
+    *link = index;
+  }
+  vertices_.push_back(added);
+  return index;
+}
+
+void PathLog::set_techniques(std::uint32_t index, std::span<const Technique> techniques) {
+  vertex(index).first_technique = static_cast<std::uint32_t>(techniques_.size());
+  vertex(index).technique_count = static_cast<std::uint32_t>(techniques.size());
+  techniques_.insert(techniques_.end(), techniques.begin(), techniques.end());
 }
 
 void PathLog::blacken_last_path() {
   for (std::size_t i = paths_.back().first_vertex; i < vertices_.size(); ++i) {
     vertices_[i].throughput = vertices_[i].local_weight = Rgb();
-    vertices_[i].emission = vertices_[i].full_emission = vertices_[i].joint_emission = Rgb();
+    vertices_[i].emission = vertices_[i].joint_emission = Rgb();
   }
   light_samples_.resize(paths_.back().first_light_sample);
 }
@@ -35,6 +60,36 @@ void PathLog::clear() {
   paths_.clear();
   vertices_.clear();
   light_samples_.clear();
+  techniques_.clear();
+}
+
+void PathLog::archive(Archive& archive) {
+  archive.heading("path_log", 1);
+  archive(paths_, vertices_, light_samples_, techniques_);
+  // Indices of a damaged log must not lead outside it.
+  const auto expect = [&](bool holds) { archive.expect(holds, "the path log"); };
+  for (std::size_t i = 0; archive.loads() && i < paths_.size(); ++i) {
+    const Head& head = paths_[i];
+    const bool is_last = i + 1 == paths_.size();
+    const std::uint64_t vertex_end = is_last ? vertices_.size() : paths_[i + 1].first_vertex;
+    const std::uint64_t light_end =
+        is_last ? light_samples_.size() : paths_[i + 1].first_light_sample;
+    expect(head.first_vertex <= vertex_end && vertex_end <= vertices_.size() &&
+           head.first_light_sample <= light_end && light_end <= light_samples_.size());
+    const std::uint64_t count = vertex_end - head.first_vertex;
+    for (std::uint64_t k = 0; k < count; ++k) {
+      const RecordedVertex& v = vertices_[head.first_vertex + k];
+      const auto follows = [&](std::uint32_t link) {
+        return link == kNoVertex || (link > k && link < count);
+      };
+      expect((v.parent == kNoVertex || v.parent < k) && follows(v.next) && follows(v.twin) &&
+             v.first_technique <= techniques_.size() &&
+             v.technique_count <= techniques_.size() - v.first_technique);
+    }
+    for (std::uint64_t k = head.first_light_sample; k < light_end; ++k) {
+      expect(light_samples_[k].vertex < count);
+    }
+  }
 }
 
 void estimate_incident_radiance(const PathView& path, std::vector<Rgb>& out, WeightedAmong among) {

@@ -1,18 +1,11 @@
 #include <algorithm>
 
-#include <pharos/core/binary_stream.h>
 #include <pharos/guiding/toolkit/kd_tree.h>
 
 namespace pharos {
 namespace {
 
-constexpr const char* kHeading = "kd_tree";
-constexpr std::uint32_t kVersion = 1;
-constexpr std::uint32_t kMostNodes = 1u << 25;
-
-void expect(bool holds) {
-  if (!holds) throw InputError("the kd-tree is damaged");
-}
+constexpr std::size_t kMostNodes = 1u << 25;
 
 }  // namespace
 
@@ -47,31 +40,18 @@ KdTree::Halves KdTree::divide(std::uint32_t leaf, int axis, float position) {
   return {first, first + 1};
 }
 
-void KdTree::save(std::ostream& out) const {
-  save_heading(out, kHeading, kVersion);
-  save_number(out, static_cast<std::uint32_t>(nodes_.size()));
-  for (const Node& node : nodes_) {
-    save_number(out, node.word);
-    save_number(out, node.position);
-  }
-}
-
-KdTree KdTree::load(std::istream& in) {
-  expect_heading(in, kHeading, kVersion);
-  const auto count = load_number<std::uint32_t>(in);
+void KdTree::archive(Archive& archive) {
+  archive.heading("kd_tree", 2);
+  archive(nodes_);
+  if (!archive.loads()) return;
+  const auto expect = [&](bool holds) { archive.expect(holds, "the kd-tree"); };
+  const std::size_t count = nodes_.size();
   expect(count % 2 == 1 && count <= kMostNodes);
-  KdTree tree;
-  tree.nodes_.clear();
-  // Nodes come one by one, so that a wrong count costs no memory.
-  while (tree.nodes_.size() < count) {
-    const auto word = load_number<std::uint32_t>(in);
-    tree.nodes_.push_back({word, load_finite<float>(in)});
-  }
   // Every node but the root is a child of one that comes before it, every cell there once.
-  std::vector<bool> has_parent(count, false), is_cell(tree.cell_count(), false);
+  std::vector<bool> has_parent(count, false), is_cell(cell_count(), false);
   std::vector<int> levels(count, 0);
   for (std::uint32_t i = 0; i < count; ++i) {
-    const Node node = tree.nodes_[i];
+    const Node node = nodes_[i];
     if (node.axis() == 3) {
       expect(node.index() < is_cell.size() && !is_cell[node.index()]);
       is_cell[node.index()] = true;
@@ -83,7 +63,6 @@ KdTree KdTree::load(std::istream& in) {
       levels[child] = levels[i] + 1;
     }
   }
-  return tree;
 }
 
 }  // namespace pharos

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <cstdint>
-#include <iosfwd>
 #include <vector>
 
+#include <pharos/core/archive.h>
 #include <pharos/core/vec.h>
 
 namespace pharos {
@@ -37,9 +37,7 @@ class KdTree {
   /// Planes above the cell at each place.
   std::vector<int> levels() const;
 
-  void save(std::ostream& out) const;
-  /// Throws InputError when it is no such tree or damaged.
-  static KdTree load(std::istream& in);
+  void archive(Archive& archive);
 
   friend bool operator==(const KdTree&, const KdTree&) = default;
 
@@ -50,8 +48,9 @@ class KdTree {
     std::uint32_t index() const { return word >> 2; }
     static Node cell(std::uint32_t number) { return {number << 2 | 3, 0}; }
 
-    std::uint32_t word;  ///< the axis, then the index of the first child or the cell's number
-    float position;
+    std::uint32_t word = 0;  ///< the axis, then the index of the first child or the cell's number
+    float position = 0;
+    void archive(Archive& archive) { archive(word, position); }
     friend bool operator==(const Node&, const Node&) = default;
   };
   std::vector<Node> nodes_{Node::cell(0)};  ///< children follow their parents

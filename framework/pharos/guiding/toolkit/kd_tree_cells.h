@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <istream>
 #include <numeric>
-#include <ostream>
 #include <span>
 #include <vector>
 
-#include <pharos/core/binary_stream.h>
+#include <pharos/core/archive.h>
 #include <pharos/core/counting_sort.h>
 #include <pharos/guiding/toolkit/kd_tree.h>
 
@@ -30,7 +28,7 @@ struct CellDivision {
 ///
 ///     bool knows_something() const;
 ///     void forget(double factor);       // what was learned so far counts so many times as much
-///     void save(std::ostream&) const;   static Cell load(std::istream&);
+///     void archive(Archive&);
 template <class Sample, class Cell>
 class KdTreeCells {
  public:
@@ -57,18 +55,18 @@ class KdTreeCells {
     return std::any_of(cells_.begin(), cells_.end(),
                        [](const Place& place) { return place.content.knows_something(); });
   }
-  /// Of each cell the one it was at the last mark_origins(), as for region_origins().
+  /// Maps each cell to the cell that contained it when mark_origins() was last called; see
+  /// Learned::region_origins.
   const std::vector<std::uint32_t>& origins() const { return origins_; }
   void mark_origins() { std::iota(origins_.begin(), origins_.end(), 0u); }
 
-  void save(std::ostream& out) const;
-  /// Throws InputError when it is something else or damaged; then all stays as it was.
-  void load(std::istream& in);
+  void archive(Archive& archive);
 
  private:
   /// What is known of the positions at which a cell's samples began.
   struct Positions {
     double count = 0, sums[3] = {}, squares[3] = {};
+    void archive(Archive& archive) { archive(count, sums, squares); }
 
     void add(Point3 p) {
       ++count;
@@ -93,6 +91,7 @@ class KdTreeCells {
     Cell content;
     Positions positions;   ///< since the cell was last divided
     bool is_done = false;  ///< with the samples at hand
+    void archive(Archive& archive) { archive(content, positions); }
   };
   /// A cell that may have to be divided.
   struct Candidate {
@@ -161,39 +160,11 @@ class KdTreeCells {
 };
 
 template <class Sample, class Cell>
-void KdTreeCells<Sample, Cell>::save(std::ostream& out) const {
-  tree_.save(out);
-  for (std::size_t i = 0; i < cells_.size(); ++i) {
-    save_number(out, origins_[i]);
-    cells_[i].content.save(out);
-    const Positions& p = cells_[i].positions;
-    save_number(out, p.count);
-    for (int axis = 0; axis < 3; ++axis) {
-      save_number(out, p.sums[axis]);
-      save_number(out, p.squares[axis]);
-    }
-  }
-}
-
-template <class Sample, class Cell>
-void KdTreeCells<Sample, Cell>::load(std::istream& in) {
-  KdTreeCells loaded;
-  loaded.tree_ = KdTree::load(in);
-  loaded.cells_.clear();
-  loaded.origins_.clear();
-  while (loaded.cells_.size() < loaded.tree_.cell_count()) {
-    loaded.origins_.push_back(load_number<std::uint32_t>(in));
-    if (loaded.origins_.back() > loaded.cells_.size()) {
-      throw InputError("what was learned in cells is damaged");
-    }
-    Place& place = loaded.cells_.emplace_back(Place{.content = Cell::load(in)});
-    place.positions.count = load_finite<double>(in);
-    for (int axis = 0; axis < 3; ++axis) {
-      place.positions.sums[axis] = load_finite<double>(in);
-      place.positions.squares[axis] = load_finite<double>(in);
-    }
-  }
-  *this = std::move(loaded);
+void KdTreeCells<Sample, Cell>::archive(Archive& archive) {
+  archive(tree_, origins_, cells_);
+  const auto expect = [&](bool holds) { archive.expect(holds, "what was learned in cells"); };
+  expect(cells_.size() == tree_.cell_count() && origins_.size() == cells_.size());
+  for (std::size_t i = 0; i < origins_.size(); ++i) expect(origins_[i] <= i);
 }
 
 }  // namespace pharos

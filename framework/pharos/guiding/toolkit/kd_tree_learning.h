@@ -26,95 +26,63 @@ struct EnumNames<SpatialCells> {
       {{"kdtree", SpatialCells::kdtree}, {"single", SpatialCells::single}}};
 };
 
-/// The learning of methods that learn cell by cell of a tree (KdTreeCells): samples wait until
-/// the end of an iteration, or until there are `batch_samples` of them.
+/// The learning state of methods that learn cell by cell of a kd-tree (KdTreeCells). Samples wait
+/// until the end of an iteration, or until there are `batch_samples` of them.
 ///
-/// `Method` is a value that says how:
+/// `Lessons` is a value that says how the method learns:
 ///
-///     using Sample = …;  using Cell = …;    // those of KdTreeCells; samples save and load, too
+///     using Sample = …;  using Cell = …;    // those of KdTreeCells; samples have archive(), too
 ///     static constexpr const char* kHeading;  static constexpr std::uint32_t kVersion;
 ///     const Settings& settings() const;     // with spatial, cell_samples, max_depth,
 ///                                           // batch_samples, decay, division_decay
 ///     void extract(const PathView&, std::vector<Sample>& samples);
 ///     void teach(Cell&, std::span<const Sample>, std::uint64_t lesson, std::size_t cell) const;
 ///     std::shared_ptr<const GuidingModel> model(const KdTreeCells<Sample, Cell>&) const;
-template <class Method>
+template <class Lessons>
 class KdTreeLearning final : public LearningState {
  public:
-  explicit KdTreeLearning(Method method) : method_(std::move(method)) {}
+  explicit KdTreeLearning(Lessons lessons) : lessons_(std::move(lessons)) {}
 
   void absorb(const PathLog& log) override {
-    for (std::size_t i = 0; i < log.size(); ++i) method_.extract(log[i], samples_);
-    if (samples_.size() < method_.settings().batch_samples) return;
-    learn();
-    learned_early_ = true;
+    for (std::size_t i = 0; i < log.size(); ++i) lessons_.extract(log[i], samples_);
+    if (samples_.size() >= lessons_.settings().batch_samples) learn();
   }
 
-  std::shared_ptr<const GuidingModel> update(std::uint32_t, bool) override {
+  Learned update(std::uint32_t, bool) override {
     learn();
-    learned_early_ = false;
-    if (!cells_.know_something()) return nullptr;
-    auto learned = method_.model(cells_);
+    if (!cells_.know_something()) return {};
+    Learned learned{lessons_.model(cells_), cells_.origins()};
     cells_.mark_origins();
-    for (std::size_t i = 0; i < cells_.size(); ++i) cells_[i].forget(method_.settings().decay);
+    for (std::size_t i = 0; i < cells_.size(); ++i) cells_[i].forget(lessons_.settings().decay);
     return learned;
   }
 
-  void save(std::ostream& out) const override {
-    save_heading(out, Method::kHeading, Method::kVersion);
-    save_number(out, lessons_);
-    save_number(out, static_cast<std::uint8_t>(learned_early_));
-    cells_.save(out);
-    save_number(out, static_cast<std::uint64_t>(samples_.size()));
-    for (const Sample& sample : samples_) sample.save(out);
-  }
-
-  void load(std::istream& in) override {
-    expect_heading(in, Method::kHeading, Method::kVersion);
-    KdTreeLearning loaded(*this);
-    loaded.lessons_ = load_number<std::uint64_t>(in);
-    loaded.learned_early_ = load_number<std::uint8_t>(in) != 0;
-    loaded.cells_.load(in);
-    loaded.samples_.clear();
-    for (auto count = load_number<std::uint64_t>(in); count > 0; --count) {
-      loaded.samples_.push_back(Sample::load(in));
-    }
-    *this = std::move(loaded);
-  }
-
-  void merge(const LearningState& other) override {
-    const auto& theirs = dynamic_cast<const KdTreeLearning&>(other);
-    const bool is_alike = theirs.cells_.tree() == cells_.tree() && theirs.lessons_ == lessons_;
-    if (!is_alike || learned_early_ || theirs.learned_early_) {
-      throw InputError(std::string(Method::kHeading) +
-                       ": in another iteration or scene, or after more than `batch_samples`, "
-                       "learning cannot be merged");
-    }
-    samples_.insert(samples_.end(), theirs.samples_.begin(), theirs.samples_.end());
+  void archive(Archive& archive) override {
+    archive.heading(Lessons::kHeading, Lessons::kVersion);
+    archive(lesson_, cells_, samples_);
   }
 
  private:
-  using Sample = typename Method::Sample;
-  using Cell = typename Method::Cell;
+  using Sample = typename Lessons::Sample;
+  using Cell = typename Lessons::Cell;
 
   /// Learns from the samples that wait.
   void learn() {
-    const auto& settings = method_.settings();
+    const auto& settings = lessons_.settings();
     const CellDivision division{.divides = settings.spatial == SpatialCells::kdtree,
                                 .cell_samples = settings.cell_samples,
                                 .max_depth = settings.max_depth,
                                 .decay = settings.division_decay};
     cells_.learn(samples_, division,
                  [&](Cell& cell, std::span<const Sample> samples, std::size_t number) {
-                   method_.teach(cell, samples, lessons_, number);
+                   lessons_.teach(cell, samples, lesson_, number);
                  });
-    ++lessons_;
+    ++lesson_;
   }
 
-  Method method_;
+  Lessons lessons_;
   KdTreeCells<Sample, Cell> cells_;
-  std::uint64_t lessons_ = 0;    ///< calls of learn()
-  bool learned_early_ = false;   ///< from samples of this iteration, before its end
+  std::uint64_t lesson_ = 0;     ///< calls of learn(), a key of random numbers
   std::vector<Sample> samples_;  ///< that wait
 };
 

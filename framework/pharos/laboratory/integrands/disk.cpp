@@ -7,15 +7,16 @@
 namespace pharos::laboratory {
 namespace {
 
-/// The integral of sqrt(r^2 - t^2) over t from 0 to `t`, |t| <= r.
+/// Returns the integral of sqrt(r^2 - s^2) over s from 0 to `t`, |t| <= r.
 double under_arc(double t, double r) {
   const double height = std::sqrt(std::max(0.0, r * r - t * t));
   return 0.5 * (t * height + r * r * std::asin(std::clamp(t / r, -1.0, 1.0)));
 }
 
-/// The area of the disk of radius r around the origin where X <= x and Y <= y. Across X the column
-/// reaches from the lower arc to y between the two places where the arc has the height |y|; outside
-/// of them the whole column counts for y > 0 and nothing for y < 0.
+/// Returns the area of the part of the disk with X <= x and Y <= y, for a disk of radius r around
+/// the origin. Between the two places where the arc has the height |y|, the column at X reaches
+/// from the lower arc to y. Outside of them, the whole column counts if y > 0, and nothing counts
+/// if y < 0.
 double area_below(double x, double y, double r) {
   x = std::clamp(x, -r, r);
   y = std::clamp(y, -r, r);
@@ -36,8 +37,9 @@ double area_in_square(PlanePoint c, double r) {
 }  // namespace
 
 void Disk::Settings::describe(Schema<Settings>& s) {
-  s.field("center", &Settings::center, "Its center; may lie outside").unit("sides of the square");
-  s.field("radius", &Settings::radius, "Its radius")
+  s.field("center", &Settings::center, "Center of the disk; may lie outside of the square")
+      .unit("sides of the square");
+  s.field("radius", &Settings::radius, "Radius of the disk")
       .unit("sides of the square")
       .above(0)
       .at_most(10);

@@ -5,8 +5,8 @@
 
 namespace pharos::laboratory {
 
-/// disk: 1 inside, 0 outside. The mean is the area of its part in the square, from the areas of
-/// its parts left of and below each of the square's corners.
+/// disk: 1 inside, 0 outside. The mean is the area of the part of the disk in the square, computed
+/// from the areas of its parts left of and below each corner of the square.
 class Disk {
  public:
   struct Settings {

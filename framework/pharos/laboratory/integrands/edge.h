@@ -8,8 +8,8 @@
 namespace pharos::laboratory {
 
 /// edge: 1 in the intersection of half planes, 0 outside. One angle makes a straight edge across
-/// the square, two a corner, three a triangle or what of it lies in the square. The mean is the
-/// area of the square clipped by the half planes.
+/// the square, two make a corner, three make a triangle or the part of it in the square. The mean
+/// is the area of the square clipped by the half planes.
 class Edge {
  public:
   struct Settings {
@@ -30,7 +30,7 @@ class Edge {
   double mean_;
 };
 
-/// Declares `angles` and `offsets` of settings that have them.
+/// Declares the parameters `angles` and `offsets` of settings that have them.
 template <class Settings>
 void describe_edges(Schema<Settings>& s) {
   s.field("angles", &Settings::angles,

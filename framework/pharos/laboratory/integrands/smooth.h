@@ -8,9 +8,9 @@
 
 namespace pharos::laboratory {
 
-/// smooth: the Gaussian exp(-|p - center|^2 / (2 width^2)) on the torus, all its periodic images
-/// added, so that no border shows. The square sees each part of the Gaussian on the plane once: the
-/// mean is 2 pi width^2.
+/// smooth: the sum of the Gaussian exp(-|p - center|^2 / (2 width^2)) and all its periodic images,
+/// which makes it a function on the torus without borders. Each part of the Gaussian on the plane
+/// appears in the square exactly once, so the mean is 2 pi width^2.
 class Smooth {
  public:
   struct Settings {
@@ -30,7 +30,7 @@ class Smooth {
   double mean() const { return 2 * std::numbers::pi * width_ * width_; }
 
  private:
-  /// Images that are further off everywhere than this [widths] add less than 1e-16.
+  /// Images that are everywhere further away than this [widths] add less than 1e-16.
   static constexpr double kReach = 8.6;
 
   double along_axis(double d) const {
@@ -45,7 +45,7 @@ class Smooth {
 
   PlanePoint center_;
   double width_;
-  int images_;  ///< to either side
+  int images_;  ///< number of images on either side
 };
 
 }  // namespace pharos::laboratory

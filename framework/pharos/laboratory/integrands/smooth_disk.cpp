@@ -9,7 +9,7 @@
 namespace pharos::laboratory {
 
 void SmoothDisk::Settings::describe(Schema<Settings>& s) {
-  s.field("center", &Settings::center, "Its center").unit("sides of the square");
+  s.field("center", &Settings::center, "Center of the disk").unit("sides of the square");
   s.field("radius", &Settings::radius, "Distance at which the value is one half")
       .unit("sides of the square")
       .above(0);
@@ -22,7 +22,7 @@ SmoothDisk::SmoothDisk(const Settings& settings)
     : center_{settings.center.x, settings.center.y},
       radius_(settings.radius),
       width_(settings.width) {
-  // Further out the value is below 1e-9.
+  // Further out, the value is below 1e-9.
   const double reach = radius_ + 6 * width_;
   const double room = std::min({center_.x, 1 - center_.x, center_.y, 1 - center_.y});
   if (reach > room) {

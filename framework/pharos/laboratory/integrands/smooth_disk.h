@@ -8,10 +8,11 @@
 
 namespace pharos::laboratory {
 
-/// smooth_disk: a disk whose border is blurred along its radius, Phi((radius - r) / width) at the
-/// distance r from the center, with the normal distribution's Phi. It lies within the square as far
-/// as six widths. Partial integration turns the mean into second moments of a normal distribution:
-/// pi ((radius^2 + width^2) Phi(s) + radius width phi(s)) with s = radius / width.
+/// smooth_disk: a disk with a border that is blurred along the radius. Its value is Phi((radius -
+/// r) / width) at the distance r from the center, where Phi is the standard normal distribution
+/// function. The disk and a margin of six widths lie within the square. Partial integration turns
+/// the mean into second moments of a normal distribution: pi ((radius^2 + width^2) Phi(s) + radius
+/// width phi(s)) with s = radius / width.
 class SmoothDisk {
  public:
   struct Settings {

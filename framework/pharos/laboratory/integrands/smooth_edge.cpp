@@ -18,7 +18,7 @@ void SmoothEdge::Settings::describe(Schema<Settings>& s) {
 }
 
 double SmoothEdge::mean() const {
-  // z = -d / width is linear in p; along each axis it changes by the slope a or b.
+  // z = -d / width is linear in p. Along the axes, its slopes are a and b.
   const double a = -edge_.normal.x / width_, b = -edge_.normal.y / width_;
   const double z = edge_.bound / width_;
   if (b == 0) return (first_integral(z + a) - first_integral(z)) / a;

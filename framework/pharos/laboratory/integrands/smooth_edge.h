@@ -8,10 +8,10 @@
 
 namespace pharos::laboratory {
 
-/// smooth_edge: a straight edge blurred by a Gaussian, Phi(-d / width) at the signed distance d,
-/// with the normal distribution's Phi. The mean is a second difference of the second integral of
-/// Phi over the corners of the square, or a first difference of the first integral for edges along
-/// an axis.
+/// smooth_edge: a straight edge blurred by a Gaussian. Its value is Phi(-d / width) at the signed
+/// distance d, where Phi is the standard normal distribution function. The mean is a second
+/// difference of the second integral of Phi over the corners of the square. For edges along an axis
+/// it is a first difference of the first integral.
 class SmoothEdge {
  public:
   struct Settings {

@@ -5,7 +5,7 @@ namespace pharos::laboratory {
 
 void Textured::Settings::describe(Schema<Settings>& s) {
   describe_edges(s);
-  s.field("frequency", &Settings::frequency, "Of the texture's wave, along x and y")
+  s.field("frequency", &Settings::frequency, "Frequency of the texture's wave along x and y")
       .unit("periods per side of the square")
       .at_least(-1000)
       .at_most(1000)

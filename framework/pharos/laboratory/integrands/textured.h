@@ -10,7 +10,8 @@
 namespace pharos::laboratory {
 
 /// textured: 1 + contrast cos(2 pi frequency . p) in the intersection of half planes, 0 outside.
-/// The mean is the clipped polygon's area plus contrast times the wave's integral over it.
+/// The mean is the area of the clipped polygon plus contrast times the integral of the wave over
+/// it.
 class Textured {
  public:
   struct Settings {

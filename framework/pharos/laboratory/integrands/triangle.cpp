@@ -5,7 +5,8 @@
 namespace pharos::laboratory {
 namespace {
 
-/// The half planes left of the sides of a triangle, which is turned counter-clockwise first.
+/// Returns the intersection of the half planes left of the sides of a triangle. The triangle is
+/// first oriented counter-clockwise.
 ConvexRegion region_of(std::vector<Vec2> v) {
   const auto turn = [](Vec2 a, Vec2 b, Vec2 c) {
     return (double{b.x} - a.x) * (double{c.y} - a.y) - (double{b.y} - a.y) * (double{c.x} - a.x);
@@ -23,7 +24,7 @@ ConvexRegion region_of(std::vector<Vec2> v) {
 }  // namespace
 
 void Triangle::Settings::describe(Schema<Settings>& s) {
-  s.field("vertices", &Settings::vertices, "The three corners, either way round")
+  s.field("vertices", &Settings::vertices, "The three corners, in either orientation")
       .unit("sides of the square")
       .check("three points", [](const std::vector<Vec2>& v) { return v.size() == 3; });
 }

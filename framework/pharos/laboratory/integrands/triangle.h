@@ -7,7 +7,7 @@
 
 namespace pharos::laboratory {
 
-/// triangle: 1 inside, 0 outside. The mean is the area of its part in the square.
+/// triangle: 1 inside, 0 outside. The mean is the area of the part of the triangle in the square.
 class Triangle {
  public:
   struct Settings {

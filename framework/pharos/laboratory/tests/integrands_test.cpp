@@ -1,4 +1,4 @@
-// Integrands: closed forms against brute force, and what is refused.
+// Tests of integrands: closed forms against brute force, and rejected settings.
 
 #include <cmath>
 #include <numbers>
@@ -24,7 +24,8 @@ Ref<Integrand> integrand(const std::string& yaml) {
   return registry.build<Integrand>(parse_yaml(yaml, "test"), context, resolved);
 }
 
-/// The mean over cell centres of a grid so fine that a border crosses one cell of a thousand.
+/// Returns the mean over the cell centers of a grid. It is so fine that a border crosses one cell
+/// in a thousand.
 double grid_mean(const Integrand& f) {
   constexpr int kEdge = 2000;
   double sum = 0;
@@ -43,7 +44,7 @@ void check_mean(const std::string& yaml, double tolerance) {
 }
 
 TEST_CASE("means of shapes are those of a fine grid") {
-  constexpr double kTolerance = 2e-5;  // half the cells that the border crosses, averaged out
+  constexpr double kTolerance = 2e-5;  // averaged error of half the cells that the border crosses
   for (const char* yaml :
        {"{ type: edge, angles: [30] }", "{ type: edge, angles: [0.3], offsets: [0.2501] }",
         "{ type: edge, angles: [-100], offsets: [0.3] }",
@@ -95,7 +96,7 @@ TEST_CASE("means of smooth integrands are those of quadrature") {
     CAPTURE(yaml);
     const Ref<Integrand> f = integrand(yaml);
     const auto value = [&](double x, double y) { return f->value({x, y}); };
-    // Cells of the size of the narrowest feature, so that none is missed.
+    // The cells have the size of the narrowest feature, so that no feature is missed.
     std::vector<statistics::Rectangle> cells;
     for (int i = 0; i < 32 * 32; ++i) {
       const double x = i % 32, y = i / 32;

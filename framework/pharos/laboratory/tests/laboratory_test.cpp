@@ -1,4 +1,4 @@
-// The laboratory as a whole: what sets depend on, same bits, stopping, files.
+// Tests of the laboratory as a whole: dependencies of the sets, reproducibility, stopping, files.
 
 #include <algorithm>
 #include <cmath>
@@ -32,7 +32,7 @@ TEST_CASE("numbers of points are written in full") {
 
 TEST_CASE("all numbers are the same for any number of threads") {
   const std::string config = std::string(kTwo) +
-                             "samples: { from: 4, to: 7 }\nrealisations: 600\n"
+                             "samples: { from: 4, to: 7 }\nrealizations: 600\n"
                              "spectrum: { points: 64, realizations: 4, max_frequency: 8 }\n";
   std::vector<std::string> tables;
   for (const int threads : {1, 2, 3, 7}) {
@@ -50,7 +50,7 @@ TEST_CASE("all numbers are the same for any number of threads") {
   for (const std::string& table : tables) CHECK(table == tables[0]);
 }
 
-/// For sets of 16 points, with the tables of preparation `number`.
+/// Returns a sampler prepared for sets of 16 points, with the tables of preparation `number`.
 std::unique_ptr<const PreparedSampler> prepared_sampler(const char* name,
                                                         std::uint64_t number = 0) {
   const Registry all = registry();
@@ -77,7 +77,7 @@ TEST_CASE("tables are those of a preparation") {
   CHECK(point_set(*first, {1, 4, 0}) != point_set(*second, {1, 4, 0}));
 }
 
-/// Independent points; remembers all seeds that it was prepared with.
+/// Independent points. Records all seeds that it was prepared with.
 class Counting final : public Sampler {
  public:
   using Settings = NoSettings;
@@ -105,19 +105,19 @@ TEST_CASE("every group of realizations has a preparation of its own") {
       "test.yaml",
       std::string(kIntegrands) +
           "samplers: [{ name: a, sampler: counting }, { name: b, sampler: counting }]\n"
-          "samples: { from: 4, to: 6 }\nrealisations: 40\npreparations: 9\n"
+          "samples: { from: 4, to: 6 }\nrealizations: 40\npreparations: 9\n"
           "spectrum: { points: 0 }\n");
   const LaboratoryResults results = measure(load_laboratory(file, {}, all));
   const std::set<std::uint64_t> different(Counting::seeds.begin(), Counting::seeds.end());
   CHECK(Counting::seeds.size() == 2 * 3 * 9);
   CHECK(different.size() == Counting::seeds.size());
-  // Equal samplers of other names have other points.
+  // Equal samplers with different names have different points.
   for (std::size_t n = 0; n < 3; ++n) {
     CHECK(results.samplers[0].variances[1][n].value != results.samplers[1].variances[1][n].value);
   }
 }
 
-/// What a set of points was shifted by, which must be the same for all of its points.
+/// Returns the shift of a point set, which must be the same for all of its points.
 PlanePoint shift_of(const PreparedSampler& prepared, const SetKey& key) {
   const std::vector<Vec2> points = point_set(prepared, key);
   const std::vector<PlanePoint> shifted = shifted_point_set(prepared, key);
@@ -145,8 +145,9 @@ TEST_CASE("shifts are uniform, of a realization and a sampler's name each") {
     sum = {sum.x + shift.x, sum.y + shift.y};
     product += (shift.x - 0.5) * (shift_of(*sobol, {other, 4, r}).x - 0.5);
   }
-  // The standard error of the mean of 400 uniform numbers is 0.0144; that of the mean product of
-  // two independent centered ones 1 / 240, and equal ones have 1 / 12.
+  // The standard error of the mean of 400 uniform numbers is 0.0144. The standard error of the mean
+  // product of two independent centered numbers is 1 / 240, and the mean product of equal ones is 1
+  // / 12.
   CHECK(std::abs(sum.x / 400 - 0.5) < 0.05);
   CHECK(std::abs(sum.y / 400 - 0.5) < 0.05);
   CHECK(std::abs(product / 400) < 4.0 / 240);
@@ -167,8 +168,8 @@ TEST_CASE("by default all registered samplers are measured, ratios are to the in
   CHECK(config_of(folder, kTwo).baseline == "random");
 }
 
-/// Samplers that cannot be had by their names alone: one adapts to a scene, one has a parameter
-/// without a default.
+/// Samplers that need more than their names: one adapts to a scene, one has a parameter without a
+/// default.
 template <bool Probes>
 class Demanding final : public Sampler {
  public:
@@ -207,7 +208,7 @@ TEST_CASE("work that is stopped keeps the numbers that all samplers have") {
   LaboratoryControl control{.on_progress = {}, .stop = &stop};
   control.on_progress = [&](double fraction, double) { stop = fraction > 0.4; };
   const std::string config = std::string(kTwo) +
-                             "samples: { from: 4, to: 10 }\nrealisations: 64\n"
+                             "samples: { from: 4, to: 10 }\nrealizations: 64\n"
                              "spectrum: { points: 16, realizations: 2, max_frequency: 3 }\n";
   const LaboratoryResults results = measured(config, control);
   CHECK(results.stopped);
@@ -233,7 +234,7 @@ TEST_CASE("spectra are stopped between realizations, and whole work is not calle
     last = fraction;
   };
   const std::string config = std::string(kTwo) +
-                             "samples: { from: 4, to: 6 }\nrealisations: 16\n"
+                             "samples: { from: 4, to: 6 }\nrealizations: 16\n"
                              "spectrum: { points: 256, realizations: 20, max_frequency: 16 }\n";
   const LaboratoryResults cut = measured(config, control);
   CHECK(cut.stopped);

@@ -12,13 +12,13 @@ extern "C" void pharos_module_register(pharos::Registry& registry);
 
 namespace pharos::laboratory {
 
-/// The beginning of a file: an edge and something smooth.
+/// The beginning of a config file: an edge and a smooth integrand.
 inline constexpr const char* kIntegrands = R"(integrands:
   - { name: edge, integrand: { type: edge, angles: [30] } }
   - { name: smooth, integrand: { type: smooth } }
 )";
 
-/// All samplers of the project and all integrands.
+/// Returns a registry with all samplers of the project and all integrands.
 inline Registry registry() {
   Registry all;
   pharos_module_register(all);
@@ -26,7 +26,7 @@ inline Registry registry() {
   return all;
 }
 
-/// What a file says that begins with `integrands`; the output folder is `folder`.
+/// Returns the config of a file that begins with `integrands`. The output folder is `folder`.
 inline LaboratoryConfig config_of(const test::TemporaryFolder& folder, const std::string& more,
                                   const std::string& integrands = kIntegrands) {
   LaboratoryConfig config =
@@ -35,13 +35,13 @@ inline LaboratoryConfig config_of(const test::TemporaryFolder& folder, const std
   return config;
 }
 
-/// What is measured with kIntegrands and `more` of a file.
+/// Returns the results for a file with kIntegrands and `more`.
 inline LaboratoryResults measured(const std::string& more, const LaboratoryControl& control = {}) {
   const test::TemporaryFolder folder;
   return measure(config_of(folder, more), control);
 }
 
-/// Samplers of a file, the baseline first.
+/// The samplers of a file, the baseline first.
 inline constexpr const char* kTwo = R"(samplers:
   - { name: random, sampler: independent }
   - { name: sobol, sampler: sobol }

@@ -1,4 +1,4 @@
-// Known slopes and known variances.
+// Tests of known slopes and known variances.
 
 #include <cmath>
 #include <numbers>
@@ -28,7 +28,7 @@ TEST_CASE("slopes of independent and of Sobol' points are those of theory") {
   CHECK(results.samplers[0].spectrum.empty());
 }
 
-/// Of kIntegrands' edge and smooth function for one sampler, given as YAML.
+/// The slopes of one sampler, given as YAML, on the edge and the smooth function of kIntegrands.
 struct Slopes {
   VarianceSlope edge, smooth;
 };
@@ -40,7 +40,7 @@ Slopes slopes_of(const std::string& sampler, const std::string& more) {
   return {slopes[0].value(), slopes[1].value()};
 }
 
-/// Whether the whole interval lies between two bounds.
+/// Checks that the whole interval lies between two bounds.
 void check_between(const VarianceSlope& slope, double low, double high) {
   CAPTURE(slope.slope.value);
   CHECK(slope.slope.interval.low > low);
@@ -49,7 +49,7 @@ void check_between(const VarianceSlope& slope, double low, double high) {
 
 TEST_CASE("slopes of multi-jittered points, with permutations shared or not") {
   // Sets of few points gain more than the law of large ones when they double.
-  const std::string range = "samples: { from: 6, to: 12 }\nrealisations: 400\n";
+  const std::string range = "samples: { from: 6, to: 12 }\nrealizations: 400\n";
   const Slopes shared = slopes_of("multi_jittered", range);
   check_between(shared.edge, -1.7, -1.3);
   check_between(shared.smooth, -3.2, -2.8);
@@ -59,15 +59,15 @@ TEST_CASE("slopes of multi-jittered points, with permutations shared or not") {
 }
 
 TEST_CASE("slopes of pmj02") {
-  const Slopes s = slopes_of("pmj02", "samples: { from: 4, to: 10 }\nrealisations: 400\n");
+  const Slopes s = slopes_of("pmj02", "samples: { from: 4, to: 10 }\nrealizations: 400\n");
   check_between(s.edge, -1.65, -1.35);
   check_between(s.smooth, -3.2, -2.3);
 }
 
 TEST_CASE("slopes of pmj02bn") {
-  // Preparations are dear.
+  // Preparations are expensive.
   const Slopes s =
-      slopes_of("pmj02bn", "samples: { from: 4, to: 9 }\nrealisations: 400\npreparations: 12\n");
+      slopes_of("pmj02bn", "samples: { from: 4, to: 9 }\nrealizations: 400\npreparations: 12\n");
   check_between(s.edge, -1.7, -1.3);
   check_between(s.smooth, -3.3, -2.2);
 }
@@ -88,10 +88,11 @@ TEST_CASE("the variance of independent points is the integrand's, over their num
 }
 
 TEST_CASE("the variance of shifted points is the one that their spectrum foretells") {
-  // The sum over frequencies of power times squared Fourier coefficient, over the number of points;
-  // a Gaussian's coefficients are (2 pi width^2) exp(-2 pi^2 width^2 f^2).
+  // The expected variance is the sum over frequencies of power times squared Fourier coefficient,
+  // divided by the number of points. The coefficients of a Gaussian are (2 pi width^2) exp(-2 pi^2
+  // width^2 f^2).
   const LaboratoryResults results = measured(std::string(kTwo) +
-                                             "samples: { from: 2, to: 4 }\nrealisations: 4000\n"
+                                             "samples: { from: 2, to: 4 }\nrealizations: 4000\n"
                                              "spectrum: { points: 16, realizations: 2000, "
                                              "max_frequency: 8 }\n");
   const double width = 0.15, mean = 2 * std::numbers::pi * width * width;

@@ -1,4 +1,4 @@
-// Variances, their slopes, and whether the intervals hold what they promise.
+// Tests of variances, their slopes, and the coverage of the intervals.
 
 #include <cmath>
 #include <numbers>
@@ -15,7 +15,7 @@
 namespace pharos::laboratory {
 namespace {
 
-/// Standard normal numbers by Box and Muller.
+/// Standard normal numbers by the method of Box and Muller.
 class Normal {
  public:
   explicit Normal(std::uint64_t seed) : numbers_(seed) {}
@@ -28,15 +28,15 @@ class Normal {
   RandomStream numbers_;
 };
 
-/// Of estimates that are all independent.
+/// Returns the variance of estimates that are all independent.
 VarianceEstimate variance_about(double exact, const std::vector<double>& estimates) {
   return laboratory::variance_about(exact, estimates, estimates.size());
 }
 
 const std::vector<double> kNumbers{16, 32, 64, 128, 256, 512, 1024};
 
-/// Estimates whose variance falls as N^-1.5; with `spread`, errors of each realization have a scale
-/// of their own, so that the tails are heavy.
+/// Returns the variances of estimates that fall as N^-1.5. With `spread`, the errors of each
+/// realization have a scale of their own, so the tails are heavy.
 std::vector<VarianceEstimate> variances(Normal& normal, int realizations, double spread) {
   std::vector<VarianceEstimate> all;
   for (const double n : kNumbers) {
@@ -71,8 +71,8 @@ TEST_CASE("equal squares are not taken for certain") {
 }
 
 TEST_CASE("the error is that of groups' sums, by Student's t") {
-  // Squares 1, 1, 3, 3: sums -2 and 2 away from theirs, so a standard error of 1 with one degree of
-  // freedom, whose quantile is 12.706.
+  // The squares are 1, 1, 3, 3. The groups' sums differ by -2 and 2 from their expectation. This
+  // gives a standard error of 1 with one degree of freedom, and its quantile is 12.706.
   const double root = std::sqrt(3);
   const VarianceEstimate v =
       laboratory::variance_about(0, std::vector<double>{1, -1, root, -root}, 2);
@@ -102,7 +102,7 @@ TEST_CASE("a slope without errors is exact, and a curve widens its interval") {
   REQUIRE(bent);
   CHECK(straight->slope.value == doctest::Approx(-1.5));
   CHECK(straight->misfit == doctest::Approx(0));
-  // 28 squares of ln 2: the sum of squared distances from the middle of seven numbers.
+  // The sum of squared distances from the middle of seven numbers is 28 times the square of ln 2.
   const double error = 0.1 / (std::log(2) * std::sqrt(28));
   CHECK(straight->slope.interval.high - straight->slope.value == doctest::Approx(1.96 * error));
   CHECK(bent->slope.value == doctest::Approx(-1.5));
@@ -112,7 +112,7 @@ TEST_CASE("a slope without errors is exact, and a curve widens its interval") {
 }
 
 TEST_CASE("weights follow the errors") {
-  // The last number is far off and hardly known.
+  // The last number is far off and has a large error.
   std::vector<VarianceEstimate> v;
   for (const double n : {1.0, 2.0, 4.0}) v.push_back({1 / n, 0.01, {}});
   v.push_back({1e3, 1e3, {}});
@@ -137,8 +137,8 @@ TEST_CASE("wrong numbers of values are refused") {
         }).find("3 and 4") != std::string::npos);
 }
 
-/// The shares of repetitions in which the 95 % intervals of variance, ratio and slope hold the
-/// truth.
+/// The shares of repetitions in which the 95 % intervals of variance, ratio and slope contain the
+/// true value.
 struct Coverage {
   double variance = 0, ratio = 0, slope = 0;
 };
@@ -159,8 +159,9 @@ Coverage coverage(int realizations, double spread) {
   return held;
 }
 
-/// The share of intervals that hold the truth when ten estimates at a time have a common scale, as
-/// those of one preparation may; `groups` is what the intervals suppose.
+/// Returns the share of intervals that contain the true value if each ten consecutive estimates
+/// have a common scale, like the estimates of one preparation may have. `groups` is the number of
+/// groups that the intervals assume.
 double coverage_of_groups(std::size_t groups) {
   constexpr int kRepetitions = 800;
   constexpr double kSpread = 0.3;
@@ -187,7 +188,8 @@ TEST_CASE("intervals of groups hold the truth where estimates depend on each oth
 }
 
 TEST_CASE("intervals of normal errors hold the truth in 95 % of cases") {
-  // Standard error of a share of 800: 0.8 %. Misfits above 1 widen slopes by chance.
+  // The standard error of a share of 800 is 0.8 %. Misfits that are above 1 by chance widen the
+  // intervals of slopes.
   const Coverage held = coverage(400, 0);
   CHECK(held.variance == doctest::Approx(0.95).epsilon(0.03));
   CHECK(held.ratio == doctest::Approx(0.95).epsilon(0.03));
@@ -196,8 +198,9 @@ TEST_CASE("intervals of normal errors hold the truth in 95 % of cases") {
 }
 
 TEST_CASE("intervals of heavy-tailed errors hold the truth almost as often") {
-  // With a scale of its own for each realization squares have 3 exp(4 spread^2) times their squared
-  // mean as second moment; intervals from normal theory would hold the truth in some 85 %.
+  // If each realization has a scale of its own, the second moment of the squares is 3 exp(4
+  // spread^2) times their squared mean. Intervals from normal theory would contain the true value
+  // in about 85 % of cases.
   const Coverage held = coverage(400, 0.4);
   CHECK(held.variance >= 0.91);
   CHECK(held.ratio >= 0.92);

@@ -11,7 +11,7 @@
 
 namespace pharos::focal::plane::testing {
 
-/// The midpoint rule.
+/// Integrates with the midpoint rule.
 template <class F>
 double integrate(const F& f, double low, double high, int points) {
   double sum = 0;
@@ -19,14 +19,14 @@ double integrate(const F& f, double low, double high, int points) {
   return sum * (high - low) / points;
 }
 
-/// How well sample() fits pdf().
+/// The goodness of fit of sample() to pdf().
 struct AngleFit {
-  double p_value = 0;   ///< of chi-square
-  double integral = 0;  ///< of the density over all angles [1]
+  double p_value = 0;   ///< p-value of the chi-square test
+  double integral = 0;  ///< integral of the density over all angles [1]
 };
 
-/// Half of the draws choose cells of equal counts, the others are tested against the density's
-/// integral over each cell.
+/// Tests samples against a density. The first half of the samples defines cells of equal counts.
+/// The second half is compared with the integral of the density over each cell.
 inline AngleFit fit_angles(const DirectionDensity& density, std::uint64_t seed) {
   constexpr int kDraws = 50'000, kCells = 200;
   RandomStream random(seed, 99);
@@ -44,7 +44,7 @@ inline AngleFit fit_angles(const DirectionDensity& density, std::uint64_t seed) 
   for (std::size_t cell = 1; cell <= kCells; ++cell) {
     const double high = cell == kCells ? std::numbers::pi / 2 : first[cell * kDraws / kCells];
     const auto to = std::lower_bound(from, second.end(), high);
-    // Wide cells may hide narrow peaks: at least a point every 2e-4.
+    // Wide cells may contain narrow peaks, so the quadrature has at least one point every 2e-4.
     const int points = 100 + static_cast<int>((high - low) / 2e-4);
     const double mass = integrate([&](double a) { return density.pdf(a); }, low, high, points);
     observed.push_back(static_cast<double>(to - from));

@@ -25,7 +25,7 @@ struct Named {
   Guide* guide;
 };
 
-/// Every kind of guide, trained with a seed.
+/// Guides of every kind, trained with a seed.
 struct Trained {
   explicit Trained(std::uint64_t seed, const TrainingPlan& plan = {}) {
     for (const Named& named : all) train(*named.guide, kScene, plan, seed);
@@ -43,7 +43,7 @@ const Trained& trained() {
   return guides;
 }
 
-/// The mass of the tree within `distance` of the middles of the gaps.
+/// Returns the mass of the tree within `distance` of the centers of the gaps.
 double mass_near_gaps(const FocalGuide& guide, double distance) {
   double sum = 0;
   guide.tree().for_each_leaf([&](const Quadtree::Child& leaf, const Cell& cell, std::size_t) {
@@ -104,7 +104,8 @@ TEST_CASE("plane guides: estimates agree with the irradiance in closed form") {
       CHECK(std::abs(mean.value - expected) < 4 * mean.standard_error);
     }
   }
-  // A bias of 3 % would be seen at four standard errors in the focal guide's pooled estimate.
+  // The test would detect a bias of 3 % in the focal guide's pooled estimate at four standard
+  // errors.
   RandomStream random(9);
   const MonteCarloMean pooled =
       estimate_irradiance(kScene, {&trained().focal, kFraction}, 8 * kSamples, random);
@@ -130,7 +131,7 @@ TEST_CASE("plane guides: irradiance and variance at points of the floor") {
       const statistics::Moments moments = statistics::moments(values);
       const double mean = kScene.irradiance(x);
       CHECK(std::abs(moments.mean - mean) < 4 * std::sqrt(variance / kSamples));
-      // The error of a sampled variance comes from the spread of squared deviations.
+      // The error of a sampled variance follows from the spread of squared deviations.
       for (double& v : values) v = (v - mean) * (v - mean);
       const statistics::Moments squares = statistics::moments(values);
       CHECK(std::abs(squares.mean - variance) < 5 * std::sqrt(squares.variance / kSamples));
@@ -169,7 +170,7 @@ TEST_CASE("plane guides: narrowing moves the mass into the gaps") {
     return mass_near_gaps(guide, 0.02);
   };
   CHECK(mass(3) > 0.8);
-  CHECK(mass(6) < 0.6);  // never narrowed
+  CHECK(mass(6) < 0.6);  // without narrowing
 }
 
 TEST_CASE("plane guides: a narrowed splat is the share that eq. 14 says") {
@@ -177,8 +178,8 @@ TEST_CASE("plane guides: a narrowed splat is the share that eq. 14 says") {
   settings.narrowing_from = 0;
   FocalGuide guide(kScene, settings);
   const Ray ray({0.1, 0}, -0.2);
-  // Of an even tree in which one line alone carries light, its leaves get masses in proportion to
-  // t1^2 - t0^2: the upper half of the line three times as much as the lower one.
+  // Only one line of an even tree carries light. Its leaves get masses in proportion to t1^2 -
+  // t0^2, so the upper half of the line gets three times as much as the lower half.
   guide.learn(std::vector<Path>{{.x = 0.1, .angle = -0.2, .pdf = 0.7, .value = 2}}, 0);
   double lower = 0, upper = 0;
   guide.tree().for_each_leaf([&](const Quadtree::Child& leaf, const Cell& cell, std::size_t) {
@@ -193,7 +194,7 @@ TEST_CASE("plane guides: a narrowed splat is the share that eq. 14 says") {
   early.tree().for_each_leaf([&](const Quadtree::Child& leaf, const Cell& cell, std::size_t) {
     if (cell.low.y < 0.5) lower += leaf.mass;
   });
-  CHECK(lower == doctest::Approx(0.5));  // lengths
+  CHECK(lower == doctest::Approx(0.5));  // weights by length
 }
 
 TEST_CASE("plane guides: the focal guide splats values, before narrowing and after") {

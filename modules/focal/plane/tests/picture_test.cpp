@@ -13,7 +13,7 @@ namespace {
 
 constexpr Rgb kWhite{1, 1, 1}, kBlack{0, 0, 0};
 
-/// How much ink there is, in pixels of full black.
+/// Returns the amount of ink, in pixels of full black.
 double ink_on(const Canvas& canvas) {
   double sum = 0;
   const Image image = canvas.image();
@@ -23,7 +23,7 @@ double ink_on(const Canvas& canvas) {
   return sum;
 }
 
-/// The picture of one path of the given value, summed up.
+/// Returns the sum of the pixel values of a picture with one path of the given value.
 double brightness(double value) {
   const Panel panels[] = {{.title = "(a)",
                            .paths = {{.x = 0.5, .angle = -0.4, .pdf = 1, .value = value}},
@@ -73,7 +73,7 @@ TEST_CASE("canvas: text is as wide as said, and letters that the font lacks are 
 
 TEST_CASE("picture: paths are as dark as their values, up to full ink") {
   const double none = brightness(0), faint = brightness(0.5), strong = brightness(1);
-  CHECK(none - strong == doctest::Approx(2 * (none - faint)).epsilon(0.25));  // but for gamma
+  CHECK(none - strong == doctest::Approx(2 * (none - faint)).epsilon(0.25));  // except for gamma
   CHECK(strong > brightness(2));
   CHECK(brightness(2) == brightness(50));
 }

@@ -16,7 +16,7 @@ namespace {
 
 constexpr Cell kRegion{{-1.5, 0}, {3, 1}};
 
-/// Masses that crowd about (0.3, 0.6), with noise, refined twice.
+/// Returns a tree refined twice with noisy masses that concentrate around (0.3, 0.6).
 Quadtree crowded_tree(const Quadtree::SplitRule& rule = {}) {
   Quadtree tree(kRegion, rule);
   RandomStream random(5);
@@ -38,7 +38,7 @@ double total_mass(const Quadtree& tree) {
   return sum;
 }
 
-/// The integral of density(origin + t direction) t dt by small steps, leaf by leaf.
+/// Integrates density(origin + t direction) t dt by small steps, leaf by leaf.
 double stepped_density(const Quadtree& tree, const Ray& ray) {
   double sum = 0;
   tree.for_each_leaf([&](const Quadtree::Child& leaf, const Cell& cell, std::size_t) {
@@ -73,7 +73,8 @@ TEST_CASE("quadtree: one full leaf splits over as many levels as it may, empty n
   REQUIRE(full.area() > 0);
   const Quadtree tree = even.refined(sums, rule);
   CHECK(total_mass(tree) == doctest::Approx(1));
-  // Five levels below the full leaf, and three leaves beside each of the five nodes on the way.
+  // There are five levels below the full leaf, and each of the five nodes on the way has three
+  // other leaves.
   CHECK(tree.leaf_count() == 1024 + 3 * 5);
   tree.for_each_leaf([&](const Quadtree::Child& leaf, const Cell& cell, std::size_t) {
     const double x = cell.low.x - full.low.x, y = cell.low.y - full.low.y;

@@ -13,7 +13,7 @@ using testing::integrate;
 
 namespace {
 
-/// Irradiance by tracing rays, which shares nothing with the closed form.
+/// Computes the irradiance by tracing rays, independently of the closed form.
 double traced_irradiance(const GapScene& scene, double x) {
   const auto radiance_times_cosine = [&](double angle) {
     return scene.sees_light(x, angle) ? std::cos(angle) : 0.0;
@@ -25,7 +25,7 @@ double traced_irradiance(const GapScene& scene, double x) {
 
 TEST_CASE("gap scene: the closed form of the irradiance equals the traced one") {
   GapScene scene;
-  for (const double light : {1.5, 0.6}) {  // the smaller one hides behind the obstacle for some
+  for (const double light : {1.5, 0.6}) {  // the obstacle hides the smaller light from some points
     scene.light_half_width = light;
     for (const double x : {-1.0, -0.37, 0.0, 0.2, 0.85}) {
       CAPTURE(light);
@@ -45,7 +45,7 @@ TEST_CASE("gap scene: every point of the floor sees the light through every gap"
   for (const double x : {-1.0, -0.5, 0.0, 0.7, 1.0}) CHECK(scene.lit_angles(x).size() == 3);
   GapScene smaller = scene;
   smaller.light_half_width = 1.1;
-  CHECK(smaller.lit_angles(1.0).size() == 2);  // the leftmost gap would show x1 = -1.4
+  CHECK(smaller.lit_angles(1.0).size() == 2);  // through the leftmost gap, x1 would be -1.4
 }
 
 TEST_CASE("gap scene: the mean irradiance of one gap in closed form") {

@@ -28,7 +28,7 @@ def tone(value, exposure=0):
 
 
 def ramp(image, x, y, exposure=0):
-    """The colour of a pixel of "ramp": the three methods are images 0 to 2, the reference 3."""
+    """The color of a pixel of "ramp": the three methods are images 0 to 2, the reference 3."""
     factor = [1.25, 1.5, 1.75, 1][image]
     values = [factor * (x + 1) / 64, factor * (y + 1) / 32, factor / 4]
     if (x, y) == (0, 0):
@@ -89,7 +89,7 @@ class Page:
                 Math.floor({u} * c.width), Math.floor({v} * c.height), 1, 1).data].slice(0, 3); }})()""")
 
     def shows(self, color, u, v, what):
-        """Waits for a colour, since images are unpacked on the side."""
+        """Waits for a color, since images are unpacked on the side."""
         end = time.monotonic() + 5
         while self.color(u, v) != color and time.monotonic() < end:
             time.sleep(0.02)
@@ -109,7 +109,7 @@ class Page:
 
 
 def colored(page, chart, color, alpha=255):
-    """How many pixels of a chart have about that colour and opacity."""
+    """How many pixels of a chart have about that color and opacity."""
     return page.run(f"""(() => {{ const c = document.querySelectorAll("#charts canvas")[{chart}];
         const d = c.getContext("2d").getImageData(0, 0, c.width, c.height).data; let n = 0;
         for (let i = 0; i < d.length; i += 4) n += Math.abs(d[i + 3] - {alpha}) < 6 &&

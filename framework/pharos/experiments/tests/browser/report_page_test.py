@@ -167,7 +167,7 @@ def test_error_map(page):
             place = page.run(f"(Math.log10({(x + 1) / 1024}) - ({low})) / ({high} - ({low}))")
             page.shows(false_color(place), (x + 0.5) / SCENE_WIDTH, 0.5,
                        f"error of pixel {x} from 10^{low} to 10^{high}")
-    check_equal(len(page.texts("#map-bar .ticks span")), 3, "numbers at the colour bar")
+    check_equal(len(page.texts("#map-bar .ticks span")), 3, "numbers at the color bar")
     page.slide("map-high", -2.9)
     check(page.run("Number(document.getElementById('map-low').value) <= -2.95"), "range stays a range")
     page.browser.mouse("mouseMoved", *page.point(13.5 / SCENE_WIDTH, 0.5))

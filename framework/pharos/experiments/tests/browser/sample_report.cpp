@@ -46,7 +46,7 @@ ReportTable speed_table() {
                    {"ramp", {{.value = 5.5e6}, {.value = 5.5e6}, {.value = 5.1e6}}}}};
 }
 
-/// Errors that fall by `slope`, a little unevenly.
+/// Returns errors that fall with the slope `slope`, with small irregularities.
 ReportCurve curve(const std::string& scene, std::size_t method, const std::string& metric,
                   const std::string& axis, double start, double slope) {
   ReportCurve result{.scene = scene,
@@ -64,7 +64,7 @@ ReportCurve curve(const std::string& scene, std::size_t method, const std::strin
   return result;
 }
 
-/// A sphere on a floor under a small light, with noise of the given strength.
+/// Renders a sphere on a floor under a small light, with noise of the given strength.
 Image still_life(double noise, unsigned seed) {
   constexpr int kWidth = 320, kHeight = 200;
   std::mt19937 numbers(seed);

@@ -1,4 +1,4 @@
-// write-sample-report FILE: the page that report_page_test.py drives.
+// write-sample-report FILE: writes the page that report_page_test.py drives.
 
 #include <cstdio>
 #include <exception>

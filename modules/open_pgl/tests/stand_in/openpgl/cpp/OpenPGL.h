@@ -1,14 +1,15 @@
 #pragma once
 
-// Stands in for Open PGL 0.7 where the library is not installed: the part of its C++ interface that
-// the module uses, with a model of its own, so that the module is compiled and tested everywhere.
-// It keeps the library's ways that a user must know: queries fail outside the bounds and where
-// nothing was learned, and keep what they held; random numbers of queries are rescaled in place;
-// fields change in place and are copied by way of files only (it writes no times into them); one
-// NaN spoils a field.
+// A stand-in for Open PGL 0.7 if the library is not installed. It is the part of the C++ interface
+// that the module uses, with a model of its own, so that the module is compiled and tested
+// everywhere. It behaves like the library in these respects:
+// - Queries outside the bounds or in untrained cells fail and keep the previous distribution.
+// - The random numbers of queries are rescaled in place.
+// - Fields change in place and can be copied through files only (without times in these files).
+// - One NaN makes a field useless.
 //
-// The model: the bounds' eight octants, each with a density (1 + a . w) / (4 pi) of directions w,
-// where a is the weighted mean of the directions seen there.
+// The model has a density (1 + a . w) / (4 pi) of directions w in each of the eight octants of the
+// bounds, where a is the weighted mean of the directions of the samples there.
 
 #include <algorithm>
 #include <array>
@@ -168,7 +169,7 @@ struct Field {
   std::array<Cell, 16> cells_{};  ///< of surfaces, then of volumes
 };
 
-/// What both kinds of query objects have in common.
+/// Base of both kinds of query objects.
 template <std::size_t kFirstCell>
 struct SamplingDistribution {
   explicit SamplingDistribution(const Field* field) : multiplies_(field->multiplies_) {}
@@ -178,7 +179,7 @@ struct SamplingDistribution {
     if (field->GetIteration() == 0 || !field->is_inside(at)) return false;
     std::size_t index = field->index(at);
     if (field->neighbors_) {
-      // One time in four the octant beside.
+      // Takes the neighboring octant with a probability of 1/4.
       const bool beside = sample1D < 0.25f;
       index ^= beside ? 1u : 0u;
       sample1D = beside ? 4 * sample1D : (sample1D - 0.25f) / 0.75f;
@@ -191,12 +192,12 @@ struct SamplingDistribution {
     return true;
   }
   pgl_vec3f Sample(const pgl_point2f& u) const {
-    // Along a with cosine c of density (1 + r c) / 2, around it evenly.
+    // The cosine c with the direction of a has the density (1 + r c) / 2; the azimuth is uniform.
     const float r = std::min(std::sqrt(a_.x * a_.x + a_.y * a_.y + a_.z * a_.z), 1.0f);
     const float c = r < 1e-3f ? 2 * u.x - 1 : (std::sqrt((1 - r) * (1 - r) + 4 * r * u.x) - 1) / r;
     const float s = std::sqrt(std::max(0.0f, 1 - c * c)), phi = 6.2831853f * u.y;
     const pgl_vec3f n = r < 1e-3f ? pgl_vec3f{0, 0, 1} : pgl_vec3f{a_.x / r, a_.y / r, a_.z / r};
-    // Two axes beside n (Duff et al. 2017).
+    // Two unit vectors perpendicular to n and to each other (Duff et al. 2017).
     const float sign = std::copysign(1.0f, n.z), k = -1 / (sign + n.z), b = n.x * n.y * k;
     const pgl_vec3f t{1 + sign * n.x * n.x * k, sign * b, -sign * n.x};
     const pgl_vec3f v{b, sign + n.y * n.y * k, -n.y};
@@ -216,7 +217,7 @@ struct SamplingDistribution {
 struct SurfaceSamplingDistribution : SamplingDistribution<0> {
   using SamplingDistribution::SamplingDistribution;
   bool SupportsApplyCosineProduct() const { return multiplies_; }
-  /// No product, but something that depends on the normal and stays a density.
+  /// This is not the product with the cosine, but it depends on the normal and stays a density.
   void ApplyCosineProduct(const pgl_vec3f& n) {
     a_ = {0.5f * (a_.x + n.x), 0.5f * (a_.y + n.y), 0.5f * (a_.z + n.z)};
   }
