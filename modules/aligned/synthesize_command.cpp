@@ -87,13 +87,15 @@ void Settings::describe(Schema<Settings>& s) {
   s.field("points", own(&SynthesisSettings::points), "Number of points")
       .check("a power of two from 64 to 65536", is_size);
   s.field("directions", own(&SynthesisSettings::directions),
-          "Directions of low energy beside both axes: normals of edges, from the x axis towards y")
+          "Directions of low energy in addition to both axes: normals of edges, as angles from the "
+          "x axis toward the y axis")
       .unit("degrees")
       .check("at most 16 directions", [](const std::vector<double>& d) { return d.size() <= 16; });
   s.field("steps", own(&SynthesisSettings::steps), "Steps of gradient descent")
       .at_least(1)
       .at_most(100'000);
-  s.field("step", own(&SynthesisSettings::step), "Length of the first steps; the last are short")
+  s.field("step", own(&SynthesisSettings::step),
+          "Length of the first step; the length falls to zero")
       .unit("1 / square root of the number of points")
       .above(0)
       .at_most(1);
@@ -101,16 +103,18 @@ void Settings::describe(Schema<Settings>& s) {
           "Weight of the power spectrum loss; 0 leaves it out")
       .at_least(0);
   s.field("wasserstein", own(&SynthesisSettings::wasserstein),
-          "Weight of the sliced Wasserstein loss, 4096/N times for N above 4096; 0 leaves it out")
+          "Weight of the sliced Wasserstein loss, multiplied by 4096/N for N above 4096; 0 leaves "
+          "it out")
       .at_least(0);
-  s.field("rule", own(&SynthesisSettings::rule), "Which frequencies are suppressed");
+  s.field("rule", own(&SynthesisSettings::rule), "Rule that selects the suppressed frequencies");
   s.field("mask", own(&SynthesisSettings::mask),
-          "Frequencies and the powers that they should have, in place of the rule")
+          "Frequencies with target powers, used instead of the rule")
       .check("of other frequencies than (0, 0)", [](const std::vector<TargetPower>& mask) {
         return std::ranges::none_of(mask,
                                     [](const TargetPower& v) { return v.x == 0 && v.y == 0; });
       });
-  s.field("seed", own(&SynthesisSettings::seed), "Of the jittered grid that the points start from");
+  s.field("seed", own(&SynthesisSettings::seed),
+          "Seed of the jittered grid from which descent starts");
   s.field("output", &Settings::output,
           "File for the points: .txt, or .bin with coordinates in steps of 2^-16");
   s.field("picture", &Settings::picture, "Picture of the points beside their spectrum (.png)");

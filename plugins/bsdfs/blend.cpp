@@ -40,7 +40,7 @@ bool refract_differently(const Bsdf& a, const Bsdf& b) {
 void Blend::Settings::describe(Schema<Settings>& s) {
   s.field("first", &Settings::first, "Material where the weight is 0").required();
   s.field("second", &Settings::second, "Material where the weight is 1").required();
-  describe_share(s, "weight", &Settings::weight, "Share of the second", "0.5");
+  describe_share(s, "weight", &Settings::weight, "Share of the second material", "0.5");
   s.example("{ first: { type: diffuse }, second: { type: rough_conductor, alpha: 0.3 } }");
   s.example("{ first: { type: plastic }, second: { type: diffuse }, weight: [0.2, 0.5, 0.8] }");
   s.example(

@@ -17,7 +17,7 @@
 namespace pharos {
 
 void DiffuseTransmitter::Settings::describe(Schema<Settings>& s) {
-  describe_share(s, "transmittance", &Settings::transmittance, "Share of light that is let through",
+  describe_share(s, "transmittance", &Settings::transmittance, "Share of light that is transmitted",
                  "0.5");
   describe_share(s, "reflectance", &Settings::reflectance, "Share of light that is reflected", "0");
   describe_warp(s);

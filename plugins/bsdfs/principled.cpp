@@ -196,17 +196,20 @@ float stated_index(const Principled::Settings& settings) {
 void Principled::Settings::describe(Schema<Settings>& s) {
   describe_share(s, "base_color", &Settings::base_color, "Color of the material", "0.5");
   describe_share(s, "roughness", &Settings::roughness, "Square root of the GGX alpha", "0.5");
-  describe_share(s, "metallic", &Settings::metallic, "How much it is a metal", "0");
+  describe_share(s, "metallic", &Settings::metallic,
+                 "Share of the metallic material: 0 is a dielectric, 1 a metal", "0");
   s.field("specular", &Settings::specular,
           "Strength of reflection, as an alternative to ior; 0.5 means an index of 1.5")
       .at_least(0)
       .at_most(1);
-  describe_ior(s, "Refractive index inside over outside; 1.5 where neither it nor specular stands");
+  describe_ior(s, "Refractive index inside over outside; 1.5 if neither it nor specular is given");
   describe_share(s, "spec_tint", &Settings::spec_tint, "How much reflections are tinted", "0");
-  describe_share(s, "spec_trans", &Settings::spec_trans, "How much it is clear", "0");
+  describe_share(s, "spec_trans", &Settings::spec_trans, "Share of the clear, refracting material",
+                 "0");
   describe_share(s, "sheen", &Settings::sheen, "Strength of the sheen of cloth", "0");
   describe_share(s, "sheen_tint", &Settings::sheen_tint, "How much the sheen is tinted", "0");
-  describe_share(s, "flatness", &Settings::flatness, "How much it looks as if light sank in", "0");
+  describe_share(s, "flatness", &Settings::flatness,
+                 "Blend towards a flat look that imitates subsurface scattering", "0");
   describe_share(s, "clearcoat", &Settings::clearcoat, "Strength of a clear coat", "0");
   describe_share(s, "clearcoat_gloss", &Settings::clearcoat_gloss, "How polished the coat is", "0");
   s.field("masking", &Settings::masking, "How masking and shadowing are combined");

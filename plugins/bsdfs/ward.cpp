@@ -39,10 +39,10 @@ namespace pharos {
 void Ward::Settings::describe(Schema<Settings>& s) {
   s.field("alpha_u", &Settings::alpha_u, "Roughness along u").at_least(1e-4).at_most(1);
   s.field("alpha_v", &Settings::alpha_v, "Roughness along v").at_least(1e-4).at_most(1);
-  describe_share(s, "specular_reflectance", &Settings::specular_reflectance, "Of the glossy lobe",
-                 "0.2");
-  describe_share(s, "diffuse_reflectance", &Settings::diffuse_reflectance, "Of the matt base",
-                 "0.5");
+  describe_share(s, "specular_reflectance", &Settings::specular_reflectance,
+                 "Reflectance of the glossy lobe", "0.2");
+  describe_share(s, "diffuse_reflectance", &Settings::diffuse_reflectance,
+                 "Reflectance of the matt base", "0.5");
   s.field("variant", &Settings::variant, "How the glossy lobe is scaled");
   s.example(
       "{ alpha_u: 0.05, alpha_v: 0.3, specular_reflectance: [0.9, 0.7, 0.4], "

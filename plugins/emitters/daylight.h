@@ -51,24 +51,25 @@ SunPlace sun_place(const DaylightSettings& settings, const Frame& axes, const ch
 template <class Settings>
 void describe_daylight(Schema<Settings>& s) {
   s.template field<float>("turbidity", &Settings::turbidity,
-                          "How hazy the air is: 2 very clear, 3 clear, 6 warm and moist, 10 hazy")
+                          "Haziness of the air: 2 very clear, 3 clear, 6 warm and moist, 10 hazy")
       .at_least(1.7)
       .at_most(10);
-  s.template field<std::optional<Vec3>>("sun_direction", &Settings::sun_direction,
-                                        "Towards the sun, in world space; any length but 0")
+  s.template field<std::optional<Vec3>>(
+       "sun_direction", &Settings::sun_direction,
+       "Direction towards the sun, in world space; any length except 0")
       .check("a direction", [](const std::optional<Vec3>& d) {
         return !d || std::abs(length(normalize(*d)) - 1) < 1e-3f;
       });
   s.template field<std::optional<Observer>>(
       "observer", &Settings::observer,
-      "Place and time instead of sun_direction; the defaults where neither stands");
+      "Place and time, as an alternative to sun_direction; its defaults hold if neither is given");
   s.template field<float>("stretch", &Settings::stretch,
-                          "Factor on angles from the zenith, which takes the horizon further down")
+                          "Factor on angles from the zenith; more than 1 lowers the horizon")
       .at_least(1)
       .at_most(2);
   s.template field<Transform>(
       "to_world", &Settings::to_world,
-      "From the sky's space (+y up, +x east, -z north) to world space; no shear, even scale");
+      "From the sky's space (+y up, +x east, -z north) to world space; even scale, no shear");
   s.template field<float>("scale", &Settings::scale, "Factor on the radiance").at_least(0);
 }
 

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <utility>
 
-#include <pharos/rendering/integrator.h>
-#include <pharos/rendering/light_selection.h>
+#include <pharos/transport/path_settings.h>
+#include <pharos/transport/prepared_bidirectional.h>
 
 namespace pharos {
 
@@ -27,6 +27,9 @@ class BidirectionalIntegrator final : public Integrator {
     LightPaths light_paths = LightPaths::always;
     std::optional<GuidingSettings> guiding;
     static void describe(Schema<Settings>& s);
+
+    PathSettings path_settings() const;
+    LightPathRules light_path_rules() const;
   };
   explicit BidirectionalIntegrator(Settings settings) : settings_(std::move(settings)) {}
 

@@ -11,47 +11,9 @@
 #include "light.h"
 
 #include <pharos/core/error.h>
-
-#include "light_walk.h"
-#include "splats.h"
+#include <pharos/transport/prepared_light.h>
 
 namespace pharos {
-namespace {
-
-class PreparedLight final : public PreparedIntegrator {
- public:
-  PreparedLight(std::uint16_t max_depth, const RenderTarget& target)
-      : target_(target),
-        lights_(target.scene, LightSelection::one),
-        shared_{target_, lights_, max_depth} {}
-
-  void render(const WorkUnit& unit, const IterationContext& context,
-              WorkResult& result) const override {
-    Splats splats(shared_.max_depth);
-    Arena arena;
-    for_each_path(unit, context, target_.width, result,
-                  [&](const PathKey& key, const SampleStream& stream) {
-                    LightWalk(shared_, context, stream, arena, result.counters, splats).run();
-                    splats.deposit(key, result);
-                  });
-  }
-
-  PathTrace replay(const PathKey& key, const IterationContext& context) const override {
-    LightPathTeller teller;
-    RenderCounters counters;
-    Arena arena;
-    const SampleStream stream(context.sampler, key);
-    LightWalk(shared_, context, stream, arena, counters, teller).run();
-    return teller.trace();
-  }
-
- private:
-  RenderTarget target_;
-  LightSelector lights_;
-  LightScene shared_;
-};
-
-}  // namespace
 
 void LightIntegrator::Settings::describe(Schema<Settings>& s) {
   s.field("max_depth", &Settings::max_depth, "Longest path, from the light to the lens")
@@ -62,7 +24,7 @@ void LightIntegrator::Settings::describe(Schema<Settings>& s) {
 std::unique_ptr<const PreparedIntegrator> LightIntegrator::prepare(
     const RenderTarget& target) const {
   if (!target.jitter) throw InputError("the integrator 'light' needs a film with 'jitter: true'");
-  return std::make_unique<PreparedLight>(settings_.max_depth, target);
+  return std::make_unique<PreparedLightTracing<>>(settings_.max_depth, target);
 }
 
 }  // namespace pharos

@@ -3,9 +3,7 @@
 #include <optional>
 
 #include <pharos/rendering/integrator.h>
-#include <pharos/rendering/light_selection.h>
-
-#include "path_settings.h"
+#include <pharos/transport/path_settings.h>
 
 namespace pharos {
 

@@ -3,6 +3,7 @@
 // consists of sixteen spots of light, seen from random positions. Queries, directions and densities
 // are measured on one thread, updates on two.
 
+#include <array>
 #include <chrono>
 
 #include <fmt/format.h>
@@ -50,16 +51,18 @@ PathLog light_field(const Bounds3& bounds, std::uint64_t seed) {
     const bool hits = random.next_1d() < 0.5f;
     const Vec3 aside = warp::sphere_from_square(random.next_2d());
     const Point3 to = hits ? spot.center + spot.radius * aside : from + bounds.diagonal() * aside;
+    const float pdf = hits ? 1.0f : 0.1f;
     log.begin_path({}, Transport::radiance);
     log.add(RecordedVertex{.throughput = Rgb(1), .local_weight = Rgb(1)});
     log.add(RecordedVertex{.position = from,
                            .event = Event::smooth_reflect,
+                           .guidable = true,
                            .parent = 0,
                            .throughput = Rgb(1),
                            .local_weight = Rgb(1),
                            .direction = normalize(to - from),
-                           .unguided_pdf = hits ? 1.0f : 0.1f,
-                           .guidable = true});
+                           .pdf = pdf});
+    log.set_techniques(1, std::array{Technique{1, pdf}});
     log.add(
         RecordedVertex{.position = to, .parent = 1, .emission = Rgb(hits ? spot.light : 0.01f)});
   }
@@ -73,28 +76,27 @@ Ref<Contract> build(const std::string& settings, const Registry& registry) {
   return registry.build<Contract>(parse_yaml(settings, "benchmark"), context, resolved);
 }
 
-/// The result of learning the light field: the model, and the times of the updates on two threads
-/// [s].
-struct Learned {
+/// What a learner makes of the light field, and how long its updates take on two threads [s].
+struct Training {
   std::shared_ptr<const GuidingModel> model;
   std::vector<double> seconds;
 };
-Learned learn(const std::string& learner, const Bounds3& bounds, const Registry& registry) {
+Training train(const std::string& learner, const Bounds3& bounds, const Registry& registry) {
   const auto state = build<Learner>(learner, registry)
                          ->begin({.region = bounds, .seed = 1, .window = {0, 0, 100, 100}});
-  Learned learned;
+  Training training;
   tbb::task_arena arena(2);
   for (std::uint32_t i = 0; i < kUpdates; ++i) {
     const PathLog log = light_field(bounds, i);
     const auto start = std::chrono::steady_clock::now();
     arena.execute([&] {
       state->absorb(log);
-      learned.model = state->update(i, i + 1 == kUpdates);
+      training.model = state->update(i, i + 1 == kUpdates).model;
     });
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-    learned.seconds.push_back(elapsed.count());
+    training.seconds.push_back(elapsed.count());
   }
-  return learned;
+  return training;
 }
 
 class BaselineMeter {
@@ -106,13 +108,12 @@ class BaselineMeter {
   void answers(const std::string& learner, const std::string& guider, const char* pdf,
                const char* sample, const char* query) {
     const Ref<Guider> technique = build<Guider>(guider, registry_);
-    const Learned learned = learn(learner, scene_.bounds(), registry_);
-    const auto queries =
-        guide_queries(scene_, conformance::frame_of(*technique, learned.model), kVertices);
-    const auto bound = technique->bind(learned.model);
+    const auto model = train(learner, scene_.bounds(), registry_).model;
+    const auto queries = guide_queries(scene_, conformance::frame_of(*technique, model), kVertices);
+    const BoundGuider bound(*technique, model);
     Measurement a{pdf, "ns", {}}, b{sample, "ns", {}}, c{query, "ns", {}};
     for (int i = 0; i < repeats_; ++i) {
-      const GuideCosts costs = measure_costs(*bound, queries);
+      const GuideCosts costs = measure_costs(bound, queries);
       a.runs.push_back(costs.pdf_ns);
       b.runs.push_back(costs.sample_ns);
       c.runs.push_back(costs.query_ns);
@@ -129,11 +130,11 @@ class BaselineMeter {
         later{name + ".update_s.200k", "s", {}};
     Measurement bytes{name + ".bytes_per_cell", "B", {}};
     for (int i = 0; i < repeats_; ++i) {
-      const Learned learned = learn(learner, scene_.bounds(), registry_);
-      first.runs.push_back(learned.seconds.front());
-      later.runs.push_back(learned.seconds.back());
-      bytes.runs.push_back(static_cast<double>(learned.model->size_bytes()) /
-                           learned.model->region_count());
+      const Training training = train(learner, scene_.bounds(), registry_);
+      const ModelInfo info = training.model->info();
+      first.runs.push_back(training.seconds.front());
+      later.runs.push_back(training.seconds.back());
+      bytes.runs.push_back(static_cast<double>(info.bytes) / info.regions);
     }
     all_.push_back(first);
     all_.push_back(later);

@@ -42,13 +42,14 @@ class FixedMixture final : public GuidingModel, public SpatialMixture {
  public:
   explicit FixedMixture(std::vector<SpatialGaussian> components)
       : components_(std::move(components)) {}
-  std::string name() const override { return "fixed_mixture"; }
-  std::uint32_t version() const override { return 1; }
-  std::size_t size_bytes() const override { return components_.size() * sizeof components_[0]; }
-  void save(std::ostream&) const override {}
-  double density(Point3) const override { return 0; }
-  double density(Point3, Vec3) const override { return 0; }
-  View mixture_at(const GuidingQuery&, Arena&) const override { return {components_, 0}; }
+  ModelInfo info() const override {
+    return {.name = "fixed_mixture", .bytes = components_.size() * sizeof components_[0]};
+  }
+  void archive(Archive&) override {}
+  double density(Point3, const Vec3*) const override { return 0; }
+  std::span<const SpatialGaussian> mixture_at(const GuidingQuery&, Arena&) const override {
+    return components_;
+  }
 
  private:
   std::vector<SpatialGaussian> components_;
@@ -71,14 +72,14 @@ class GuiderMeter {
     const Ref<Guider> technique = build_guider(guider, registry_);
     const auto model = std::make_shared<FixedMixture>(components_around(scene_.bounds(), count));
     const auto queries = guide_queries(scene_, conformance::frame_of(*technique, model), kVertices);
-    const auto bound = technique->bind(model);
+    const BoundGuider bound(*technique, model);
     const auto named = [&](const char* what) {
       return fmt::format("gaussians.{}{}", what, count == 16 ? "" : fmt::format(".k{}", count));
     };
     Measurement pdf{fmt::format("gaussians.{}_pdf_ns.k{}", guider, count), "ns", {}},
         sample{named("sample_ns"), "ns", {}}, query{named("query_ns"), "ns", {}};
     for (int i = 0; i < repeats; ++i) {
-      const GuideCosts costs = measure_costs(*bound, queries);
+      const GuideCosts costs = measure_costs(bound, queries);
       pdf.runs.push_back(costs.pdf_ns);
       sample.runs.push_back(costs.sample_ns);
       query.runs.push_back(costs.query_ns);

@@ -37,6 +37,7 @@ class CostMeter {
  public:
   explicit CostMeter(const BoundGuider& guider) : guider_(guider) {
     streams_.reserve(kBatch);
+    queries_.reserve(kBatch);
     distributions_.reserve(kBatch);
   }
 
@@ -45,18 +46,16 @@ class CostMeter {
     prepare(batch, first);
     float sum = 0;
     const double start = thread_ns();
-    for (const GuideQuery& q : batch) {
-      distributions_.push_back(guider_.query(q.vertex->query(), arena_));
-    }
+    for (GuidingQuery& query : queries_) distributions_.push_back(ask(query));
     const double queried = thread_ns();
     for (std::size_t i = 0; i < batch.size(); ++i) {
-      const VertexStream stream(streams_[i], batch[i].vertex->query().bounce);
+      const VertexStream stream(streams_[i], queries_[i].bounce);
       if (const auto proposal = distributions_[i]->propose(stream)) sum += proposal->direction.x;
     }
     const double sampled = thread_ns();
     for (std::size_t i = 0; i < batch.size(); ++i) {
-      sum += distributions_[i]->density(batch[i].guided).value;
-      sum += distributions_[i]->density(batch[i].scattered).value;
+      sum += distributions_[i]->density(batch[i].guided);
+      sum += distributions_[i]->density(batch[i].scattered);
     }
     const double end = thread_ns();
     sink = sum;
@@ -73,12 +72,19 @@ class CostMeter {
   void prepare(std::span<const GuideQuery> batch, std::uint64_t first) {
     distributions_.clear();
     streams_.clear();
+    queries_.clear();
     for (std::size_t i = 0; i < batch.size(); ++i) {
       streams_.emplace_back(numbers_, PathKey{.seed = 3, .index = first + i});
+      queries_.push_back(batch[i].vertex->query());
       arena_.reset();
-      guider_.query(batch[i].vertex->query(), arena_);
+      ask(queries_.back());
     }
     arena_.reset();
+  }
+
+  const GuidingDistribution* ask(GuidingQuery& query) {
+    query.region = guider_.model().place(query.current).region;
+    return guider_.query(query, arena_);
   }
 
   const BoundGuider& guider_;
@@ -86,6 +92,7 @@ class CostMeter {
   const double clock_ns_ = clock_ns();
   Arena arena_;
   std::vector<SampleStream> streams_;
+  std::vector<GuidingQuery> queries_;
   std::vector<const GuidingDistribution*> distributions_;
   GuideCosts costs_;
 };

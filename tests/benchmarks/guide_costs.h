@@ -9,8 +9,8 @@ namespace pharos::bench {
 
 /// Costs of a guide on one thread, in processor time.
 struct GuideCosts {
-  double query_ns = 0;            ///< BoundGuider::query()
-  double sample_ns = 0;           ///< GuidingDistribution::propose() with its random numbers
+  double query_ns = 0;            ///< GuidingModel::place() and BoundGuider::query()
+  double sample_ns = 0;           ///< GuidingDistribution::propose(), its random numbers included
   double pdf_ns = 0;              ///< GuidingDistribution::density()
   std::uint64_t allocations = 0;  ///< heap allocations of all three together
 };

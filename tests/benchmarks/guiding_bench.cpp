@@ -53,7 +53,7 @@ class Trained {
   const Scene& scene() const { return job_.scene(); }
   const GuidingFrame& frame() const { return frame_; }
   const RenderResult& result() const { return result_; }
-  std::unique_ptr<const BoundGuider> bound_guider() const { return guider().bind(model()); }
+  BoundGuider bound_guider() const { return {guider(), model()}; }
 
  private:
   const Guider& guider() const {
@@ -74,11 +74,11 @@ class Trained {
 std::vector<Measurement> measure_answers(const GuidePair& pair, const Trained& trained,
                                          int repeats) {
   const auto queries = guide_queries(trained.scene(), trained.frame(), kVertices);
-  const auto guider = trained.bound_guider();
+  const BoundGuider guider = trained.bound_guider();
   Measurement query{pair.name + ".query_ns", "ns", {}}, sample{pair.name + ".sample_ns", "ns", {}},
       pdf{pair.name + ".pdf_ns", "ns", {}}, allocations{pair.name + ".allocations", "1", {}};
   for (int i = 0; i < repeats; ++i) {
-    const GuideCosts costs = measure_costs(*guider, queries);
+    const GuideCosts costs = measure_costs(guider, queries);
     query.runs.push_back(costs.query_ns);
     sample.runs.push_back(costs.sample_ns);
     pdf.runs.push_back(costs.pdf_ns);

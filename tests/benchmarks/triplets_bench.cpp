@@ -100,12 +100,12 @@ std::vector<Measurement> answers(const Registry& registry, int count, int repeat
   const VertexTripletsGuider guider({});
   const auto model = broad_model(scene.bounds(), count);
   const auto queries = guide_queries(scene, conformance::frame_of(guider, model), kVertices);
-  const auto bound = guider.bind(model);
+  const BoundGuider bound(guider, model);
   const auto named = [&](const char* what) { return fmt::format("triplets.{}.k{}", what, count); };
   Measurement pdf{named("pdf_ns"), "ns", {}}, sample{named("sample_ns"), "ns", {}},
       query{named("query_ns"), "ns", {}}, allocations{named("allocations"), "1", {}};
   for (int i = 0; i < repeats; ++i) {
-    const GuideCosts costs = measure_costs(*bound, queries);
+    const GuideCosts costs = measure_costs(bound, queries);
     pdf.runs.push_back(costs.pdf_ns);
     sample.runs.push_back(costs.sample_ns);
     query.runs.push_back(costs.query_ns);
@@ -140,13 +140,14 @@ integrator:
     const double unguided = rate.mrays(nullptr);
     ratio.runs.push_back(rate.mrays(&frame) / unguided);
   }
+  const ModelInfo info = result.model->info();
   std::vector<Measurement> all{
       {named("learn_share"),
        "1",
        {result.times.update / (result.times.training + result.times.update)}},
       ratio,
-      {named("model_mib"), "MiB", {static_cast<double>(result.model->size_bytes()) / (1 << 20)}}};
-  for (const ModelFact& fact : result.model->facts()) {
+      {named("model_mib"), "MiB", {static_cast<double>(info.bytes) / (1 << 20)}}};
+  for (const ModelFact& fact : info.facts) {
     if (fact.name == "samples") {
       all.push_back({named("samples_mib"), "MiB", {std::stod(fact.value)}});
     }

@@ -86,6 +86,11 @@ TEST_CASE("guiding that does not fit together") {
   refused("{ learner: stub_segments, guider: stub_direction }",
           {"bad.yaml:5:36: error: ", "stub_segments", "stub_direction"});
   refused("{ methods: [{ learner: stub_direction }] }", {"bad.yaml:5:48: error: ", "'guider'"});
+  refused("{ methods: [{ guider: stub_direction }] }",
+          {"bad.yaml:5:36: error: ", "the first method has no learner"});
+  refused(
+      "{ methods: [{ learner: stub_direction, guider: stub_direction }, { guider: stub_camera }] }",
+      {"bad.yaml:5:36: error: ", "'stub_direction'", "'stub_camera'"});
   refused("{ methods: [{ learner: stub_direction, guider: stub_direction, weight: 0 }] }",
           {"bad.yaml:5:", "weight must be > 0"});
   refused("{ learner: stub_direction, guider: stub_direction, training: { share: 1 } }",

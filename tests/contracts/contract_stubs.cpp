@@ -12,4 +12,5 @@ PHAROS_MODULE(registry) {
   register_mixing(registry);
   register_probing_sampler(registry);
   register_mixture(registry);
+  register_memory(registry);
 }

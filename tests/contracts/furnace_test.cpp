@@ -108,7 +108,7 @@ TEST_CASE("furnace (d): a camera density off by 3 % is seen") {
   CHECK(std::abs(furnace_t(config, 1, 24)) > kLimit);
 }
 
-TEST_CASE("furnace (e): fractions learned for regions that are refined") {
+TEST_CASE("furnace (e): shares learned for regions that are refined") {
   const std::string guiding =
       pair("{ type: stub_direction, refine: true }", "stub_direction", "mixing: stub_learned, ");
   CHECK(std::abs(diffuse_t(guiding)) < kLimit);
@@ -134,6 +134,20 @@ TEST_CASE("furnace (g): one mixture model, two guiders of another module") {
   CHECK(std::abs(diffuse_t(pair("stub_mixture", "stub_projected"))) < kLimit);
 }
 
+TEST_CASE("furnace (h): a method that remembers its path") {
+  const std::string guiding = pair("uniform", "stub_memory");
+  CHECK(std::abs(diffuse_t(guiding)) < kLimit);
+  CHECK(std::abs(furnace_t(from_both_ends(path_config(kDiffuseScene, 4, guiding, 32)),
+                           kDiffuseFurnace)) < kLimit);
+}
+
+TEST_CASE("furnace: two methods that share one model") {
+  const std::string guiding =
+      "{ methods: [ { learner: uniform, guider: uniform }, { guider: stub_memory, weight: 3 } ], "
+      "training: { iterations: 3 } }";
+  CHECK(std::abs(diffuse_t(guiding)) < kLimit);
+}
+
 TEST_CASE("furnace: several methods side by side") {
   const std::string guiding =
       "{ methods: [ { learner: stub_direction, guider: stub_direction, weight: 2 }, "
@@ -147,7 +161,7 @@ TEST_CASE("furnace: several methods side by side") {
 TEST_CASE("a learner's model must be what the guider samples") {
   CHECK_THROWS_WITH_AS(
       config_from(path_config(kDiffuseScene, 4, pair("stub_mixture", "stub_direction"), 1)),
-      doctest::Contains("the learner 'stub_mixture' learns a 'spatial_mixture' model, but the "
+      doctest::Contains("the learner 'stub_mixture' learns a 'stub_mixture' model, but the "
                         "guider 'stub_direction' samples a 'stub_direction' model"),
       InputError);
 }

@@ -1,61 +1,252 @@
+// How policies and guides are asked: policies first, with what every model knows of the vertex.
 // Learned mixing follows a guide that refines its regions.
 
-#include <pharos/guiding/pipeline/guiding_state.h>
+#include <sstream>
 
-#include "furnace.h"
+#include "made_up.h"
 
 namespace pharos::testing {
 namespace {
 
-TEST_CASE("regions double and keep what was learned for them") {
-  const LoadedConfig loaded = config_from(
-      path_config(kDiffuseScene, 4,
-                  "{ learner: { type: stub_direction, refine: true }, guider: stub_direction, "
-                  "mixing: stub_learned }",
-                  8));
-  const GuidingSettings& settings = *loaded.config.integrator->guiding();
-  GuidingState state(settings, {.region = {{-1, -1, -1}, {1, 1, 1}}, .seed = 1});
-  CHECK(state.frame() == nullptr);
+/// What was asked, in order.
+using Calls = std::vector<std::string>;
 
-  // One guidable vertex whose light came all from unguided sampling: its region's fraction goes to
-  // the top, whatever the other regions do.
-  PathLog log;
-  log.begin_path({}, Transport::radiance);
-  log.add(RecordedVertex{.kind = VertexKind::sensor});
-  RecordedVertex vertex{.position = {-0.9f, 0, 0}, .parent = 0, .local_weight = Rgb(1)};
-  vertex.direction = {0, 0, 1};
-  vertex.guidable = true;
-  vertex.unguided_fraction = 0.5f;
-  vertex.unguided_pdf = 1;
-  vertex.guided_pdf = 0.01f;
-  log.add(vertex);
-  log.add(RecordedVertex{.parent = 1, .emission = Rgb(1)});
+/// A model of three regions that says the same of every vertex.
+class FixedModel final : public GuidingModel {
+ public:
+  static constexpr std::string_view kName = "fixed";
+  explicit FixedModel(Place place) : place_(place) {}
+  ModelInfo info() const override { return {.name = std::string(kName), .regions = 3}; }
+  void archive(Archive&) override {}
+  Place place(const GuidingVertex&) const override { return place_; }
+  double density(Point3, const Vec3*) const override { return 1; }
 
-  state.absorb(log);
+ private:
+  Place place_;
+};
+
+/// What a guide answers. Nothing is drawn from it here.
+class EvenDistribution final : public GuidingDistribution {
+ public:
+  std::optional<Proposal> propose(const VertexStream&) const override { return std::nullopt; }
+  float density(const ResolvedVertex&) const override { return 0.25f; }
+};
+
+/// A guider that notes which region it is asked about, and may know nothing.
+class SpyGuider final : public GuiderOf<FixedModel> {
+ public:
+  SpyGuider(std::string name, Calls& calls, bool knows_something = true)
+      : name_(std::move(name)), calls_(calls), knows_something_(knows_something) {}
+  GuiderTraits traits() const override { return {}; }
+  const GuidingDistribution* query(const FixedModel&, const GuidingQuery& query,
+                                   Arena& arena) const override {
+    calls_.push_back(fmt::format("{} in region {}", name_, query.region));
+    return knows_something_ ? arena.make<EvenDistribution>() : nullptr;
+  }
+
+ private:
+  std::string name_;
+  Calls& calls_;
+  bool knows_something_;
+};
+
+/// A policy that notes what it is told and divides the samples as stated.
+class SpyShares final : public MixingShares {
+ public:
+  SpyShares(std::vector<float> shares, Calls& calls) : shares_(std::move(shares)), calls_(calls) {}
+  std::uint32_t at(const MixingQuery& query, std::span<float> shares) const override {
+    const GuidingVertex& v = query.vertex.current;
+    std::string call =
+        fmt::format("mixing at ({:g}, {:g}, {:g}), roughness {:g}, bounce {}:", v.position.x,
+                    v.position.y, v.position.z, v.roughness, query.vertex.bounce);
+    for (const Place& p : query.places) call += fmt::format(" {}/{:g}", p.region, p.evidence);
+    calls_.push_back(call);
+    REQUIRE(shares.size() == shares_.size());
+    std::copy(shares_.begin(), shares_.end(), shares.begin());
+    return 42;
+  }
+
+ private:
+  std::vector<float> shares_;
+  Calls& calls_;
+};
+
+/// A method whose regions are numbered from `first_region` on.
+GuidingFrame::Method method(const SpyGuider& guider, Place place, std::uint32_t first_region) {
+  return {.guider = BoundGuider(guider, std::make_shared<const FixedModel>(place)),
+          .traits = guider.traits(),
+          .first_region = first_region};
+}
+
+/// The guidance at a vertex that is nothing out of the ordinary.
+Guidance asked(const GuidingFrame& frame, Arena& arena) {
+  static const Wall wall;
+  GuidingQuery query = wall.query({0.25f, 0.5f, 2}, 3);
+  query.current.roughness = 0.125f;
+  return frame.query(query, arena);
+}
+
+TEST_CASE("a policy is asked before the guides, with what all models know of the vertex") {
+  Calls calls;
+  const SpyGuider a("a", calls), b("b", calls), c("c", calls);
+  const GuidingFrame frame(
+      {method(a, {.region = 1, .evidence = 5}, 0),
+       method(b, {.region = 2, .evidence = 7}, 3),
+       method(c, {.region = 0, .evidence = 0}, 6),
+       {.first_region = 9}},
+      std::make_shared<const SpyShares>(std::vector{0.25f, 0.5f, 0.25f, 0.0f, 0.0f}, calls));
+  Arena arena;
+  const Guidance guidance = asked(frame, arena);
+  // The policy sees the regions of all models numbered through, a guide the number of its model.
+  CHECK(calls == Calls{"mixing at (0.25, 0.5, 2), roughness 0.125, bounce 3: 1/5 5/7 6/0 9/0",
+                       "a in region 1", "b in region 2"});
+  CHECK(guidance.mixing_key == 42);
+  CHECK(guidance.unguided_share == 0.25f);
+  CHECK(guidance.methods == 4);
+  REQUIRE(guidance.parts.size() == 2);
+  CHECK(guidance.parts[0].share == doctest::Approx(2.0 / 3));
+  CHECK(guidance.parts[1].share == doctest::Approx(1.0 / 3));
+}
+
+TEST_CASE("a method with the share 0 is not asked") {
+  Calls calls;
+  const SpyGuider a("a", calls), b("b", calls);
+  const GuidingFrame frame(
+      {method(a, {}, 0), method(b, {}, 3)},
+      std::make_shared<const SpyShares>(std::vector{0.25f, 0.0f, 0.75f}, calls));
+  Arena arena;
+  const Guidance guidance = asked(frame, arena);
+  REQUIRE(calls.size() == 2);
+  CHECK(calls[1] == "b in region 0");
+  REQUIRE(guidance.parts.size() == 1);
+  CHECK(guidance.parts[0].method == 1);
+  CHECK(guidance.parts[0].share == 1);
+  CHECK(guidance.unguided_share == 0.25f);
+}
+
+TEST_CASE("if a method turns out to know nothing, the others divide its share") {
+  Calls calls;
+  const SpyGuider a("a", calls, false), b("b", calls), c("c", calls);
+  const GuidingFrame frame(
+      {method(a, {}, 0), method(b, {}, 3), method(c, {}, 6)},
+      std::make_shared<const SpyShares>(std::vector{0.25f, 0.25f, 0.125f, 0.375f}, calls));
+  Arena arena;
+  const Guidance guidance = asked(frame, arena);
+  CHECK(calls.size() == 4);
+  CHECK(guidance.unguided_share == 0.25f);
+  REQUIRE(guidance.parts.size() == 2);
+  CHECK(guidance.parts[0].method == 1);
+  CHECK(guidance.parts[0].share == doctest::Approx(0.25));
+  CHECK(guidance.parts[1].share == doctest::Approx(0.75));
+}
+
+TEST_CASE("if no guide knows anything, the vertex is unguided, whatever the policy said") {
+  Calls calls;
+  const SpyGuider a("a", calls, false);
+  const auto shares = std::make_shared<const SpyShares>(std::vector{0.25f, 0.75f}, calls);
+  Arena arena;
+  const Guidance declined = asked(GuidingFrame({method(a, {}, 0)}, shares), arena);
+  CHECK(calls.size() == 2);
+  // Where no model knows anything, the policy is not asked either.
+  const Guidance unknown = asked(GuidingFrame({method(a, {.evidence = 0}, 0)}, shares), arena);
+  CHECK(calls.size() == 2);
+  for (const Guidance& guidance : {declined, unknown}) {
+    CHECK_FALSE(guidance.is_guided());
+    CHECK(guidance.unguided_share == 1);
+    CHECK(guidance.mixing_key == kNoMixing);
+  }
+}
+
+TEST_CASE("two methods share one model: one learner is trained, and both guiders take part") {
+  const MadeUpLearning learning(
+      "{ methods: [ { learner: uniform, guider: uniform }, { guider: uniform, weight: 3 } ] }");
+  const auto methods = learning.settings().resolved_methods();
+  REQUIRE(methods.size() == 2);
+  CHECK_FALSE(methods[0].shares_model());
+  CHECK(methods[1].shares_model());
+  CHECK_FALSE(methods[1].learns());
+
+  GuidingState state = learning.begin();
+  state.absorb(lit_path());
   state.update(0, false);
-  CHECK(state.model(0)->region_count() == 1);
+  REQUIRE(state.model(0) != nullptr);
+  CHECK(state.model(1) == state.model(0));
+  CHECK(state.model_bytes() == state.model(0)->info().bytes);
+  CHECK(state.learner_name(1) == "uniform");
+
+  const Wall wall;
+  GuidingQuery query = wall.query({0, 0, 0});
+  Arena arena;
+  const Guidance guidance = state.frame()->query(query, arena);
+  REQUIRE(guidance.parts.size() == 2);
+  CHECK(guidance.parts[0].share == doctest::Approx(0.25));
+  CHECK(guidance.parts[1].share == doctest::Approx(0.75));
+  CHECK(guidance.unguided_share == doctest::Approx(0.5));
+}
+
+constexpr const char* kRefined =
+    "{ learner: { type: stub_direction, refine: true }, guider: stub_direction, "
+    "mixing: stub_learned }";
+
+/// The share of unguided samples at a point.
+float unguided_share(const GuidingState& state, float x) {
+  const Wall wall;
+  GuidingQuery query = wall.query({x, 0, 0});
+  Arena arena;
+  const Guidance guidance = state.frame()->query(query, arena);
+  REQUIRE(guidance.is_guided());
+  return guidance.unguided_share;
+}
+
+TEST_CASE("a learner tells where refined regions came from") {
+  const MadeUpLearning learning(kRefined);
+  const auto state = learning.settings().learner->begin(learning.context());
+  state->absorb(lit_path());
+  CHECK(state->update(0, false).region_origins.empty());
+  for (std::uint32_t iteration = 1, regions = 2; regions <= 8; ++iteration, regions *= 2) {
+    const Learned learned = state->update(iteration, false);
+    CHECK(learned.model->info().regions == regions);
+    REQUIRE(learned.region_origins.size() == regions);
+    CHECK(learned.region_origins.back() == regions / 2 - 1);
+  }
+}
+
+TEST_CASE("regions double and keep what was learned for them") {
+  const MadeUpLearning learning(kRefined);
+  GuidingState state = learning.begin();
+  CHECK(state.frame() == nullptr);
+  state.absorb(lit_path());
+  state.update(0, false);
+  CHECK(state.model(0)->info().regions == 1);
   for (std::uint32_t iteration = 1, regions = 2; regions <= 8; ++iteration, regions *= 2) {
     state.update(iteration, false);
-    CHECK(state.model(0)->region_count() == regions);
-    const GuidingModel& model = *state.model(0);
-    REQUIRE(model.region_origins().size() == regions);
-    CHECK(model.region_origins().back() == regions / 2 - 1);
+    CHECK(state.model(0)->info().regions == regions);
   }
-
-  // What the one region learned is now the fraction everywhere.
-  const Bsdf& bsdf = *loaded.config.scene.objects[0].bsdf;
-  SurfacePoint point;
-  point.normal = {0, 0, 1};
-  const LocalScattering scattering(point, bsdf, {0, 0, 1}, Transport::radiance);
+  // The one region's share went to the top. It is now the share everywhere.
   for (const float x : {-0.9f, -0.1f, 0.3f, 0.9f}) {
-    const GuidingQuery query{.current = {.position = {x, 0, 0}},
-                             .towards_previous = {0, 0, 1},
-                             .scattering = scattering};
-    Arena arena;
-    const Guidance guidance = state.frame()->query(query, arena);
-    REQUIRE(guidance.distribution != nullptr);
-    CHECK(guidance.unguided_fraction == doctest::Approx(0.9f));
+    CHECK(unguided_share(state, x) == doctest::Approx(0.9f));
   }
+}
+
+TEST_CASE("what was learned can be saved, and goes on from there") {
+  const MadeUpLearning learning(kRefined);
+  const auto saved = [](const GuidingState& state) {
+    std::ostringstream out;
+    save(out, state);
+    return out.str();
+  };
+  GuidingState state = learning.begin(), other = learning.begin();
+  state.absorb(lit_path());
+  for (std::uint32_t iteration = 0; iteration < 2; ++iteration) state.update(iteration, false);
+  state.absorb(lit_path());
+  CHECK(saved(other) != saved(state));
+  std::istringstream in(saved(state));
+  load(in, other);
+  CHECK(saved(other) == saved(state));
+  CHECK(unguided_share(other, 0.3f) == doctest::Approx(0.9f));
+  for (GuidingState* each : {&state, &other}) each->update(2, false);
+  CHECK(other.model(0)->info().regions == 4);
+  CHECK(saved(other) == saved(state));
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ std::string bits(const Image& image) {
 
 std::string bits(const GuidingModel& model) {
   std::ostringstream out;
-  model.save(out);
+  save(out, model);
   return out.str();
 }
 
@@ -109,6 +109,17 @@ TEST_CASE("furnace: a method with a model file beside one that learns") {
   CHECK(result.times.training > 0);
   // Training has not touched it.
   CHECK(bits(*result.model) == bits(*loaded.config.integrator->guiding()->methods[0].model));
+}
+
+TEST_CASE("furnace: two methods that share the model of a file") {
+  const LearnedFile file("stub_direction", "stub_direction");
+  const std::string guiding = fmt::format(
+      "{{ methods: [ {{ learner: stub_direction, guider: stub_direction, model: '{}' }}, "
+      "{{ guider: {{ type: stub_direction, adversarial: true }} }} ] }}",
+      file.path());
+  const std::string config = path_config(kDiffuseScene, 4, guiding, 32);
+  CHECK_FALSE(config_from(config).config.integrator->guiding()->learns());
+  CHECK(std::abs(furnace_t(config, kDiffuseFurnace)) < kLimit);
 }
 
 TEST_CASE("a model file that is wrong is told of where the config names it") {

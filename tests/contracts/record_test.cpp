@@ -2,7 +2,7 @@
 
 #include <pharos/rendering/integrator.h>
 
-#include "furnace.h"
+#include "made_up.h"
 
 namespace pharos::testing {
 namespace {
@@ -19,10 +19,10 @@ struct Unit {
         sampler(config.sampler->prepare({config.film.width, config.film.height}, {}, nullptr)),
         film(config.film.width, config.film.height, config.film.filter) {}
 
-  WorkResult render(bool record) {
+  WorkResult render(bool record, const GuidingFrame* guides = nullptr) {
     const PixelRect all{0, 0, config.film.width, config.film.height};
     WorkResult result{.film = film.make_tile(all)};
-    integrator->render({all, 0, 0, 2}, {*sampler, 7, nullptr, record}, result);
+    integrator->render({all, 0, 0, 2}, {*sampler, 7, guides, record}, result);
     return result;
   }
 
@@ -35,16 +35,37 @@ struct Unit {
   Film film;
 };
 
-void check_record(const std::string& yaml) {
+/// The density that a step was drawn with is what its techniques add up to. Returns the number of
+/// steps in which guides took part.
+int check_techniques(const PathView& path) {
+  int guided = 0;
+  for (const RecordedVertex& vertex : path.vertices) {
+    double shares = 0, pdf = 0;
+    for (const Technique& technique : path.techniques(vertex)) {
+      shares += technique.share;
+      pdf += double{technique.share} * technique.density;
+    }
+    CHECK(vertex.pdf == doctest::Approx(pdf).epsilon(1e-4));
+    if (vertex.next != kNoVertex) CHECK(shares == doctest::Approx(1).epsilon(1e-4));
+    const bool takes_part = path.techniques(vertex).size() > 1;
+    if (takes_part) CHECK(vertex.mixing_key != kNoMixing);
+    guided += takes_part ? 1 : 0;
+  }
+  return guided;
+}
+
+void check_record(const std::string& yaml, const GuidingFrame* guides = nullptr) {
   Unit unit(yaml);
-  WorkResult recorded = unit.render(true);
+  WorkResult recorded = unit.render(true, guides);
   CHECK(recorded.log.size() == 2u * 32 * 32);
 
   double sum = 0;
+  int guided = 0;
   std::vector<Rgb> incident;
   for (std::size_t p = 0; p < recorded.log.size(); ++p) {
     const PathView path = recorded.log[p];
     estimate_incident_radiance(path, incident);
+    guided += check_techniques(path);
     const auto& vertices = path.vertices;
     REQUIRE(vertices.front().kind == VertexKind::sensor);
     Rgb direct;
@@ -66,6 +87,7 @@ void check_record(const std::string& yaml) {
     CHECK(mean(through_first) == doctest::Approx(mean(direct)).epsilon(1e-4));
     sum += mean(direct);
   }
+  CHECK((guided > 0) == (guides != nullptr));
 
   unit.film.merge(recorded.film);
   unit.film.end_pass(2);
@@ -150,6 +172,17 @@ TEST_CASE("records add up to the image") {
   check_record(path_config(kGlassInFogScene, 20, "", 2));
 }
 
+TEST_CASE("records of guided paths add up to the image, too") {
+  const MadeUpLearning learning(
+      "{ methods: [ { learner: stub_direction, guider: stub_direction }, "
+      "{ learner: stub_vertices, guider: stub_vertices } ] }");
+  GuidingState state = learning.begin();
+  state.absorb(lit_path());
+  state.update(0, true);
+  check_record(path_config(kDiffuseScene, 4, "", 2), state.frame().get());
+  check_record(path_config(kGlassInFogScene, 20, "", 2), state.frame().get());
+}
+
 TEST_CASE("recording changes nothing") {
   Unit unit(path_config(kGlassInFogScene, 20, "", 2));
   Film silent = unit.film, recorded = unit.film;
@@ -175,6 +208,12 @@ TEST_CASE("incident radiance follows branches") {
   log.add(RecordedVertex{.parent = 1, .emission = Rgb(4)});
   log.add(RecordedVertex{.parent = 2, .emission = Rgb(8)});
   log.add(RecordedLightSample{.vertex = 4, .contribution = Rgb(2)});
+  const std::span<const RecordedVertex> vertices = log[0].vertices;
+  CHECK(vertices[0].next == 1);
+  CHECK(vertices[1].twin == 2);
+  CHECK(vertices[2].twin == kNoVertex);
+  CHECK(vertices[1].next == 3);
+  CHECK(vertices[2].next == 4);
   std::vector<Rgb> incident;
   estimate_incident_radiance(log[0], incident);
   CHECK(incident[1] == Rgb(4));

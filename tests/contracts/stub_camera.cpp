@@ -11,36 +11,38 @@
 namespace pharos::stubs {
 namespace {
 
-class EmptyModel final : public TableModel {
+/// The region, which nobody asks for.
+class CameraModel final : public TableModel {
  public:
+  static constexpr std::string_view kName = "stub_camera";
   using TableModel::TableModel;
-  std::string name() const override { return "stub_camera"; }
-  double density(Point3) const override { return 1; }
-  double density(Point3, Vec3) const override { return 1; }
+  ModelInfo info() const override { return table_info(kName); }
+  void archive(Archive& archive) override { archive_table(archive, 0); }
+  double density(Point3, const Vec3*) const override { return 1; }
 };
 
-class EmptyState final : public TableState {
+class CameraState final : public TableState {
  public:
-  EmptyState() : TableState(0) {}
-  std::shared_ptr<const GuidingModel> initial_model() const override {
-    return std::make_shared<EmptyModel>(Table{});
-  }
+  explicit CameraState(const Bounds3& region) : TableState(0), region_(region) {}
   void absorb(const PathLog&) override {}
-  std::shared_ptr<const GuidingModel> update(std::uint32_t, bool) override {
-    return initial_model();
+  Learned update(std::uint32_t, bool) override {
+    return {std::make_shared<CameraModel>(Table{{}, region_})};
   }
+
+ private:
+  Bounds3 region_;
 };
 
 class CameraLearner final : public Learner {
  public:
   using Settings = NoSettings;
   explicit CameraLearner(Settings) {}
-  LearnerTraits traits() const override { return {"stub_camera", {}}; }
-  std::unique_ptr<LearningState> begin(const LearningContext&) const override {
-    return std::make_unique<EmptyState>();
+  LearnerTraits traits() const override { return {}; }
+  std::unique_ptr<LearningState> begin(const LearningContext& context) const override {
+    return std::make_unique<CameraState>(context.region);
   }
-  std::shared_ptr<const GuidingModel> load_model(std::istream& in) const override {
-    return std::make_shared<EmptyModel>(load_table(in, 0));
+  std::shared_ptr<GuidingModel> empty_model() const override {
+    return std::make_shared<CameraModel>();
   }
 };
 
@@ -66,9 +68,9 @@ class ConeDistribution final : public GuidingDistribution {
     const Vec2 u = stream.get_2d(Purpose::guide_direction);
     return Proposal{.direction = frame_.to_world(warp::cone_from_square(u, one_minus_cos_))};
   }
-  Density density(const ResolvedVertex& vertex) const override {
+  float density(const ResolvedVertex& vertex) const override {
     const bool inside = 1 - dot(vertex.direction, frame_.n) <= one_minus_cos_;
-    return {inside ? pdf_scale_ * warp::cone_pdf(one_minus_cos_) : 0.0f, Measure::solid_angle};
+    return inside ? pdf_scale_ * warp::cone_pdf(one_minus_cos_) : 0.0f;
   }
 
  private:
@@ -77,30 +79,15 @@ class ConeDistribution final : public GuidingDistribution {
   float pdf_scale_;
 };
 
-class BoundCameraGuider final : public BoundGuider, public CameraGuider {
- public:
-  explicit BoundCameraGuider(const CameraGuiderSettings& settings) : settings_(settings) {}
-
-  const GuidingDistribution* query(const GuidingQuery&, Arena&) const override { return nullptr; }
-  const CameraGuider* camera() const override { return this; }
-  const GuidingDistribution* query_camera(const PreparedSensor&, const LensPoint& lens,
-                                          Arena& arena) const override {
-    return arena.make<ConeDistribution>(lens.normal, settings_);
-  }
-
- private:
-  CameraGuiderSettings settings_;
-};
-
-class StubCameraGuider final : public Guider {
+class CameraGuider final : public GuiderOf<CameraModel> {
  public:
   using Settings = CameraGuiderSettings;
-  explicit StubCameraGuider(Settings settings) : settings_(settings) {}
-  GuiderTraits traits() const override { return {.model = "stub_camera", .guides_camera = true}; }
-  std::unique_ptr<const BoundGuider> bind(
-      std::shared_ptr<const GuidingModel> model) const override {
-    bind_model<EmptyModel>(model, *this);
-    return std::make_unique<BoundCameraGuider>(settings_);
+  explicit CameraGuider(Settings settings) : settings_(settings) {}
+  GuiderTraits traits() const override { return {.guides_camera = true}; }
+  const GuidingDistribution* query(const CameraModel&, const GuidingQuery& query,
+                                   Arena& arena) const override {
+    if (query.current.kind != VertexKind::sensor) return nullptr;
+    return arena.make<ConeDistribution>(query.current.normal, settings_);
   }
 
  private:
@@ -111,7 +98,7 @@ class StubCameraGuider final : public Guider {
 
 void register_camera(Registry& registry) {
   registry.add<CameraLearner>("stub_camera", "Learns nothing");
-  registry.add<StubCameraGuider>("stub_camera", "First vertices in a cone");
+  registry.add<CameraGuider>("stub_camera", "First vertices in a cone");
 }
 
 }  // namespace pharos::stubs

@@ -34,29 +34,30 @@ std::uint32_t cell_of(Point3 p, const Bounds3& region, std::uint32_t count) {
 
 class DirectionModel final : public TableModel {
  public:
-  DirectionModel(Table table, bool was_refined)
-      : TableModel(std::move(table)), was_refined_(was_refined) {}
+  static constexpr std::string_view kName = "stub_direction";
+  using TableModel::TableModel;
 
-  std::string name() const override { return "stub_direction"; }
-  std::uint32_t region_count() const override {
-    return static_cast<std::uint32_t>(table().size() / kBins);
+  ModelInfo info() const override {
+    ModelInfo info = table_info(kName);
+    info.regions = std::max(cell_count(), 1u);
+    return info;
   }
-  std::vector<std::uint32_t> region_origins() const override {
-    std::vector<std::uint32_t> origins;
-    for (std::uint32_t i = 0; was_refined_ && i < region_count(); ++i) origins.push_back(i / 2);
-    return origins;
+  void archive(Archive& archive) override { archive_table(archive, kBins, kFinestCells); }
+  Place place(const GuidingVertex& vertex) const override {
+    Place place = TableModel::place(vertex);
+    if (place.evidence > 0) place.region = cell(vertex.position);
+    return place;
   }
-  double density(Point3) const override { return 1; }
-  double density(Point3 p, Vec3 direction) const override {
-    return histogram(cell(p))[bin_of(direction)];
+  double density(Point3 p, const Vec3* direction) const override {
+    return direction == nullptr ? 1 : histogram(cell(p))[bin_of(*direction)];
   }
 
-  std::uint32_t cell(Point3 p) const { return cell_of(p, region(), region_count()); }
   /// Probabilities of the bins of a cell; they sum to one.
   const double* histogram(std::uint32_t cell) const { return table().data() + cell * kBins; }
 
  private:
-  bool was_refined_;
+  std::uint32_t cell_count() const { return static_cast<std::uint32_t>(table().size() / kBins); }
+  std::uint32_t cell(Point3 p) const { return cell_of(p, region(), cell_count()); }
 };
 
 class DirectionState final : public TableState {
@@ -72,7 +73,7 @@ class DirectionState final : public TableState {
     });
   }
 
-  std::shared_ptr<const GuidingModel> update(std::uint32_t, bool) override {
+  Learned update(std::uint32_t, bool) override {
     const bool refines = refine_ && cells_ > 0 && cells_ < kFinestCells;
     cells_ = cells_ == 0 ? 1 : refines ? 2 * cells_ : cells_;
     Table table{std::vector<double>(cells_ * kBins), region_};
@@ -83,7 +84,15 @@ class DirectionState final : public TableState {
     for (std::uint32_t cell = 0; cell < cells_; ++cell) {
       normalize(table.values.data() + cell * kBins);
     }
-    return std::make_shared<DirectionModel>(std::move(table), refines);
+    Learned learned{std::make_shared<DirectionModel>(std::move(table))};
+    for (std::uint32_t i = 0; refines && i < cells_; ++i) learned.region_origins.push_back(i / 2);
+    return learned;
+  }
+
+  void archive(Archive& archive) override {
+    TableState::archive(archive);
+    archive(cells_);
+    archive.expect(cells_ <= kFinestCells, "the number of cells");
   }
 
  private:
@@ -111,12 +120,12 @@ class DirectionLearner final : public Learner {
   };
   explicit DirectionLearner(Settings settings) : settings_(settings) {}
 
-  LearnerTraits traits() const override { return {"stub_direction", {.light_samples = true}}; }
+  LearnerTraits traits() const override { return {.records = {.light_samples = true}}; }
   std::unique_ptr<LearningState> begin(const LearningContext& context) const override {
     return std::make_unique<DirectionState>(context, settings_.refine);
   }
-  std::shared_ptr<const GuidingModel> load_model(std::istream& in) const override {
-    return std::make_shared<DirectionModel>(load_table(in, kBins, kFinestCells), false);
+  std::shared_ptr<GuidingModel> empty_model() const override {
+    return std::make_shared<DirectionModel>();
   }
 
  private:
@@ -139,7 +148,7 @@ class DirectionDistribution final : public GuidingDistribution {
  public:
   DirectionDistribution(const DirectionModel& model, std::uint32_t cell,
                         const DirectionGuiderSettings& settings, double* bins)
-      : bins_(bins), cell_(cell), pdf_scale_(settings.pdf_scale) {
+      : bins_(bins), pdf_scale_(settings.pdf_scale) {
     double total = 0;
     for (std::uint32_t b = 0; b < kBins; ++b) {
       const double p = model.histogram(cell)[b];
@@ -157,46 +166,26 @@ class DirectionDistribution final : public GuidingDistribution {
                       (static_cast<float>(bin / kColumns) + v.y) / kRows};
     return Proposal{.direction = warp::sphere_from_square(square)};
   }
-  Density density(const ResolvedVertex& vertex) const override {
+  float density(const ResolvedVertex& vertex) const override {
     const double per_bin = bins_[bin_of(vertex.direction)] * kBins;
-    return {pdf_scale_ * static_cast<float>(per_bin) * warp::sphere_pdf(), Measure::solid_angle};
+    return pdf_scale_ * static_cast<float>(per_bin) * warp::sphere_pdf();
   }
-  std::uint32_t region() const override { return cell_; }
 
  private:
   double* bins_;
-  std::uint32_t cell_;
   float pdf_scale_;
 };
 
-class BoundDirectionGuider final : public BoundGuider {
- public:
-  BoundDirectionGuider(std::shared_ptr<const DirectionModel> model,
-                       const DirectionGuiderSettings& settings)
-      : model_(std::move(model)), settings_(settings) {}
-
-  const GuidingDistribution* query(const GuidingQuery& query, Arena& arena) const override {
-    return arena.make<DirectionDistribution>(*model_, model_->cell(query.current.position),
-                                             settings_, arena.make_array<double>(kBins));
-  }
-
- private:
-  std::shared_ptr<const DirectionModel> model_;
-  DirectionGuiderSettings settings_;
-};
-
-class DirectionGuider final : public Guider {
+class DirectionGuider final : public GuiderOf<DirectionModel> {
  public:
   using Settings = DirectionGuiderSettings;
   explicit DirectionGuider(Settings settings) : settings_(settings) {}
 
-  GuiderTraits traits() const override {
-    return {.model = "stub_direction", .guides_light_paths = true};
-  }
-  std::unique_ptr<const BoundGuider> bind(
-      std::shared_ptr<const GuidingModel> model) const override {
-    return std::make_unique<BoundDirectionGuider>(bind_model<DirectionModel>(model, *this),
-                                                  settings_);
+  GuiderTraits traits() const override { return {.guides_light_paths = true}; }
+  const GuidingDistribution* query(const DirectionModel& model, const GuidingQuery& query,
+                                   Arena& arena) const override {
+    return arena.make<DirectionDistribution>(model, query.region, settings_,
+                                             arena.make_array<double>(kBins));
   }
 
  private:

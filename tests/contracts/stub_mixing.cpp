@@ -1,5 +1,5 @@
-// Stub (e): a mixing policy that learns a fraction for each region by one EM step an iteration, and
-// carries what it learned over when the guide's regions are refined.
+// Stub (e): a mixing policy that learns a share of unguided samples for each region by one EM step
+// an iteration, and carries what it learned over when the guide's regions are refined.
 
 #include <algorithm>
 #include <vector>
@@ -13,69 +13,75 @@
 namespace pharos::stubs {
 namespace {
 
-class RegionFractions final : public MixingFractions {
+/// The region of the first method that knows something at a vertex decides. It is the key.
+class RegionShares final : public MixingShares {
  public:
-  explicit RegionFractions(std::vector<float> fractions) : fractions_(std::move(fractions)) {}
-  float unguided_fraction(std::uint32_t region) const override { return fractions_.at(region); }
+  RegionShares(std::vector<float> unguided, std::vector<float> weights)
+      : unguided_(std::move(unguided)), weights_(std::move(weights)) {}
+
+  std::uint32_t at(const MixingQuery& query, std::span<float> shares) const override {
+    const auto knows = [](const Place& place) { return place.evidence > 0; };
+    const auto first = std::find_if(query.places.begin(), query.places.end(), knows);
+    share_by_weight(weights_, query.places, unguided_.at(first->region), shares);
+    return first->region;
+  }
 
  private:
-  std::vector<float> fractions_;
+  std::vector<float> unguided_;  ///< of each region
+  std::vector<float> weights_;   ///< of each method
+};
+
+constexpr double kLeast = 0.1, kMost = 0.9;
+
+/// What is known of one region.
+struct Region {
+  double total = 0, unguided = 0;  ///< since the last update
+  double share = 0.5;              ///< of unguided samples
+  void archive(Archive& archive) {
+    archive(total, unguided, share);
+    archive.expect(share >= kLeast && share <= kMost, "a region's share");
+  }
 };
 
 class StubMixingState final : public MixingState {
  public:
+  explicit StubMixingState(std::span<const float> weights)
+      : weights_(weights.begin(), weights.end()) {}
+
   void absorb(const PathLog& log) override {
     for_each_step(log, [&](const PathView& path, std::size_t i, double weight) {
       const RecordedVertex& vertex = path.vertices[i];
-      if (vertex.guided_pdf == 0) return;
-      Region& region = regions_.at(vertex.region);
+      if (vertex.mixing_key == kNoMixing) return;
+      const Technique& unguided = path.techniques(vertex)[0];
+      Region& region = regions_.at(vertex.mixing_key);
       region.total += weight;
-      region.unguided += weight * vertex.unguided_fraction * vertex.unguided_pdf / vertex.pdf();
+      region.unguided += weight * unguided.share * unguided.density / vertex.pdf;
     });
   }
 
-  std::shared_ptr<const MixingFractions> update(std::uint32_t region_count,
-                                                std::span<const std::uint32_t> origins) override {
+  void update(std::uint32_t regions, std::span<const std::uint32_t> origins) override {
     for (Region& region : regions_) {
-      if (region.total > 0) {
-        region.fraction = std::clamp(region.unguided / region.total, 0.1, 0.9);
-      }
+      if (!(region.total > 0)) continue;
+      region.share = std::clamp(region.unguided / region.total, kLeast, kMost);
     }
-    std::vector<Region> next(region_count);
-    std::vector<float> fractions;
-    for (std::uint32_t i = 0; i < region_count; ++i) {
+    std::vector<Region> next(regions);
+    for (std::uint32_t i = 0; i < regions; ++i) {
       const std::uint32_t origin = origins.empty() ? i : origins[i];
-      if (origin < regions_.size()) next[i].fraction = regions_[origin].fraction;
-      fractions.push_back(static_cast<float>(next[i].fraction));
+      if (origin < regions_.size()) next[i].share = regions_[origin].share;
     }
     regions_ = std::move(next);
-    return std::make_shared<RegionFractions>(std::move(fractions));
   }
 
-  void save(std::ostream& out) const override {
-    std::vector<double> table;
-    for (const Region& r : regions_) table.insert(table.end(), {r.total, r.unguided, r.fraction});
-    write_table(out, table);
+  std::shared_ptr<const MixingShares> shares() const override {
+    std::vector<float> unguided;
+    for (const Region& region : regions_) unguided.push_back(static_cast<float>(region.share));
+    return std::make_shared<RegionShares>(std::move(unguided), weights_);
   }
-  void load(std::istream& in) override {
-    const std::vector<double> table = read_table(in, 3 * regions_.size());
-    for (std::size_t i = 0; i < regions_.size(); ++i) {
-      regions_[i] = {table[3 * i], table[3 * i + 1], table[3 * i + 2]};
-    }
-  }
-  void merge(const MixingState& other) override {
-    const auto& theirs = static_cast<const StubMixingState&>(other).regions_;
-    for (std::size_t i = 0; i < regions_.size(); ++i) {
-      regions_[i].total += theirs[i].total;
-      regions_[i].unguided += theirs[i].unguided;
-    }
-  }
+
+  void archive(Archive& archive) override { archive(regions_); }
 
  private:
-  struct Region {
-    double total = 0, unguided = 0;
-    double fraction = 0.5;
-  };
+  std::vector<float> weights_;
   std::vector<Region> regions_;
 };
 
@@ -83,15 +89,15 @@ class StubMixing final : public MixingPolicy {
  public:
   using Settings = NoSettings;
   explicit StubMixing(Settings) {}
-  std::unique_ptr<MixingState> begin() const override {
-    return std::make_unique<StubMixingState>();
+  std::unique_ptr<MixingState> begin(std::span<const float> weights) const override {
+    return std::make_unique<StubMixingState>(weights);
   }
 };
 
 }  // namespace
 
 void register_mixing(Registry& registry) {
-  registry.add<StubMixing>("stub_learned", "A fraction for each region");
+  registry.add<StubMixing>("stub_learned", "A share for each region");
 }
 
 }  // namespace pharos::stubs

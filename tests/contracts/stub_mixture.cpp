@@ -22,16 +22,17 @@ constexpr std::size_t kNumbers = 5;
 
 class MixtureModel final : public TableModel, public SpatialMixture {
  public:
-  explicit MixtureModel(Table table) : TableModel(std::move(table)) {
-    for (const double* n = this->table().data(); n < this->table().data() + this->table().size();
-         n += kNumbers) {
-      const auto f = [n](int i) { return static_cast<float>(n[i]); };
-      components_.push_back({f(0), {f(1), f(2), f(3)}, {f(4), 0, f(4), 0, 0, f(4)}});
-    }
-  }
+  static constexpr std::string_view kName = "stub_mixture";
+  MixtureModel() = default;
+  explicit MixtureModel(Table table) : TableModel(std::move(table)) { make_components(); }
 
-  std::string name() const override { return "stub_mixture"; }
-  double density(Point3 p) const override {
+  ModelInfo info() const override { return table_info(kName); }
+  void archive(Archive& archive) override {
+    archive_table(archive, kOctants * kNumbers);
+    if (archive.loads()) make_components();
+  }
+  double density(Point3 p, const Vec3* direction) const override {
+    if (direction != nullptr) p = p + *direction;
     double sum = 0;
     for (const SpatialGaussian& g : components_) {
       const float s = g.cholesky[0];
@@ -39,10 +40,19 @@ class MixtureModel final : public TableModel, public SpatialMixture {
     }
     return sum;
   }
-  double density(Point3 p, Vec3 direction) const override { return density(p + direction); }
-  View mixture_at(const GuidingQuery&, Arena&) const override { return {components_, 0}; }
+  std::span<const SpatialGaussian> mixture_at(const GuidingQuery&, Arena&) const override {
+    return components_;
+  }
 
  private:
+  void make_components() {
+    components_.clear();
+    for (std::size_t k = 0; k < table().size(); k += kNumbers) {
+      const auto f = [&](std::size_t i) { return static_cast<float>(table()[k + i]); };
+      components_.push_back({f(0), {f(1), f(2), f(3)}, {f(4), 0, f(4), 0, 0, f(4)}});
+    }
+  }
+
   std::vector<SpatialGaussian> components_;
 };
 
@@ -52,8 +62,9 @@ class MixtureState final : public TableState {
 
   void absorb(const PathLog& log) override {
     for_each_step(log, [&](const PathView& path, std::size_t i, double weight) {
-      if (i + 1 >= path.vertices.size()) return;
-      const Point3 p = path.vertices[i + 1].position;
+      const std::uint32_t next = path.vertices[i].next;
+      if (next == kNoVertex) return;
+      const Point3 p = path.vertices[next].position;
       const Point3 c = region_.center();
       double* sums = &sums_[kSums * static_cast<std::size_t>((p.x > c.x) | (p.y > c.y) << 1 |
                                                              (p.z > c.z) << 2)];
@@ -63,7 +74,7 @@ class MixtureState final : public TableState {
     });
   }
 
-  std::shared_ptr<const GuidingModel> update(std::uint32_t, bool) override {
+  Learned update(std::uint32_t, bool) override {
     double total = 0;
     for (std::size_t k = 0; k < kOctants; ++k) total += sums_[k * kSums];
     Table table{{}, region_};
@@ -79,8 +90,8 @@ class MixtureState final : public TableState {
       const double smallest = 0.05 * region_.diagonal();
       table.values.push_back(std::max(std::sqrt(std::max(variance, 0.0) / 3), smallest));
     }
-    if (total == 0) return nullptr;
-    return std::make_shared<MixtureModel>(std::move(table));
+    if (total == 0) return {nullptr};
+    return {std::make_shared<MixtureModel>(std::move(table))};
   }
 
  private:
@@ -91,14 +102,12 @@ class MixtureLearner final : public Learner {
  public:
   using Settings = NoSettings;
   explicit MixtureLearner(Settings) {}
-  LearnerTraits traits() const override {
-    return {std::string(kSpatialMixtureModel), {.light_samples = true}};
-  }
+  LearnerTraits traits() const override { return {.records = {.light_samples = true}}; }
   std::unique_ptr<LearningState> begin(const LearningContext& context) const override {
     return std::make_unique<MixtureState>(context.region);
   }
-  std::shared_ptr<const GuidingModel> load_model(std::istream& in) const override {
-    return std::make_shared<MixtureModel>(load_table(in, kOctants * kNumbers));
+  std::shared_ptr<GuidingModel> empty_model() const override {
+    return std::make_shared<MixtureModel>();
   }
 };
 

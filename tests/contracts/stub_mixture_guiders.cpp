@@ -7,6 +7,7 @@
 
 #include <pharos/config/registry.h>
 #include <pharos/core/warp.h>
+#include <pharos/guiding/contract/guider.h>
 #include <pharos/guiding/contract/spatial_mixture.h>
 
 #include "stubs.h"
@@ -80,61 +81,45 @@ struct Projected {
   }
 };
 
-template <class Technique>
+template <class Way>
 class MixtureDistribution final : public GuidingDistribution {
  public:
-  MixtureDistribution(SpatialMixture::View view, Point3 origin) : view_(view), origin_(origin) {}
+  MixtureDistribution(std::span<const SpatialGaussian> components, Point3 origin)
+      : components_(components), origin_(origin) {}
 
   std::optional<Proposal> propose(const VertexStream& stream) const override {
     float u = stream.get_1d(Purpose::guide_choice);
     std::size_t k = 0;
-    while (k + 1 < view_.components.size() && u >= view_.components[k].weight) {
-      u -= view_.components[k++].weight;
-    }
-    const SpatialGaussian& g = view_.components[k];
-    const std::optional<Vec3> direction = Technique::sample(g, g.mean - origin_, stream);
+    while (k + 1 < components_.size() && u >= components_[k].weight) u -= components_[k++].weight;
+    const SpatialGaussian& g = components_[k];
+    const std::optional<Vec3> direction = Way::sample(g, g.mean - origin_, stream);
     if (!direction) return std::nullopt;
     return Proposal{.direction = *direction};
   }
-  Density density(const ResolvedVertex& vertex) const override {
+  float density(const ResolvedVertex& vertex) const override {
     double sum = 0;
-    for (const SpatialGaussian& g : view_.components) {
-      sum += g.weight * Technique::pdf(g, g.mean - origin_, vertex.direction);
+    for (const SpatialGaussian& g : components_) {
+      sum += g.weight * Way::pdf(g, g.mean - origin_, vertex.direction);
     }
-    return {static_cast<float>(sum), Measure::solid_angle};
+    return static_cast<float>(sum);
   }
-  std::uint32_t region() const override { return view_.region; }
 
  private:
-  SpatialMixture::View view_;
+  std::span<const SpatialGaussian> components_;
   Point3 origin_;
 };
 
-template <class Technique>
-class BoundMixtureGuider final : public BoundGuider {
- public:
-  explicit BoundMixtureGuider(std::shared_ptr<const SpatialMixture> mixture)
-      : mixture_(std::move(mixture)) {}
-  const GuidingDistribution* query(const GuidingQuery& query, Arena& arena) const override {
-    const SpatialMixture::View view = mixture_->mixture_at(query, arena);
-    if (view.components.empty()) return nullptr;
-    return arena.make<MixtureDistribution<Technique>>(view, query.current.position);
-  }
-
- private:
-  std::shared_ptr<const SpatialMixture> mixture_;
-};
-
-template <class Technique>
-class MixtureGuider final : public Guider {
+template <class Way>
+class MixtureGuider final : public GuiderOf<SpatialMixture> {
  public:
   using Settings = NoSettings;
   explicit MixtureGuider(Settings) {}
-  GuiderTraits traits() const override { return {.model = std::string(kSpatialMixtureModel)}; }
-  std::unique_ptr<const BoundGuider> bind(
-      std::shared_ptr<const GuidingModel> model) const override {
-    return std::make_unique<BoundMixtureGuider<Technique>>(
-        bind_model<SpatialMixture>(model, *this));
+  GuiderTraits traits() const override { return {}; }
+  const GuidingDistribution* query(const SpatialMixture& model, const GuidingQuery& query,
+                                   Arena& arena) const override {
+    const std::span<const SpatialGaussian> components = model.mixture_at(query, arena);
+    if (components.empty()) return nullptr;
+    return arena.make<MixtureDistribution<Way>>(components, query.current.position);
   }
 };
 

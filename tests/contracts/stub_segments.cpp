@@ -29,23 +29,35 @@ Bounds3 voxel_bounds(const Bounds3& region, std::uint32_t v) {
 
 class SegmentModel final : public TableModel {
  public:
+  static constexpr std::string_view kName = "stub_segments";
   using TableModel::TableModel;
 
-  std::string name() const override { return "stub_segments"; }
-  Bounds3 bounds() const override { return region(); }
-  std::vector<ModelFact> facts() const override { return {{"voxels", std::to_string(kVoxels)}}; }
-  double density(Point3 p) const override {
-    for (std::uint32_t v = 0; v < kVoxels; ++v) {
-      if (voxel_bounds(region(), v).contains(p)) return table()[v];
-    }
-    return 0;
+  ModelInfo info() const override {
+    ModelInfo info = table_info(kName);
+    info.bounds = region();
+    info.facts = {{"voxels", std::to_string(kVoxels)}};
+    return info;
   }
-  double density(Point3 p, Vec3 direction) const override {
+  void archive(Archive& archive) override { archive_table(archive, kVoxels); }
+  double density(Point3 p, const Vec3* direction) const override {
+    return direction == nullptr ? at(p) : along(p, *direction);
+  }
+
+  /// Density [1/sr] of a direction from a point.
+  double along(Point3 p, Vec3 direction) const {
     double sum = 0;
     for (std::uint32_t v = 0; v < kVoxels; ++v) {
       sum += table()[v] * box_direction_pdf(voxel_bounds(region(), v), p, direction);
     }
     return sum;
+  }
+
+ private:
+  double at(Point3 p) const {
+    for (std::uint32_t v = 0; v < kVoxels; ++v) {
+      if (voxel_bounds(region(), v).contains(p)) return table()[v];
+    }
+    return 0;
   }
 };
 
@@ -58,24 +70,23 @@ class SegmentState final : public TableState {
     for (std::size_t p = 0; p < log.size(); ++p) {
       const PathView path = log[p];
       estimate_incident_radiance(path, incident);
-      for (std::size_t i = 1; i + 1 < path.vertices.size(); ++i) {
+      for (std::size_t i = 1; i < path.vertices.size(); ++i) {
         const RecordedVertex& vertex = path.vertices[i];
-        if (vertex.guidable) {
-          splat(vertex.position, path.vertices[i + 1].position,
-                mean(vertex.throughput * vertex.local_weight * incident[i]));
-        }
+        if (!vertex.guidable || vertex.next == kNoVertex) continue;
+        splat(vertex.position, path.vertices[vertex.next].position,
+              mean(vertex.throughput * vertex.local_weight * incident[i]));
       }
     }
   }
 
-  std::shared_ptr<const GuidingModel> update(std::uint32_t, bool) override {
+  Learned update(std::uint32_t, bool) override {
     double total = 0;
     for (const double sum : sums_) total += sum;
     Table mass{{}, region_};
     for (const double sum : sums_) {
       mass.values.push_back(0.2 / kVoxels + 0.8 * (total > 0 ? sum / total : 1.0 / kVoxels));
     }
-    return std::make_shared<SegmentModel>(std::move(mass));
+    return {std::make_shared<SegmentModel>(std::move(mass))};
   }
 
  private:
@@ -97,12 +108,12 @@ class SegmentLearner final : public Learner {
   using Settings = NoSettings;
   explicit SegmentLearner(Settings) {}
 
-  LearnerTraits traits() const override { return {"stub_segments", {.light_samples = true}}; }
+  LearnerTraits traits() const override { return {.records = {.light_samples = true}}; }
   std::unique_ptr<LearningState> begin(const LearningContext& context) const override {
     return std::make_unique<SegmentState>(context.region);
   }
-  std::shared_ptr<const GuidingModel> load_model(std::istream& in) const override {
-    return std::make_shared<SegmentModel>(load_table(in, kVoxels));
+  std::shared_ptr<GuidingModel> empty_model() const override {
+    return std::make_shared<SegmentModel>();
   }
 };
 
@@ -121,8 +132,8 @@ class SegmentDistribution final : public GuidingDistribution {
     if (length_squared(offset) == 0) return std::nullopt;
     return Proposal{.direction = normalize(offset)};
   }
-  Density density(const ResolvedVertex& vertex) const override {
-    return {static_cast<float>(model_.density(origin_, vertex.direction)), Measure::solid_angle};
+  float density(const ResolvedVertex& vertex) const override {
+    return static_cast<float>(model_.along(origin_, vertex.direction));
   }
 
  private:
@@ -130,27 +141,15 @@ class SegmentDistribution final : public GuidingDistribution {
   Point3 origin_;
 };
 
-class BoundSegmentGuider final : public BoundGuider {
- public:
-  explicit BoundSegmentGuider(std::shared_ptr<const SegmentModel> model)
-      : model_(std::move(model)) {}
-  const GuidingDistribution* query(const GuidingQuery& query, Arena& arena) const override {
-    return arena.make<SegmentDistribution>(*model_, query.current.position);
-  }
-
- private:
-  std::shared_ptr<const SegmentModel> model_;
-};
-
-class SegmentGuider final : public Guider {
+class SegmentGuider final : public GuiderOf<SegmentModel> {
  public:
   using Settings = NoSettings;
   explicit SegmentGuider(Settings) {}
 
-  GuiderTraits traits() const override { return {.model = "stub_segments"}; }
-  std::unique_ptr<const BoundGuider> bind(
-      std::shared_ptr<const GuidingModel> model) const override {
-    return std::make_unique<BoundSegmentGuider>(bind_model<SegmentModel>(model, *this));
+  GuiderTraits traits() const override { return {}; }
+  const GuidingDistribution* query(const SegmentModel& model, const GuidingQuery& query,
+                                   Arena& arena) const override {
+    return arena.make<SegmentDistribution>(model, query.current.position);
   }
 };
 

@@ -17,11 +17,13 @@ namespace {
 
 class BoxModel final : public TableModel {
  public:
+  static constexpr std::string_view kName = "stub_vertices";
   using TableModel::TableModel;
-  std::string name() const override { return "stub_vertices"; }
-  double density(Point3 p) const override { return region().contains(p) ? 1 : 0; }
-  double density(Point3 p, Vec3 direction) const override {
-    return box_direction_pdf(region(), p, direction);
+  ModelInfo info() const override { return table_info(kName); }
+  void archive(Archive& archive) override { archive_table(archive, 0); }
+  double density(Point3 p, const Vec3* direction) const override {
+    if (direction != nullptr) return box_direction_pdf(region(), p, *direction);
+    return region().contains(p) ? 1 : 0;
   }
 };
 
@@ -29,8 +31,8 @@ class BoxState final : public TableState {
  public:
   explicit BoxState(const Bounds3& box) : TableState(0), box_(box) {}
   void absorb(const PathLog&) override {}
-  std::shared_ptr<const GuidingModel> update(std::uint32_t, bool) override {
-    return std::make_shared<BoxModel>(Table{{}, box_});
+  Learned update(std::uint32_t, bool) override {
+    return {std::make_shared<BoxModel>(Table{{}, box_})};
   }
 
  private:
@@ -41,12 +43,12 @@ class VertexLearner final : public Learner {
  public:
   using Settings = NoSettings;
   explicit VertexLearner(Settings) {}
-  LearnerTraits traits() const override { return {"stub_vertices", {.light_samples = true}}; }
+  LearnerTraits traits() const override { return {.records = {.light_samples = true}}; }
   std::unique_ptr<LearningState> begin(const LearningContext& context) const override {
     return std::make_unique<BoxState>(context.region);
   }
-  std::shared_ptr<const GuidingModel> load_model(std::istream& in) const override {
-    return std::make_shared<BoxModel>(load_table(in, 0));
+  std::shared_ptr<GuidingModel> empty_model() const override {
+    return std::make_shared<BoxModel>();
   }
 };
 
@@ -80,12 +82,7 @@ class VertexDistribution final : public GuidingDistribution {
     return proposal;
   }
 
-  Density density(const ResolvedVertex& vertex) const override {
-    return {value(vertex), measure_of(vertex.event, vertex.kind)};
-  }
-
- private:
-  float value(const ResolvedVertex& vertex) const {
+  float density(const ResolvedVertex& vertex) const override {
     if (is_discrete(vertex.event) != discrete_) return 0;
     if (discrete_) {
       const float share = contains(reflect(), vertex.event) ? kReflectShare : 1 - kReflectShare;
@@ -99,6 +96,7 @@ class VertexDistribution final : public GuidingDistribution {
     return kVolumeShare * in_box * square(vertex.distance) + by_medium;
   }
 
+ private:
   static EventMask reflect() { return EventMask::reflect & EventMask::discrete; }
   static EventMask transmit() { return EventMask::transmit & EventMask::discrete; }
 
@@ -107,36 +105,21 @@ class VertexDistribution final : public GuidingDistribution {
   bool discrete_;
 };
 
-class BoundVertexGuider final : public BoundGuider {
- public:
-  explicit BoundVertexGuider(std::shared_ptr<const BoxModel> model) : model_(std::move(model)) {}
-
-  const GuidingDistribution* query(const GuidingQuery& query, Arena& arena) const override {
-    // Declined by prefix: known are only paths that came from the upper half.
-    if (query.previous == nullptr || query.previous->position.y < model_->region().center().y) {
-      return nullptr;
-    }
-    return arena.make<VertexDistribution>(model_->region(), query.current.position,
-                                          query.scattering.purely_discrete());
-  }
-
- private:
-  std::shared_ptr<const BoxModel> model_;
-};
-
-class VertexGuider final : public Guider {
+class VertexGuider final : public GuiderOf<BoxModel> {
  public:
   using Settings = NoSettings;
   explicit VertexGuider(Settings) {}
   GuiderTraits traits() const override {
-    return {.model = "stub_vertices",
-            .steers_distance = true,
-            .steers_events = true,
-            .guides_light_paths = true};
+    return {.steers_distance = true, .steers_events = true, .guides_light_paths = true};
   }
-  std::unique_ptr<const BoundGuider> bind(
-      std::shared_ptr<const GuidingModel> model) const override {
-    return std::make_unique<BoundVertexGuider>(bind_model<BoxModel>(model, *this));
+  const GuidingDistribution* query(const BoxModel& model, const GuidingQuery& query,
+                                   Arena& arena) const override {
+    // It declines by prefix: it knows only paths that came from the upper half.
+    if (query.previous == nullptr || query.previous->position.y < model.region().center().y) {
+      return nullptr;
+    }
+    return arena.make<VertexDistribution>(model.region(), query.current.position,
+                                          query.scattering->purely_discrete());
   }
 };
 

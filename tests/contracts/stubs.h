@@ -14,5 +14,6 @@ void register_mixing(Registry& registry);           // (e)
 void register_probing_sampler(Registry& registry);  // (f)
 void register_mixture(Registry& registry);          // (g), the model
 void register_mixture_guiders(Registry& registry);  // (g), the guiders, in a module of their own
+void register_memory(Registry& registry);           // (h)
 
 }  // namespace pharos::stubs

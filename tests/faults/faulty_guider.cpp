@@ -24,43 +24,23 @@ class FoldedDistribution final : public GuidingDistribution {
     return proposal;
   }
 
-  Density density(const ResolvedVertex& vertex) const override {
-    Density density = inner_.density(vertex);
-    if (dot(vertex.direction, normal_) < 0) return {0, density.measure};
+  float density(const ResolvedVertex& vertex) const override {
+    if (dot(vertex.direction, normal_) < 0) return 0;
+    float density = inner_.density(vertex);
     if (fault_ != GuideFault::mirrored_branch_missing) {
       ResolvedVertex other = vertex;
       other.direction = mirrored(vertex.direction);
-      density.value += inner_.density(other).value;
+      density += inner_.density(other);
     }
-    if (fault_ == GuideFault::scaled) density.value *= 1.03f;
+    if (fault_ == GuideFault::scaled) density *= 1.03f;
     return density;
   }
-
-  std::uint32_t region() const override { return inner_.region(); }
 
  private:
   Vec3 mirrored(Vec3 d) const { return normalize(d - 2 * dot(d, normal_) * normal_); }
 
   const GuidingDistribution& inner_;
   Vec3 normal_;
-  GuideFault fault_;
-};
-
-class BoundFolding final : public BoundGuider {
- public:
-  BoundFolding(std::unique_ptr<const BoundGuider> inner, GuideFault fault)
-      : inner_(std::move(inner)), fault_(fault) {}
-
-  const GuidingDistribution* query(const GuidingQuery& query, Arena& arena) const override {
-    const GuidingDistribution* inner = inner_->query(query, arena);
-    if (inner == nullptr || query.current.kind != VertexKind::surface) return inner;
-    const bool seen_from_outside = dot(query.current.normal, query.towards_previous) >= 0;
-    const Vec3 normal = seen_from_outside ? query.current.normal : -query.current.normal;
-    return arena.make<FoldedDistribution>(*inner, normal, fault_);
-  }
-
- private:
-  std::unique_ptr<const BoundGuider> inner_;
   GuideFault fault_;
 };
 
@@ -72,9 +52,13 @@ void FoldingSettings::describe(Schema<FoldingSettings>& s) {
       .otherwise("stub_direction");
 }
 
-std::unique_ptr<const BoundGuider> FoldingGuider::bind(
-    std::shared_ptr<const GuidingModel> model) const {
-  return std::make_unique<BoundFolding>(settings_.guider->bind(std::move(model)), settings_.fault);
+const GuidingDistribution* FoldingGuider::query_found(const void* found, const GuidingQuery& query,
+                                                      Arena& arena) const {
+  const GuidingDistribution* inner = settings_.guider->query_found(found, query, arena);
+  if (inner == nullptr || query.current.kind != VertexKind::surface) return inner;
+  const bool seen_from_outside = dot(query.current.normal, query.towards_previous) >= 0;
+  const Vec3 normal = seen_from_outside ? query.current.normal : -query.current.normal;
+  return arena.make<FoldedDistribution>(*inner, normal, settings_.fault);
 }
 
 }  // namespace pharos::testing

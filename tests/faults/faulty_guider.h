@@ -18,14 +18,19 @@ struct FoldingSettings {
   static void describe(Schema<FoldingSettings>& s);
 };
 
-/// See faulty_guider.cpp.
+/// A decorator of another guider. See faulty_guider.cpp.
 class FoldingGuider final : public Guider {
  public:
   using Settings = FoldingSettings;
   explicit FoldingGuider(Settings settings) : settings_(std::move(settings)) {}
 
   GuiderTraits traits() const override { return settings_.guider->traits(); }
-  std::unique_ptr<const BoundGuider> bind(std::shared_ptr<const GuidingModel> model) const override;
+  std::string_view model_name() const override { return settings_.guider->model_name(); }
+  const void* find(const GuidingModel& model) const override {
+    return settings_.guider->find(model);
+  }
+  const GuidingDistribution* query_found(const void* found, const GuidingQuery& query,
+                                         Arena& arena) const override;
 
  private:
   Settings settings_;

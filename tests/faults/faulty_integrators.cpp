@@ -1,54 +1,69 @@
-// The integrators, built with planted faults:
+// The integrators with planted faults:
 //
 //     integrator: { type: faulty_path, fault: mis_without_guide, settings: { max_depth: 4 } }
 
 #include <pharos/config/module.h>
+#include <pharos/transport/prepared_bidirectional.h>
+#include <pharos/transport/prepared_light.h>
+#include <pharos/transport/prepared_path.h>
 
 #include "../../plugins/integrators/bidirectional.h"
 #include "../../plugins/integrators/light.h"
 #include "../../plugins/integrators/path.h"
-#include "../../plugins/integrators/planted_fault.h"
 #include "faulty_guider.h"
+#include "planted_fault.h"
 
 namespace pharos {
 namespace {
 
-/// `Inner` with settings of its own under `settings`.
-template <class Inner, class InnerSettings>
+std::unique_ptr<const PreparedIntegrator> prepare_faulty(const PathSettings& settings,
+                                                         const RenderTarget& target) {
+  return std::make_unique<PreparedPath<FaultyRules>>(settings, target);
+}
+std::unique_ptr<const PreparedIntegrator> prepare_faulty(const LightIntegrator::Settings& settings,
+                                                         const RenderTarget& target) {
+  return std::make_unique<PreparedLightTracing<FaultyRules>>(settings.max_depth, target);
+}
+std::unique_ptr<const PreparedIntegrator> prepare_faulty(
+    const BidirectionalIntegrator::Settings& settings, const RenderTarget& target) {
+  return std::make_unique<PreparedBidirectional<FaultyRules>>(settings.path_settings(),
+                                                              settings.light_path_rules(), target);
+}
+
+/// The integrator `Right`, whose settings stand under `settings`, with a fault.
+template <class Right>
 class Faulty final : public Integrator {
  public:
   struct Settings {
     PlantedFault fault = PlantedFault::none;
-    InnerSettings inner;
+    typename Right::Settings right;
     static void describe(Schema<Settings>& s) {
       s.field("fault", &Settings::fault, "What to do wrong");
-      s.field("settings", &Settings::inner, "Those of the integrator");
+      s.field("settings", &Settings::right, "Settings of the integrator");
     }
   };
-  explicit Faulty(const Settings& settings) : fault_(settings.fault), inner_(settings.inner) {}
+  explicit Faulty(const Settings& settings) : settings_(settings), right_(settings.right) {}
 
-  IntegratorTraits traits() const override { return inner_.traits(); }
-  const GuidingSettings* guiding() const override { return inner_.guiding(); }
+  IntegratorTraits traits() const override { return right_.traits(); }
+  const GuidingSettings* guiding() const override { return right_.guiding(); }
   std::unique_ptr<const PreparedIntegrator> prepare(const RenderTarget& target) const override {
-    planted_fault = fault_;
-    return inner_.prepare(target);
+    planted_fault = settings_.fault;
+    return prepare_faulty(settings_.right, target);
   }
 
  private:
-  PlantedFault fault_;
-  Inner inner_;
+  Settings settings_;
+  Right right_;
 };
-
-using FaultyPath = Faulty<PathIntegrator, PathSettings>;
-using FaultyLight = Faulty<LightIntegrator, LightIntegrator::Settings>;
-using FaultyBidirectional = Faulty<BidirectionalIntegrator, BidirectionalIntegrator::Settings>;
 
 }  // namespace
 }  // namespace pharos
 
 PHAROS_MODULE(registry) {
-  registry.add<pharos::FaultyPath>("faulty_path", "Path tracing with a planted fault");
-  registry.add<pharos::FaultyLight>("faulty_light", "Light tracing with a planted fault");
-  registry.add<pharos::FaultyBidirectional>("faulty_bidirectional", "Both with a planted fault");
+  using namespace pharos;
+  registry.add<Faulty<PathIntegrator>>("faulty_path", "Path tracing with a planted fault");
+  registry.add<Faulty<LightIntegrator>>("faulty_light", "Light tracing with a planted fault");
+  registry.add<Faulty<BidirectionalIntegrator>>("faulty_bidirectional",
+                                                "Both with a planted fault");
   registry.add<pharos::testing::FoldingGuider>("folding", "Directions of another guider, folded");
 }

@@ -19,7 +19,7 @@ std::string bits(const RenderResult& result) {
   std::string all(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float));
   if (result.model != nullptr) {
     std::ostringstream model;
-    result.model->save(model);
+    save(model, *result.model);
     all += model.str();
   }
   return all;

@@ -43,20 +43,24 @@ TEST_CASE("a kd-tree finds the cell around a point; edges belong to the upper on
 }
 
 TEST_CASE("kd-trees survive being saved; damaged ones are refused or sound") {
+  const auto loaded = [](const std::string& bytes) {
+    std::istringstream in(bytes);
+    KdTree tree;
+    load(in, tree);
+    return tree;
+  };
   std::ostringstream out;
-  small_tree().save(out);
+  save(out, small_tree());
   const std::string saved = out.str();
-  std::istringstream in(saved);
-  CHECK(KdTree::load(in) == small_tree());
+  CHECK(loaded(saved) == small_tree());
   RandomStream random(1);
   int refused = 0;
   for (int i = 0; i < 500; ++i) {
     std::string damaged = saved;
     damaged[random() % damaged.size()] ^= static_cast<char>(1 << random() % 8);
     if (i % 5 == 0) damaged.resize(random() % damaged.size());
-    std::istringstream stream(damaged);
     try {
-      const KdTree tree = KdTree::load(stream);
+      const KdTree tree = loaded(damaged);
       CHECK(tree.cell_at({0.5f, 1.5f, 2.5f}) < tree.cell_count());
     } catch (const InputError&) {
       ++refused;
@@ -76,15 +80,7 @@ struct Counter {
 
   bool knows_something() const { return knows; }
   void forget(double factor) { seen *= factor; }
-  void save(std::ostream& out) const {
-    save_number(out, seen);
-    save_number(out, static_cast<std::uint8_t>(knows));
-  }
-  static Counter load(std::istream& in) {
-    Counter counter{load_finite<double>(in)};
-    counter.knows = load_number<std::uint8_t>(in) != 0;
-    return counter;
-  }
+  void archive(Archive& archive) { archive(seen, knows); }
 };
 using Counters = KdTreeCells<Step, Counter>;
 
@@ -154,15 +150,15 @@ TEST_CASE("cells that know nothing, or lie at one place, or are deep enough, sta
   CHECK(whole.size() == 1);
 }
 
-TEST_CASE("learning cells go on from where they were saved; damage changes nothing") {
+TEST_CASE("learning cells go on from where they were saved; cut ones are refused") {
   Counters cells;
   auto steps = steps_along_x(500);
   cells.learn(steps, {.cell_samples = 100}, count);
   std::ostringstream out;
-  cells.save(out);
+  save(out, cells);
   std::istringstream in(out.str());
   Counters loaded;
-  loaded.load(in);
+  load(in, loaded);
   for (Counters* each : {&cells, &loaded}) {
     steps = steps_along_x(700);
     each->learn(steps, {.cell_samples = 100}, count);
@@ -170,8 +166,7 @@ TEST_CASE("learning cells go on from where they were saved; damage changes nothi
   CHECK(loaded.tree() == cells.tree());
   CHECK(total(loaded) == total(cells));
   std::istringstream cut(out.str().substr(0, out.str().size() / 2));
-  CHECK_THROWS_AS(loaded.load(cut), InputError);
-  CHECK(loaded.tree() == cells.tree());
+  CHECK_THROWS_AS(load(cut, loaded), InputError);
 }
 
 TEST_CASE("guidable steps: with what came along them, each once where paths branch") {
@@ -179,11 +174,11 @@ TEST_CASE("guidable steps: with what came along them, each once where paths bran
   log.begin_path({}, Transport::radiance);
   log.add(RecordedVertex{.throughput = Rgb(1)});
   const RecordedVertex matt{.event = Event::smooth_reflect,
+                            .guidable = true,
                             .parent = 0,
                             .local_weight = Rgb(0.5f),
                             .direction = {0, 0, 1},
-                            .unguided_pdf = 0.25f,
-                            .guidable = true};
+                            .pdf = 0.25f};
   log.add(matt);
   // The next vertex is recorded twice, once for each step that it takes.
   for (int copy = 0; copy < 2; ++copy) {
@@ -208,6 +203,29 @@ TEST_CASE("guidable steps: with what came along them, each once where paths bran
     CHECK(step.reflected.r == doctest::Approx(2));
   });
   CHECK(numbers == std::vector<std::uint32_t>{1, 2, 4});
+}
+
+TEST_CASE("guidable steps: the radiance makes up for Russian roulette, the density is the step's") {
+  PathLog log;
+  log.begin_path({}, Transport::radiance);
+  log.add(RecordedVertex{.throughput = Rgb(1)});
+  log.add(RecordedVertex{.event = Event::smooth_reflect,
+                         .guidable = true,
+                         .parent = 0,
+                         .local_weight = Rgb(2),
+                         .direction = {0, 0, 1},
+                         .pdf = 0.25f,
+                         .continuation = 4});
+  log.add(RecordedVertex{.position = {0, 0, 1}, .parent = 1, .emission = Rgb(3)});
+  int count = 0;
+  std::vector<Rgb> incident;
+  for_each_guidable_step(log[0], incident, [&](const GuidableStep& step) {
+    ++count;
+    CHECK(step.pdf == 0.25f);
+    CHECK(step.radiance.r == doctest::Approx(4 * 3));
+    CHECK(step.reflected.r == doctest::Approx(2 * 3));
+  });
+  CHECK(count == 1);
 }
 
 }  // namespace

@@ -1,9 +1,7 @@
 // Files of learned models: a model is read back as it was written, and all damage is reported.
 
 #include <fstream>
-#include <istream>
 #include <iterator>
-#include <ostream>
 
 #include <doctest/doctest.h>
 
@@ -15,25 +13,26 @@
 namespace pharos::test {
 namespace {
 
-/// A model that consists of one number.
+/// A model that is one number, which is not 0.
 class NumberModel final : public GuidingModel {
  public:
-  explicit NumberModel(std::uint32_t number) : number_(number) {}
+  explicit NumberModel(std::uint32_t number, std::uint32_t version = 3)
+      : number_(number), version_(version) {}
 
-  std::string name() const override { return "a_number"; }
-  std::uint32_t version() const override { return 3; }
-  std::size_t size_bytes() const override { return sizeof number_; }
-  void save(std::ostream& out) const override {
-    out.write(reinterpret_cast<const char*>(&number_), sizeof number_);
+  ModelInfo info() const override {
+    return {.name = "a_number", .version = version_, .bytes = sizeof number_};
   }
-  double density(Point3) const override { return number_; }
-  double density(Point3, Vec3) const override { return number_; }
+  void archive(Archive& archive) override {
+    archive(number_);
+    archive.expect(number_ != 0, "the number");
+  }
+  double density(Point3, const Vec3*) const override { return number_; }
 
  private:
-  std::uint32_t number_;
+  std::uint32_t number_, version_;
 };
 
-/// Reads such models. Returns null for the number zero.
+/// Reads such models.
 class NumberLearner final : public Learner {
  public:
   struct Settings {
@@ -44,13 +43,10 @@ class NumberLearner final : public Learner {
   };
   explicit NumberLearner(const Settings& settings) : settings_(settings) {}
 
-  LearnerTraits traits() const override { return {"a_number", {}, settings_.version}; }
+  LearnerTraits traits() const override { return {}; }
   std::unique_ptr<LearningState> begin(const LearningContext&) const override { return nullptr; }
-  std::shared_ptr<const GuidingModel> load_model(std::istream& in) const override {
-    std::uint32_t number = 0;
-    in.read(reinterpret_cast<char*>(&number), sizeof number);
-    if (!in) throw InputError("there is no number");
-    return number == 0 ? nullptr : std::make_shared<NumberModel>(number);
+  std::shared_ptr<GuidingModel> empty_model() const override {
+    return std::make_shared<NumberModel>(0, settings_.version);
   }
 
  private:
@@ -127,7 +123,7 @@ TEST_CASE("model files: damaged heads") {
     return refusal(folder, bytes);
   };
   CHECK(changed(0, 'P') == "the model file 'changed.model' is no model of Pharos");
-  CHECK(changed(8, 2) == "the model file 'changed.model' is of form 2; this Pharos reads form 1");
+  CHECK(changed(8, 1) == "the model file 'changed.model' is of form 1; this Pharos reads form 2");
   CHECK(changed(13, 2) == "the model file 'changed.model' has a damaged head");
   CHECK(changed(kVersionAt, 2) ==
         "the model file 'changed.model' holds version 2 of the model 'a_number'; the learner "
@@ -136,25 +132,31 @@ TEST_CASE("model files: damaged heads") {
   CHECK(refusal(folder, "") == "the model file 'changed.model' is no model of Pharos");
 }
 
-TEST_CASE("model files: of another learner, or of another version of it") {
+TEST_CASE("model files: of another learner, of another kind or of another version") {
   const TemporaryFolder folder;
   CHECK(refusal(folder, sound_file(folder), "guessing") ==
         "the model file 'changed.model' was learned by 'counting', which the learner 'guessing' "
         "cannot read");
   CHECK(refusal(folder, sound_file(folder), "{ type: counting, version: 4 }")
             .find("reads version 4") != std::string::npos);
+  std::string other_kind = sound_file(folder);
+  other_kind[kVersionAt - 8] = 'b';
+  CHECK(refusal(folder, other_kind) ==
+        "the model file 'changed.model' holds a model 'b_number'; the learner 'counting' reads "
+        "models 'a_number'");
 }
 
-TEST_CASE("model files: what the learner makes of the rest") {
+TEST_CASE("model files: what the model makes of the rest") {
   const TemporaryFolder folder;
-  CHECK(refusal(folder, sound_file(folder, 0)) == "the model file 'changed.model' holds no model");
+  CHECK(refusal(folder, sound_file(folder, 0)) ==
+        "the model file 'changed.model' cannot be read: the number is damaged");
   std::string longer = sound_file(folder) + "more";
   longer[kLengthAt] = 8;
   CHECK(refusal(folder, longer) == "the model file 'changed.model' holds more than its model");
   std::string shorter = sound_file(folder).substr(0, kModelAt + 2);
   shorter[kLengthAt] = 2;
   CHECK(refusal(folder, shorter) ==
-        "the model file 'changed.model' cannot be read: there is no number");
+        "the model file 'changed.model' cannot be read: what was saved is cut off");
 }
 
 TEST_CASE("model files: no files") {

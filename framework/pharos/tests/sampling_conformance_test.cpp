@@ -82,16 +82,14 @@ TEST_CASE("conformance: faults of a sampler") {
 
 enum class GuideFault { none, pdf, fog_pdf, forgets, moods, declines, no_model };
 
-/// Knows only whether it was loaded.
+/// Knows only whether it was made to be loaded.
 class BlankModel final : public GuidingModel {
  public:
+  static constexpr std::string_view kName = "blank";
   explicit BlankModel(bool loaded) : loaded_(loaded) {}
-  std::string name() const override { return "blank"; }
-  std::uint32_t version() const override { return 1; }
-  std::size_t size_bytes() const override { return 0; }
-  void save(std::ostream&) const override {}
-  double density(Point3) const override { return 1; }
-  double density(Point3, Vec3) const override { return 1; }
+  ModelInfo info() const override { return {.name = std::string(kName)}; }
+  void archive(Archive&) override {}
+  double density(Point3, const Vec3*) const override { return 1; }
   bool loaded() const { return loaded_; }
 
  private:
@@ -102,11 +100,11 @@ class BlankLearner final : public Learner {
  public:
   using Settings = NoSettings;
   explicit BlankLearner(const Settings&) {}
-  LearnerTraits traits() const override { return {"blank", {}}; }
+  LearnerTraits traits() const override { return {}; }
   std::unique_ptr<LearningState> begin(const LearningContext&) const override {
     return std::make_unique<State>();
   }
-  std::shared_ptr<const GuidingModel> load_model(std::istream&) const override {
+  std::shared_ptr<GuidingModel> empty_model() const override {
     return std::make_shared<BlankModel>(true);
   }
 
@@ -114,25 +112,28 @@ class BlankLearner final : public Learner {
   class State final : public LearningState {
    public:
     void absorb(const PathLog&) override {}
-    std::shared_ptr<const GuidingModel> update(std::uint32_t, bool) override {
-      if (FaultSettings<GuideFault>::planted == GuideFault::no_model) return nullptr;
-      return std::make_shared<BlankModel>(false);
+    Learned update(std::uint32_t, bool) override {
+      if (FaultSettings<GuideFault>::planted == GuideFault::no_model) return {};
+      return {std::make_shared<BlankModel>(false)};
     }
-    void save(std::ostream&) const override {}
-    void load(std::istream&) override {}
-    void merge(const LearningState&) override {}
+    void archive(Archive&) override {}
   };
 };
 
-/// Samples directions uniformly over the sphere.
-class FaultyGuider final : public Guider {
+/// Directions uniform over the sphere.
+class FaultyGuider final : public GuiderOf<BlankModel> {
  public:
   using Settings = FaultSettings<GuideFault>;
   explicit FaultyGuider(const Settings&) : fault_(Settings::planted) {}
-  GuiderTraits traits() const override { return {.model = "blank"}; }
-  std::unique_ptr<const BoundGuider> bind(
-      std::shared_ptr<const GuidingModel> model) const override {
-    return std::make_unique<const Bound>(fault_, bind_model<BlankModel>(model, *this)->loaded());
+  GuiderTraits traits() const override { return {}; }
+  const GuidingDistribution* query(const BlankModel& model, const GuidingQuery& query,
+                                   Arena& arena) const override {
+    if (fault_ == GuideFault::declines) return nullptr;
+    const bool in_fog = query.current.kind == VertexKind::volume;
+    const bool wrong = fault_ == GuideFault::pdf || (fault_ == GuideFault::fog_pdf && in_fog);
+    const bool turned = (fault_ == GuideFault::forgets && model.loaded()) ||
+                        (fault_ == GuideFault::moods && ++asked_ % 3 == 0);
+    return arena.make<Sphere>(wrong ? 1.03f : 1.0f, turned ? 0.3f : 0.0f);
   }
 
  private:
@@ -144,32 +145,14 @@ class FaultyGuider final : public Guider {
       u.x = u.x + turn_ - std::floor(u.x + turn_);
       return Proposal{.direction = warp::sphere_from_square(u)};
     }
-    Density density(const ResolvedVertex&) const override {
-      return {pdf_scale_ * warp::sphere_pdf(), Measure::solid_angle};
-    }
+    float density(const ResolvedVertex&) const override { return pdf_scale_ * warp::sphere_pdf(); }
 
    private:
     float pdf_scale_, turn_;
   };
 
-  class Bound final : public BoundGuider {
-   public:
-    Bound(GuideFault fault, bool loaded) : fault_(fault), loaded_(loaded) {}
-    const GuidingDistribution* query(const GuidingQuery& query, Arena& arena) const override {
-      if (fault_ == GuideFault::declines) return nullptr;
-      const bool in_fog = query.current.kind == VertexKind::volume;
-      const bool wrong = fault_ == GuideFault::pdf || (fault_ == GuideFault::fog_pdf && in_fog);
-      const bool turned = (fault_ == GuideFault::forgets && loaded_) ||
-                          (fault_ == GuideFault::moods && ++asked_ % 3 == 0);
-      return arena.make<Sphere>(wrong ? 1.03f : 1.0f, turned ? 0.3f : 0.0f);
-    }
-
-   private:
-    GuideFault fault_;
-    bool loaded_;
-    mutable std::atomic<int> asked_{0};
-  };
   GuideFault fault_;
+  mutable std::atomic<int> asked_{0};
 };
 
 /// Returns the failed checks of the guider. If `tested` is the learner, returns the failed checks

@@ -1,5 +1,6 @@
 #include "../splat.h"
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -37,39 +38,42 @@ Segment segment(Point3 from, Point3 to, bool whole_line) {
           .length = length(to - from),
           .contribution = 2.5f,
           .unguided_pdf = 0.4f,
-          .unguided_fraction = 0.5f,
+          .unguided_share = 0.5f,
           .whole_line = whole_line};
 }
 
-/// A path of a lens vertex and two surface vertices. Tests modify the last vertex.
+/// A path of a lens vertex and two surface vertices. Three methods could have guided the step
+/// between these, but the second one knew nothing.
 struct TestPath {
   TestPath() {
-    vertices[0].throughput = Rgb(1);
-    for (std::uint32_t i = 1; i < 3; ++i) {
-      vertices[i].parent = i - 1;
-      vertices[i].throughput = Rgb(0.5f);
-      vertices[i].position = Point3{0.2f * static_cast<float>(i), 1, 3};
-    }
-    RecordedVertex& guided = vertices[1];
-    guided.guidable = true;
-    guided.event = Event::smooth_reflect;
-    guided.local_weight = Rgb(0.8f);
-    guided.direction = {1, 0, 0};
-    guided.unguided_pdf = 0.7f;
-    guided.unguided_fraction = 0.25f;
-    vertices[2].emission = Rgb(3, 6, 9);
-    vertices[2].roughness = 0.1f;
+    log.begin_path({}, Transport::radiance);
+    log.add(RecordedVertex{.throughput = Rgb(1)});
+    log.add(RecordedVertex{.position = {0.2f, 1, 3},
+                           .event = Event::smooth_reflect,
+                           .guidable = true,
+                           .parent = 0,
+                           .throughput = Rgb(0.5f),
+                           .local_weight = Rgb(0.8f),
+                           .direction = {1, 0, 0}});
+    log.set_techniques(1, std::array{Technique{0.25f, 0.7f}, Technique{0.5f, 2}, Technique{},
+                                     Technique{0.25f, 5}});
+    log.add(RecordedVertex{.position = {0.4f, 1, 3},
+                           .roughness = 0.1f,
+                           .parent = 1,
+                           .throughput = Rgb(0.5f),
+                           .emission = Rgb(3, 6, 9)});
   }
+
+  RecordedVertex& operator[](std::uint32_t i) { return log.vertex(i); }
 
   std::vector<Segment> segments(SplatExtent extent = SplatExtent::line) const {
     std::vector<Segment> found;
     std::vector<Rgb> incident;
-    extract_segments({.vertices = vertices, .light_samples = {}, .film = {}},
-                     {.extent = extent, .roughness = 0.3f}, incident, found);
+    extract_segments(log[0], {.extent = extent, .roughness = 0.3f}, incident, found);
     return found;
   }
 
-  std::vector<RecordedVertex> vertices{3};
+  PathLog log;
 };
 
 }  // namespace
@@ -79,17 +83,18 @@ TEST_CASE("segments: the full-path contribution of guidable steps that found lig
   const std::vector<Segment> found = path.segments();
   REQUIRE(found.size() == 1);
   CHECK(found[0].contribution == doctest::Approx(0.5 * 0.8 * 6));
-  CHECK(found[0].origin == path.vertices[1].position);
+  CHECK(found[0].origin == path[1].position);
   CHECK(found[0].length == doctest::Approx(0.2));
   CHECK(found[0].unguided_pdf == 0.7f);
-  CHECK(found[0].unguided_fraction == 0.25f);
+  CHECK(found[0].guided_pdf == doctest::Approx((0.5 * 2 + 0.25 * 5) / 0.75));
+  CHECK(found[0].unguided_share == 0.25f);
   CHECK(found[0].whole_line);
 }
 
 TEST_CASE("segments: what cannot be guided, found nothing or is not a number is left out") {
   const auto count = [](auto&& change) {
     TestPath path;
-    change(path.vertices);
+    change(path);
     return path.segments().size();
   };
   CHECK(count([](auto& v) { v[1].guidable = false; }) == 0);
@@ -103,10 +108,10 @@ TEST_CASE("segments: what cannot be guided, found nothing or is not a number is 
 TEST_CASE("segments: with `roughness_gated` only nearly specular ends extend them") {
   TestPath path;
   CHECK(path.segments(SplatExtent::roughness_gated)[0].whole_line);
-  path.vertices[2].roughness = 0.3f;
+  path[2].roughness = 0.3f;
   CHECK(!path.segments(SplatExtent::roughness_gated)[0].whole_line);
-  path.vertices[2].roughness = 0;
-  path.vertices[2].kind = VertexKind::environment;
+  path[2].roughness = 0;
+  path[2].kind = VertexKind::environment;
   const Segment escaped = path.segments(SplatExtent::roughness_gated)[0];
   CHECK(!escaped.whole_line);
   CHECK(escaped.length == kInfinity);

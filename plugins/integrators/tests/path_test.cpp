@@ -2,11 +2,13 @@
 
 #include "../path.h"
 
+#include <array>
+
 #include <doctest/doctest.h>
 
 #include <pharos/core/error.h>
 
-#include "../path_text.h"
+#include <pharos/transport/path_text.h>
 
 namespace pharos {
 namespace {
@@ -37,32 +39,30 @@ TEST_CASE("path offers what guides need, and no guiding unless asked") {
 
 class IdleModel final : public GuidingModel {
  public:
-  std::string name() const override { return "none"; }
-  std::uint32_t version() const override { return 1; }
-  std::size_t size_bytes() const override { return 0; }
-  void save(std::ostream&) const override {}
-  double density(Point3) const override { return 0; }
-  double density(Point3, Vec3) const override { return 0; }
+  static constexpr std::string_view kName = "none";
+  ModelInfo info() const override { return {.name = std::string(kName)}; }
+  void archive(Archive&) override {}
+  double density(Point3, const Vec3*) const override { return 0; }
 };
 
 class IdleLearner final : public Learner {
  public:
   explicit IdleLearner(RecordNeeds needs = {}) : needs_(needs) {}
-  LearnerTraits traits() const override { return {.model = "none", .records = needs_}; }
+  LearnerTraits traits() const override { return {.records = needs_}; }
   std::unique_ptr<LearningState> begin(const LearningContext&) const override { return nullptr; }
-  std::shared_ptr<const GuidingModel> load_model(std::istream&) const override { return nullptr; }
+  std::shared_ptr<GuidingModel> empty_model() const override {
+    return std::make_shared<IdleModel>();
+  }
 
  private:
   RecordNeeds needs_;
 };
 
-class IdleGuider final : public Guider {
+class IdleGuider final : public GuiderOf<IdleModel> {
  public:
   explicit IdleGuider(bool guides_camera) : guides_camera_(guides_camera) {}
-  GuiderTraits traits() const override {
-    return {.model = "none", .guides_camera = guides_camera_};
-  }
-  std::unique_ptr<const BoundGuider> bind(std::shared_ptr<const GuidingModel>) const override {
+  GuiderTraits traits() const override { return {.guides_camera = guides_camera_}; }
+  const GuidingDistribution* query(const IdleModel&, const GuidingQuery&, Arena&) const override {
     return nullptr;
   }
 
@@ -114,16 +114,18 @@ TEST_CASE("what a learner needs recorded must be offered, unless it has its mode
   CHECK_NOTHROW(check_compatible(PathIntegrator(settings), sensor));
 }
 
-TEST_CASE("a path's text tells of every vertex and light sample") {
+TEST_CASE("a path's text tells of every vertex, technique and light sample") {
   PathLog log;
   log.begin_path({1.5f, 2.5f}, Transport::radiance);
   log.add(RecordedVertex{.kind = VertexKind::sensor, .event = Event::smooth_reflect});
+  log.set_techniques(0, std::array{Technique{0.25f, 0.5f}, Technique{0.75f, 6}});
   log.add(RecordedVertex{.kind = VertexKind::surface, .event = Event::discrete_transmit});
   log.add(RecordedVertex{.kind = VertexKind::environment, .emission = Rgb(3)});
   log.add(RecordedLightSample{.vertex = 1, .contribution = Rgb(0.5f)});
   const std::string text = path_text(log[0], Rgb(1));
   for (const char* word : {"0 sensor", "1 surface", "2 environment", "discrete transmit",
-                           "emission (3, 3, 3)", "light sample", "film (1.5000, 2.5000)"}) {
+                           "emission (3, 3, 3)", "light sample", "film (1.5000, 2.5000)",
+                           "share 0.25 of unguided 0.5, 0.75 of method 1 6"}) {
     CHECK_MESSAGE(text.find(word) != std::string::npos, word);
   }
 }

@@ -1,23 +1,53 @@
 #include "../fixed.h"
 
+#include <array>
+
 #include <doctest/doctest.h>
 
 namespace pharos {
+namespace {
 
-TEST_CASE("fixed mixing: the same fraction in every region and iteration") {
-  const FixedMixing policy({.unguided_fraction = 0.25f});
-  const auto state = policy.begin();
+/// The shares of unguided sampling and of two methods, whose models have this much evidence.
+std::array<float, 3> shares_of(const MixingState& state, float first, float second,
+                               std::uint32_t region = 0) {
+  const GuidingQuery vertex{};
+  const std::array places{Place{.region = region, .evidence = first},
+                          Place{.region = region + 1, .evidence = second}};
+  std::array<float, 3> shares{};
+  state.shares()->at({vertex, places}, shares);
+  return shares;
+}
+
+}  // namespace
+
+TEST_CASE("fixed mixing: the same share in every region and iteration") {
+  const std::array weights{1.0f, 3.0f};
+  const auto state = FixedMixing({.unguided_fraction = 0.25f}).begin(weights);
   for (const std::uint32_t regions : {0u, 1u, 100u}) {
-    const auto fractions = state->update(regions, {});
-    for (const std::uint32_t region : {0u, 99u}) {
-      CHECK(fractions->unguided_fraction(region) == 0.25f);
+    state->update(regions, {});
+    for (const std::uint32_t region : {0u, 98u}) {
+      CHECK(shares_of(*state, 1, 1, region)[0] == 0.25f);
     }
   }
 }
 
 TEST_CASE("fixed mixing: one half by default") {
-  const auto state = FixedMixing(FixedMixing::Settings{}).begin();
-  CHECK(state->update(1, {})->unguided_fraction(0) == 0.5f);
+  const std::array weights{1.0f, 1.0f};
+  CHECK(shares_of(*FixedMixing(FixedMixing::Settings{}).begin(weights), 1, 1)[0] == 0.5f);
+}
+
+TEST_CASE("fixed mixing: methods that know something share the rest by their weights") {
+  const std::array weights{1.0f, 3.0f};
+  const auto state = FixedMixing({.unguided_fraction = 0.25f}).begin(weights);
+  const auto check = [&](float first, float second, const std::array<float, 3>& expected) {
+    const std::array<float, 3> shares = shares_of(*state, first, second);
+    for (std::size_t i = 0; i < 3; ++i) CHECK(shares[i] == doctest::Approx(expected[i]));
+  };
+  check(1, 1, {0.25f, 0.1875f, 0.5625f});
+  check(100, 1, {0.25f, 0.1875f, 0.5625f});
+  check(1, 0, {0.25f, 0.75f, 0});
+  check(0, 1, {0.25f, 0, 0.75f});
+  check(0, 0, {1, 0, 0});
 }
 
 }  // namespace pharos

@@ -39,46 +39,65 @@ std::size_t choose(const std::array<double, 3>& probabilities, double u) {
   return i;
 }
 
-/// Adds a path with one guided step that found `found` times the radiance 1.
-void add_path(PathLog& log, RecordedVertex vertex, double found) {
+/// Adds a path with one step that found `found` times the radiance 1.
+void add_path(PathLog& log, std::uint32_t mixing_key, std::span<const Technique> techniques,
+              double found) {
   log.begin_path({}, Transport::radiance);
   log.add(RecordedVertex{.kind = VertexKind::sensor, .local_weight = Rgb(1)});
-  vertex.parent = 0;
-  vertex.guidable = true;
-  vertex.local_weight = Rgb(static_cast<float>(found));
-  log.add(vertex);
+  float pdf = 0;
+  for (const Technique& t : techniques) pdf += t.share * t.density;
+  log.add(RecordedVertex{.guidable = true,
+                         .parent = 0,
+                         .local_weight = Rgb(static_cast<float>(found)),
+                         .pdf = pdf,
+                         .mixing_key = mixing_key});
+  log.set_techniques(1, techniques);
   log.add(RecordedVertex{.parent = 1, .emission = Rgb(1)});
 }
 
 /// Paths that take one step each, drawn from the mixture of a share. `scale` is the unit of
-/// radiance.
+/// radiance. `guides` methods share the guided samples evenly.
 PathLog paths(const World& world, float share, int count, std::uint64_t seed,
-              std::uint32_t region = 0, double scale = 1) {
+              std::uint32_t region = 0, double scale = 1, std::size_t guides = 1) {
   PathLog log;
   RandomStream random(seed);
   for (int k = 0; k < count; ++k) {
     const bool unguided = random.next_1d() < share;
     const std::size_t i = choose(unguided ? world.unguided : world.guided, random.next_1d());
-    const RecordedVertex vertex{.unguided_pdf = static_cast<float>(world.unguided[i]),
-                                .guided_pdf = static_cast<float>(world.guided[i]),
-                                .unguided_fraction = share,
-                                .region = region};
-    add_path(log, vertex, scale * world.sought[i] / world.mixed(i, share));
+    const Technique guide{(1 - share) / static_cast<float>(guides),
+                          static_cast<float>(world.guided[i])};
+    std::vector<Technique> techniques(1 + guides, guide);
+    techniques[0] = {share, static_cast<float>(world.unguided[i])};
+    add_path(log, region, techniques, scale * world.sought[i] / world.mixed(i, share));
   }
   return log;
+}
+
+std::unique_ptr<MixingState> begin(const Settings& settings = {}) {
+  return LearnedMixing(settings).begin(std::array{1.0f});
+}
+
+/// The share of unguided samples in a region of the only method.
+float unguided_share(const MixingState& state, std::uint32_t region = 0) {
+  const GuidingQuery vertex{};
+  const std::array places{Place{.region = region}};
+  std::array<float, 2> shares{};
+  CHECK(state.shares()->at({vertex, places}, shares) == region);
+  CHECK(shares[0] + shares[1] == doctest::Approx(1));
+  return shares[0];
 }
 
 /// One region's share after iterations of `count` paths each.
 double learned_share(const Settings& settings, const World& world, int count = 40'000,
                      int iterations = 4, double scale = 1) {
-  const auto state = LearnedMixing(settings).begin();
-  auto fractions = state->update(1, {});
+  const auto state = begin(settings);
+  state->update(1, {});
   for (int i = 0; i < iterations; ++i) {
     const auto seed = static_cast<std::uint64_t>(i);
-    state->absorb(paths(world, fractions->unguided_fraction(0), count, seed, 0, scale));
-    fractions = state->update(1, std::array{0u});
+    state->absorb(paths(world, unguided_share(*state), count, seed, 0, scale));
+    state->update(1, std::array{0u});
   }
-  return fractions->unguided_fraction(0);
+  return unguided_share(*state);
 }
 
 double objective(const World& world, double share, MixingObjective which) {
@@ -166,26 +185,29 @@ TEST_CASE("learned mixing: both ways keep their least share") {
 }
 
 TEST_CASE("learned mixing: a region that was long at a limit leaves it at once") {
-  const auto state = LearnedMixing({.least = 0.4, .regularization = 0}).begin();
-  auto fractions = state->update(1, {});
+  const auto state = begin({.least = 0.4, .regularization = 0});
+  state->update(1, {});
   for (int i = 0; i < 10; ++i) {
-    state->absorb(paths(kGuideMisses, fractions->unguided_fraction(0), 1000, 1));
-    fractions = state->update(1, {});
+    state->absorb(paths(kGuideMisses, unguided_share(*state), 1000, 1));
+    state->update(1, {});
   }
-  CHECK(fractions->unguided_fraction(0) == doctest::Approx(0.6));
+  CHECK(unguided_share(*state) == doctest::Approx(0.6));
   state->absorb(paths(kOnlyGuideFinds, 0.6f, 100, 1));
-  CHECK(state->update(1, {})->unguided_fraction(0) < 0.55f);
+  state->update(1, {});
+  CHECK(unguided_share(*state) < 0.55f);
 }
 
 TEST_CASE("learned mixing: the momentum of one iteration is felt in the next") {
-  const auto state = LearnedMixing({.batch = 100, .steps = 1}).begin();
+  const auto state = begin({.batch = 100, .steps = 1});
   state->update(1, {});
   state->absorb(paths(kGuideMisses, 0.5f, 100, 1));
-  const float there = state->update(1, {})->unguided_fraction(0);
+  state->update(1, {});
+  const float there = unguided_share(*state);
   CHECK(there == doctest::Approx(0.5025).epsilon(1e-4));  // one step of 0.01 in log-odds
   // The slope is now the opposite, and about as steep: without memory all would be undone.
   state->absorb(paths(kOnlyGuideFinds, there, 100, 1));
-  CHECK(state->update(1, {})->unguided_fraction(0) > 0.502f);
+  state->update(1, {});
+  CHECK(unguided_share(*state) > 0.502f);
 }
 
 TEST_CASE("learned mixing: few samples move little, none and black ones nothing") {
@@ -201,109 +223,139 @@ TEST_CASE("learned mixing: only finite finds of guided vertices count") {
   constexpr float kInfinite = std::numeric_limits<float>::infinity();
   PathLog log;
   for (int i = 0; i < 100; ++i) {
-    add_path(log, {.unguided_pdf = 1, .unguided_fraction = 1}, 1);
-    add_path(log, {.unguided_pdf = 1, .guided_pdf = 2, .unguided_fraction = 0.5f}, kInfinite);
-    add_path(log, {.unguided_pdf = kInfinite, .unguided_fraction = 0.5f}, 1);
-    add_path(log, {.unguided_fraction = 0.5f}, 0);  // a zero sample without density
+    add_path(log, kNoMixing, std::array{Technique{1, 1}}, 1);
+    add_path(log, 0, std::array{Technique{0.5f, 1}, Technique{0.5f, 2}}, kInfinite);
+    add_path(log, 0, std::array{Technique{0.5f, kInfinite}, Technique{0.5f, 0}}, 1);
+    // A zero sample without density.
+    add_path(log, 0, std::array{Technique{0.5f, 0}, Technique{0.5f, 0}}, 0);
   }
-  const auto state = LearnedMixing(Settings{}).begin();
+  const auto state = begin();
   state->update(1, {});
   state->absorb(log);
-  CHECK(state->update(1, {})->unguided_fraction(0) == 0.5f);
+  state->update(1, {});
+  CHECK(unguided_share(*state) == 0.5f);
 }
 
 TEST_CASE("learned mixing: refined regions go on from where their origin was") {
-  const auto whole = LearnedMixing(Settings{}).begin(), refined = LearnedMixing(Settings{}).begin();
+  const auto whole = begin(), refined = begin();
   for (const auto* state : {&whole, &refined}) {
     (*state)->update(2, {});
     (*state)->absorb(paths(kApart, 0.5f, 300, 1, 1));
   }
-  const auto before = whole->update(2, std::array{0u, 1u});
-  const auto after = refined->update(4, std::array{1u, 0u, 1u, 0u});
-  CHECK(before->unguided_fraction(0) == 0.5f);
-  const float learned = before->unguided_fraction(1);
+  whole->update(2, std::array{0u, 1u});
+  refined->update(4, std::array{1u, 0u, 1u, 0u});
+  CHECK(unguided_share(*whole, 0) == 0.5f);
+  const float learned = unguided_share(*whole, 1);
   CHECK(learned < 0.45f);
-  for (const std::uint32_t region : {0u, 2u}) CHECK(after->unguided_fraction(region) == learned);
-  for (const std::uint32_t region : {1u, 3u}) CHECK(after->unguided_fraction(region) == 0.5f);
+  for (const std::uint32_t region : {0u, 2u}) CHECK(unguided_share(*refined, region) == learned);
+  for (const std::uint32_t region : {1u, 3u}) CHECK(unguided_share(*refined, region) == 0.5f);
 
   // With the same paths, heir and origin take the same steps.
   whole->absorb(paths(kApart, learned, 300, 2, 1));
   refined->absorb(paths(kApart, learned, 300, 2, 2));
-  const float next = whole->update(2, std::array{0u, 1u})->unguided_fraction(1);
-  const auto heirs = refined->update(4, std::array{0u, 1u, 2u, 3u});
+  whole->update(2, std::array{0u, 1u});
+  refined->update(4, std::array{0u, 1u, 2u, 3u});
+  const float next = unguided_share(*whole, 1);
   CHECK(next < learned);
-  CHECK(heirs->unguided_fraction(2) == next);
-  CHECK(heirs->unguided_fraction(0) == learned);
+  CHECK(unguided_share(*refined, 2) == next);
+  CHECK(unguided_share(*refined, 0) == learned);
+}
+
+TEST_CASE("learned mixing: shares that are in use stay as they are") {
+  const auto state = begin();
+  state->update(1, {});
+  const std::shared_ptr<const MixingShares> used = state->shares();
+  state->absorb(paths(kOnlyGuideFinds, 0.5f, 300, 1));
+  state->update(1, {});
+  CHECK(unguided_share(*state) < 0.45f);
+  const GuidingQuery vertex{};
+  std::array<float, 2> shares{};
+  used->at({vertex, std::array{Place{}}}, shares);
+  CHECK(shares[0] == 0.5f);
+}
+
+TEST_CASE("learned mixing: several guides learn the share that one guide in their place learns") {
+  const auto one = begin(), several = begin();
+  for (const auto& [state, guides] : {std::pair{&one, 1}, std::pair{&several, 4}}) {
+    (*state)->update(1, {});
+    (*state)->absorb(paths(kOverlapping, 0.5f, 300, 1, 0, 1, static_cast<std::size_t>(guides)));
+    (*state)->update(1, {});
+  }
+  CHECK(unguided_share(*one) != 0.5f);
+  CHECK(unguided_share(*several) == unguided_share(*one));
+}
+
+TEST_CASE("learned mixing: the first method that knows something says which region decides") {
+  const auto state = LearnedMixing(Settings{}).begin(std::array{1.0f, 3.0f});
+  state->update(2, {});
+  state->absorb(paths(kApart, 0.5f, 300, 1, 1));
+  state->update(2, {});
+  const auto shares = state->shares();
+  const GuidingQuery vertex{};
+  const auto check = [&](float first, float second, std::uint32_t region) {
+    const std::array places{Place{.region = 0, .evidence = first},
+                            Place{.region = 1, .evidence = second}};
+    std::array<float, 3> found{};
+    CHECK(shares->at({vertex, places}, found) == region);
+    CHECK(found[1] == doctest::Approx(first > 0 ? (1 - found[0]) / (second > 0 ? 4 : 1) : 0));
+    CHECK(found[0] + found[1] + found[2] == doctest::Approx(1));
+    return found[0];
+  };
+  CHECK(check(1, 1, 0) == 0.5f);
+  CHECK(check(1, 0, 0) == 0.5f);
+  CHECK(check(0, 1, 1) < 0.45f);
 }
 
 TEST_CASE("learned mixing: a saved state goes on to the bit, in the middle of an iteration") {
-  const auto state = LearnedMixing(Settings{}).begin(),
-             restored = LearnedMixing(Settings{}).begin();
+  const auto state = begin(), restored = begin();
   state->update(2, {});
   state->absorb(paths(kApart, 0.5f, 300, 1, 1));
-  const float share = state->update(2, {})->unguided_fraction(1);
+  state->update(2, {});
+  const float share = unguided_share(*state, 1);
   state->absorb(paths(kApart, share, 300, 2, 1));
   std::stringstream file;
-  state->save(file);
-  restored->load(file);
-  for (auto* s : {&state, &restored}) (*s)->absorb(paths(kApart, share, 300, 3, 1));
-  const auto expected = state->update(2, {}), found = restored->update(2, {});
-  CHECK(expected->unguided_fraction(1) != share);
+  save(file, *state);
+  load(file, *restored);
+  CHECK(unguided_share(*restored, 1) == share);
+  for (auto* s : {&state, &restored}) {
+    (*s)->absorb(paths(kApart, share, 300, 3, 1));
+    (*s)->update(2, {});
+  }
+  CHECK(unguided_share(*state, 1) != share);
   for (const std::uint32_t region : {0u, 1u}) {
-    CHECK(found->unguided_fraction(region) == expected->unguided_fraction(region));
+    CHECK(unguided_share(*restored, region) == unguided_share(*state, region));
   }
 }
 
 TEST_CASE("learned mixing: what was saved otherwise is refused") {
   const auto saved = [] {
-    const auto state = LearnedMixing(Settings{}).begin();
+    const auto state = begin();
     state->update(2, {});
     std::ostringstream file;
-    state->save(file);
+    save(file, *state);
     return file.str();
   }();
-  const auto load = [](const Settings& settings, const std::string& text) {
+  const auto load_into = [](const Settings& settings, const std::string& text) {
     std::istringstream file(text);
-    LearnedMixing(settings).begin()->load(file);
+    load(file, *begin(settings));
   };
-  CHECK_NOTHROW(load({}, saved));
-  CHECK_THROWS_AS(load({.objective = MixingObjective::variance}, saved), InputError);
-  CHECK_THROWS_AS(load({.bins = 16}, saved), InputError);
-  CHECK_THROWS_AS(load({}, saved.substr(0, saved.size() - 1)), InputError);
-  CHECK_THROWS_AS(load({}, "pharos other 1\n" + saved), InputError);
+  CHECK_NOTHROW(load_into({}, saved));
+  CHECK_THROWS_AS(load_into({.bins = 16}, saved), InputError);
+  CHECK_THROWS_AS(load_into({}, saved.substr(0, saved.size() - 1)), InputError);
+  CHECK_THROWS_AS(load_into({}, "pharos other 1\n" + saved), InputError);
 
   const auto with = [&](std::size_t at, double value) {
     std::string damaged = saved;
     std::memcpy(damaged.data() + at, &value, sizeof value);
     return damaged;
   };
-  const std::size_t theta = saved.find('\n') + 1 + 2 * sizeof(std::uint32_t) + 8;
-  CHECK_NOTHROW(load({}, with(theta, 1e300)));  // beyond this policy's least share
-  CHECK_THROWS_AS(load({}, with(theta, std::nan(""))), InputError);
-  CHECK_THROWS_AS(load({}, with(theta + 16, -1)), InputError);       // the mean square
-  CHECK_THROWS_AS(load({}, with(theta + 24, 2)), InputError);        // what is left of the start
-  CHECK_THROWS_AS(load({}, with(saved.size() - 8, 1)), InputError);  // a bin's moment alone
-}
-
-TEST_CASE("learned mixing: merging states is absorbing all their paths") {
-  const LearnedMixing policy(Settings{.objective = MixingObjective::variance});
-  const auto all = policy.begin(), first = policy.begin(), second = policy.begin();
-  for (const auto* state : {&all, &first, &second}) (*state)->update(2, {});
-  for (const std::uint64_t seed : {1u, 2u, 3u, 4u}) {
-    const PathLog log = paths(kApart, 0.5f, 100, seed, seed % 2);
-    all->absorb(log);
-    (seed < 3 ? first : second)->absorb(log);
-  }
-  first->merge(*second);
-  const auto expected = all->update(2, {}), found = first->update(2, {});
-  for (const std::uint32_t region : {0u, 1u}) {
-    CHECK(expected->unguided_fraction(region) != 0.5f);
-    CHECK(found->unguided_fraction(region) ==
-          doctest::Approx(expected->unguided_fraction(region)).epsilon(1e-6));
-  }
-  const auto other = policy.begin();
-  other->update(3, {});
-  CHECK_THROWS_AS(first->merge(*other), InputError);
+  const std::size_t theta = saved.find('\n') + 1 + sizeof(std::uint64_t);
+  CHECK_NOTHROW(load_into({}, with(theta, 50)));  // beyond this policy's least share
+  CHECK_THROWS_AS(load_into({}, with(theta, 1e300)), InputError);
+  CHECK_THROWS_AS(load_into({}, with(theta, std::nan(""))), InputError);
+  CHECK_THROWS_AS(load_into({}, with(theta + 16, -1)), InputError);  // the mean square
+  CHECK_THROWS_AS(load_into({}, with(theta + 24, 2)), InputError);   // what is left of the start
+  CHECK_THROWS_AS(load_into({}, with(saved.size() - 8, 1)), InputError);  // a bin's moment alone
 }
 
 TEST_CASE("learned mixing: an initial share beyond the least is refused") {

@@ -20,15 +20,11 @@ class BallModel final : public GuidingModel {
  public:
   explicit BallModel(Point3 center) : center_(center) {}
 
-  std::string name() const override { return "ball"; }
-  std::uint32_t version() const override { return 1; }
-  std::size_t size_bytes() const override { return sizeof center_; }
-  void save(std::ostream&) const override {}
-  double density(Point3 point) const override {
-    return std::exp(-20 * length_squared(point - center_));
-  }
-  double density(Point3 point, Vec3 direction) const override {
-    return std::exp(5 * dot(direction, normalize(center_ - point)));
+  ModelInfo info() const override { return {.name = "ball", .bytes = sizeof center_}; }
+  void archive(Archive&) override {}
+  double density(Point3 point, const Vec3* direction) const override {
+    return direction == nullptr ? std::exp(-20 * length_squared(point - center_))
+                                : std::exp(5 * dot(*direction, normalize(center_ - point)));
   }
 
  private:
@@ -40,12 +36,11 @@ class PointModel final : public GuidingModel {
  public:
   PointModel(Point3 center, float radius) : center_(center), radius_(radius) {}
 
-  std::string name() const override { return "point"; }
-  std::uint32_t version() const override { return 1; }
-  std::size_t size_bytes() const override { return sizeof center_; }
-  void save(std::ostream&) const override {}
-  double density(Point3 point) const override { return length(point - center_) < radius_; }
-  double density(Point3, Vec3) const override { return 0; }
+  ModelInfo info() const override { return {.name = "point", .bytes = sizeof center_}; }
+  void archive(Archive&) override {}
+  double density(Point3 point, const Vec3* direction) const override {
+    return direction == nullptr && length(point - center_) < radius_ ? 1 : 0;
+  }
 
  private:
   Point3 center_;

@@ -2,7 +2,7 @@
 #include <string>
 
 #include <pharos/core/error.h>
-#include <pharos/rendering/light_selection.h>
+#include <pharos/transport/light_selection.h>
 
 namespace pharos {
 

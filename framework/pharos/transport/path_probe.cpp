@@ -1,10 +1,9 @@
-#include "path_probe.h"
-
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include <pharos/sampling/keyed_numbers.h>
-
-#include "path_walk.h"
+#include <pharos/transport/path_probe.h>
 
 namespace pharos {
 namespace {
@@ -27,9 +26,22 @@ class PinnedSampler final : public PreparedSampler {
   Vec2 value_;
 };
 
+/// Keeps the contribution of the last light sample, throughput included.
+class LightProbeRecorder : public SilentRecorder {
+ public:
+  void connect(const Connection&, PathWeight weight, Rgb value, Rgb throughput) {
+    last_ = throughput * (weight.own_end * value);
+  }
+  /// Returns that contribution; black if there was none since the last call.
+  Rgb take() { return std::exchange(last_, Rgb()); }
+
+ private:
+  Rgb last_;
+};
+
 class PathProbe final : public IntegrandProbe {
  public:
-  explicit PathProbe(const PathScene& shared) : shared_(shared) {}
+  explicit PathProbe(const CameraScene& shared) : shared_(shared) {}
 
   PixelGrid grid() const override { return {shared_.target.width, shared_.target.height}; }
   PixelRect window() const override { return shared_.target.window; }
@@ -82,15 +94,18 @@ class PathProbe final : public IntegrandProbe {
     const PinnedSampler sampler(query.dimension, {});
     const SampleStream stream(sampler, key);
     const IterationContext context{.sampler = sampler, .seed = key.seed};
-    Arena arena;
+    TransportArenas arenas;
     RenderCounters counters;
     LightProbeRecorder recorder;
-    PathWalk path(shared_, context, stream, arena, counters, recorder);
-    if (!path.walk_to_lights(bounce)) return;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      path.sample_light(branch, points[i]);
-      values[i] = recorder.take();
-    }
+    const CameraWalk walk(shared_, context, arenas, counters, recorder);
+    CameraPath<NoCounterparts> flight{Path(stream), {}, {}};
+    walk.visit_vertex(flight, bounce,
+                      [&](const LocalScattering& scattering, const Guidance& guidance) {
+                        for (std::size_t i = 0; i < points.size(); ++i) {
+                          walk.sample_light(flight, scattering, guidance, branch, points[i]);
+                          values[i] = recorder.take();
+                        }
+                      });
   }
 
   PathSample walk(const ProbeQuery& query, const PathKey& key, Vec2 point,
@@ -98,19 +113,18 @@ class PathProbe final : public IntegrandProbe {
     const PinnedSampler sampler(query.dimension, point);
     const SampleStream stream(sampler, key);
     const IterationContext context{.sampler = sampler, .seed = key.seed};
-    Arena arena;
+    TransportArenas arenas;
     RenderCounters counters;
     SilentRecorder recorder;
-    PathWalk path(shared_, context, stream, arena, counters, recorder);
-    return path.run(max_depth);
+    return CameraWalk(shared_, context, arenas, counters, recorder).run(stream, max_depth);
   }
 
-  const PathScene& shared_;
+  const CameraScene& shared_;
 };
 
 }  // namespace
 
-std::unique_ptr<const IntegrandProbe> make_path_probe(const PathScene& shared) {
+std::unique_ptr<const IntegrandProbe> make_path_probe(const CameraScene& shared) {
   return std::make_unique<PathProbe>(shared);
 }
 

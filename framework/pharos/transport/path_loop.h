@@ -1,16 +1,8 @@
 #pragma once
 
-#include <pharos/rendering/integrator.h>
+#include <pharos/transport/camera_walk.h>
 
 namespace pharos {
-
-/// What one path found.
-struct PathSample {
-  Rgb radiance;
-  Vec2 film;  ///< [pixels]
-  Features features;
-  bool splat = false;  ///< the camera was guided: the path may be of any pixel
-};
 
 /// Calls `trace(key, stream)` for every path of a work unit, in a fixed order, and counts them on
 /// the film.

@@ -1,4 +1,4 @@
-#include <pharos/rendering/scatter_step.h>
+#include <pharos/transport/scatter_step.h>
 
 namespace pharos {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include <pharos/rendering/integrator.h>
-#include <pharos/rendering/scatter_step.h>
+#include <pharos/transport/scatter_step.h>
 #include <pharos/scene/scene.h>
 
 namespace pharos {

@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include <pharos/rendering/segment.h>
+#include <pharos/transport/segment.h>
 
 namespace pharos {
 namespace {

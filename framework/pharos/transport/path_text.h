@@ -6,7 +6,7 @@
 
 namespace pharos {
 
-/// A recorded path as a table for people: one line a vertex, one a light sample.
+/// Describes a recorded path for people: one line for each vertex and one for each light sample.
 std::string path_text(const PathView& path, Rgb radiance);
 
 }  // namespace pharos

@@ -8,7 +8,7 @@
 #include <pharos/config/registry.h>
 #include <pharos/guiding/pipeline/guiding_settings.h>
 #include <pharos/rendering/integrator.h>
-#include <pharos/rendering/light_selection.h>
+#include <pharos/transport/light_selection.h>
 
 namespace pharos {
 
@@ -30,6 +30,7 @@ struct EnumNames<Roulette> {
       {{"off", Roulette::off}, {"throughput", Roulette::throughput}}};
 };
 
+/// How paths from the sensor are traced.
 struct PathSettings {
   std::uint16_t max_depth = 12;
   bool next_event_estimation = true;
@@ -63,12 +64,5 @@ inline float emission_weight(MisHeuristic heuristic, float own, float light) {
   if (heuristic == MisHeuristic::light_samples) return light > 0 ? 0.0f : 1.0f;
   return mis_weight(own, light, heuristic == MisHeuristic::power);
 }
-
-/// What every path of a render shares.
-struct PathScene {
-  const RenderTarget& target;
-  const PathSettings& settings;
-  const LightSelector& lights;
-};
 
 }  // namespace pharos

@@ -3,13 +3,13 @@
 #include <optional>
 
 #include <pharos/rendering/integrator.h>
-#include <pharos/rendering/light_selection.h>
+#include <pharos/transport/light_selection.h>
 
-#include "planted_fault.h"
-#include "subpath_densities.h"
+#include <pharos/transport/estimator_rules.h>
+#include <pharos/transport/subpath_densities.h>
 
-/// What paths of the other kind make of a path: the other ways of the balance heuristic, for walks
-/// that know their own.
+/// The paths of the other kind that could have made a path: the other techniques of the balance
+/// heuristic, whose densities a walk cannot know by itself.
 namespace pharos {
 
 /// Lights as both kinds of path choose them.
@@ -18,12 +18,8 @@ struct LightChoices {
   const LightSelector& emitting;  ///< by paths from the lights
 };
 
-/// Of walks whose paths no others make: weights are theirs to know.
-struct NoCounterparts {
-  static constexpr bool kExist = false;
-};
-
 /// The paths from lights that would make what a path from the lens finds.
+template <class Rules = EstimatorRules>
 class LightCounterparts {
  public:
   static constexpr bool kExist = true;
@@ -49,7 +45,8 @@ class LightCounterparts {
     } else {
       last_step_ = step_density(guidance, there.target, step.unguided_pdf).total *
                    discrete_cosine(from, step.event, step.direction);
-      // Nobody sees by chance where a light path goes on from a mirror.
+      // Light tracing cannot connect a mirror vertex to the lens: the connection would have to hit
+      // one exact direction.
       if (densities_.vertices() == 1 && is_discrete(step.event)) densities_.rule_out();
       densities_.extend(last_step_ * there.to_vertex_measure(),
                         onwards(from, to, step.direction, step.event));
@@ -109,10 +106,10 @@ class LightCounterparts {
   double onwards(const PathVertex& at, const PathVertex& before, Vec3 direction,
                  Event event) const {
     if (densities_.vertices() < 2 || densities_.is_ruled_out()) return 0;
-    if (planted(PlantedFault::reverse_density_forgotten)) return 0;
     const float roughness = guiding_ == nullptr ? 1 : before.roughness(scene_);
-    return continuations_.density(at, before.described(roughness), direction, event, back_.target) *
-           back_.to_vertex_measure();
+    return Rules::reverse_density(
+        continuations_.density(at, before.described(roughness), direction, event, back_.target) *
+        back_.to_vertex_measure());
   }
 
   const RenderTarget& target_;
@@ -141,8 +138,10 @@ class CameraCounterparts {
         first_steps_(guiding, arena),
         continuations_(target.scene, guiding, Transport::radiance, arena) {}
 
-  /// The path begins with this emission.
-  void begin(const Light& light, int index, const EmissionSample& emission) {
+  /// The path begins with this emission; `before_scene` is what media leave of the light of the
+  /// environment on its way to the scene.
+  void begin(const Light& light, int index, const EmissionSample& emission, Rgb before_scene) {
+    before_scene_ = before_scene;
     light_ = &light;
     index_ = index;
     emission_ = emission;
@@ -156,10 +155,11 @@ class CameraCounterparts {
   /// The path has gone from one vertex to the next.
   void advance(const PathVertex& from, const PathVertex& to, const ScatterStep& step,
                const Guidance& guidance, float length, Rgb transmittance) {
+    const bool begins = densities_.vertices() == 1;
+    if (begins) transmittance = before_scene_ * transmittance;
     Way there = way_to(to, step.direction, length, transmittance);
     there.target.event = step.event;
     double forward = 0, backward = 0;
-    const bool begins = densities_.vertices() == 1;
     if (begins) {
       forward = density_beyond_light(emission_.pdf, emission_.kind, there);
     } else {
@@ -233,6 +233,7 @@ class CameraCounterparts {
   const Light* light_ = nullptr;
   int index_ = 0;
   EmissionSample emission_;
+  Rgb before_scene_{1};
   bool runs_into_light_ = false;  ///< whether steps can meet it
   bool leads_to_light_ = false;   ///< whether `back_` does
   double sampled_ = 0;            ///< density of light samples, in the measure of the light's end

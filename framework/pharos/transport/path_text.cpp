@@ -1,6 +1,7 @@
-#include "path_text.h"
-
 #include <fmt/format.h>
+
+#include <pharos/transport/path_text.h>
+#include <pharos/transport/splats.h>
 
 namespace pharos {
 namespace {
@@ -84,6 +85,17 @@ std::string path_text(const PathView& path, Rgb radiance) {
     out += '\n';
   }
   return out;
+}
+
+void LightPathTeller::arrive(const GuidingVertex& vertex, Rgb throughput, std::uint32_t) {
+  text_ += fmt::format("{:3} {:<11} at {}  throughput {}\n", number_++, kind_name(vertex.kind),
+                       text(vertex.position), text(throughput));
+}
+
+void LightPathTeller::contribute(Vec2 film, Rgb contribution) {
+  total_ += contribution;
+  text_ += fmt::format("      seen at film ({:.4f}, {:.4f}) px: {}\n", film.x, film.y,
+                       text(contribution));
 }
 
 }  // namespace pharos

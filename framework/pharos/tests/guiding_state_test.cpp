@@ -1,0 +1,249 @@
+// The learning side of a render: it is saved and goes on as if it had never stopped.
+
+#include <sstream>
+#include <string>
+
+#include <doctest/doctest.h>
+
+#include <pharos/core/warp.h>
+#include <pharos/guiding/pipeline/guiding_state.h>
+
+namespace pharos {
+namespace {
+
+/// One number for each region.
+class TinyModel final : public GuidingModel {
+ public:
+  static constexpr std::string_view kName = "tiny";
+
+  TinyModel() = default;
+  explicit TinyModel(std::vector<double> numbers) : numbers_(std::move(numbers)) {}
+  ModelInfo info() const override {
+    return {.name = std::string(kName), .regions = static_cast<std::uint32_t>(numbers_.size())};
+  }
+  void archive(Archive& archive) override { archive(numbers_); }
+  Place place(const GuidingVertex&) const override {
+    return {.region = static_cast<std::uint32_t>(numbers_.size()) - 1};
+  }
+  double density(Point3, const Vec3*) const override { return numbers_.front(); }
+
+ private:
+  std::vector<double> numbers_;
+};
+
+/// Learns the light that the paths of all iterations found; that of an iteration counts half as
+/// much in the next. Every iteration divides the model's first region.
+class TinyState final : public LearningState {
+ public:
+  void absorb(const PathLog& log) override {
+    for (std::size_t i = 0; i < log.size(); ++i) {
+      for (const RecordedVertex& vertex : log[i].vertices) found_ += vertex.emission.r;
+    }
+  }
+  Learned update(std::uint32_t, bool) override {
+    light_ = light_ / 2 + found_;
+    found_ = 0;
+    const std::uint32_t before = regions_++;
+    Learned learned{std::make_shared<TinyModel>(std::vector<double>(regions_, light_))};
+    for (std::uint32_t i = 0; i < regions_; ++i) {
+      learned.region_origins.push_back(i < before ? i : 0);
+    }
+    return learned;
+  }
+  void archive(Archive& archive) override { archive(found_, light_, regions_); }
+
+ private:
+  double found_ = 0, light_ = 0;
+  std::uint32_t regions_ = 0;
+};
+
+class TinyLearner final : public Learner {
+ public:
+  LearnerTraits traits() const override { return {}; }
+  std::unique_ptr<LearningState> begin(const LearningContext&) const override {
+    return std::make_unique<TinyState>();
+  }
+  std::shared_ptr<GuidingModel> empty_model() const override {
+    return std::make_shared<TinyModel>();
+  }
+};
+
+/// Directions uniform over the sphere.
+class TinyGuider final : public GuiderOf<TinyModel> {
+ public:
+  GuiderTraits traits() const override { return {.guides_camera = true}; }
+  const GuidingDistribution* query(const TinyModel&, const GuidingQuery&,
+                                   Arena& arena) const override {
+    return arena.make<Sphere>();
+  }
+
+ private:
+  class Sphere final : public GuidingDistribution {
+   public:
+    std::optional<Proposal> propose(const VertexStream& stream) const override {
+      return Proposal{.direction =
+                          warp::sphere_from_square(stream.get_2d(Purpose::guide_direction))};
+    }
+    float density(const ResolvedVertex&) const override { return warp::sphere_pdf(); }
+  };
+};
+
+/// The unguided share of each region, and equal shares for all methods.
+class TinyShares final : public MixingShares {
+ public:
+  TinyShares(std::vector<double> paths, std::vector<float> weights)
+      : paths_(std::move(paths)), weights_(std::move(weights)) {}
+  std::uint32_t at(const MixingQuery& query, std::span<float> shares) const override {
+    const std::uint32_t region = query.places.back().region;
+    share_by_weight(weights_, query.places, 1 / (2 + static_cast<float>(paths_.at(region))),
+                    shares);
+    return region;
+  }
+
+ private:
+  std::vector<double> paths_;
+  std::vector<float> weights_;
+};
+
+/// Counts the paths of all iterations, in every region.
+class TinyMixingState final : public MixingState {
+ public:
+  explicit TinyMixingState(std::span<const float> weights)
+      : weights_(weights.begin(), weights.end()) {}
+  void absorb(const PathLog& log) override { found_ += static_cast<double>(log.size()); }
+  void update(std::uint32_t regions, std::span<const std::uint32_t> origins) override {
+    std::vector<double> next(regions, found_);
+    for (std::size_t i = 0; i < regions; ++i) {
+      const std::size_t origin = origins.empty() ? i : origins[i];
+      if (origin < paths_.size()) next[i] += paths_[origin];
+    }
+    paths_ = std::move(next);
+    found_ = 0;
+  }
+  std::shared_ptr<const MixingShares> shares() const override {
+    return std::make_shared<const TinyShares>(paths_, weights_);
+  }
+  void archive(Archive& archive) override { archive(found_, paths_); }
+
+ private:
+  double found_ = 0;
+  std::vector<double> paths_;
+  std::vector<float> weights_;
+};
+
+class TinyMixing final : public MixingPolicy {
+ public:
+  std::unique_ptr<MixingState> begin(std::span<const float> weights) const override {
+    return std::make_unique<TinyMixingState>(weights);
+  }
+};
+
+/// Two learners; two guiders sample the model of the first one.
+GuidingSettings settings() {
+  const auto learner = std::make_shared<const TinyLearner>();
+  const auto guider = std::make_shared<const TinyGuider>();
+  GuidingSettings settings;
+  settings.methods = {{.learner = learner, .guider = guider},
+                      {.learner = nullptr, .guider = guider},
+                      {.learner = learner, .guider = guider}};
+  settings.mixing = std::make_shared<const TinyMixing>();
+  return settings;
+}
+
+/// A path that finds so much light.
+PathLog path_to_light(float light) {
+  PathLog log;
+  log.begin_path({}, Transport::radiance);
+  log.add(RecordedVertex{.kind = VertexKind::sensor});
+  log.add(RecordedVertex{.parent = 0, .emission = Rgb(light)});
+  return log;
+}
+
+template <class T>
+std::string saved(const T& object) {
+  std::ostringstream out;
+  save(out, object);
+  return out.str();
+}
+
+void load_from(const std::string& bytes, GuidingState& state) {
+  std::istringstream in(bytes);
+  load(in, state);
+}
+
+/// The unguided share at the lens.
+float unguided_share(const GuidingState& state) {
+  Arena arena;
+  GuidingQuery query{.current = {.kind = VertexKind::sensor}, .bounce = 0};
+  return state.frame()->query(query, arena).unguided_share;
+}
+
+/// Absorbs a last path of iteration 1 and all of iteration 2.
+void finish(GuidingState& state) {
+  state.absorb(path_to_light(3));
+  state.update(1, false);
+  state.absorb(path_to_light(5));
+  state.update(2, true);
+}
+
+}  // namespace
+
+TEST_CASE("guiding state: saved in the middle of an iteration, it ends with the same models") {
+  GuidingState state(settings(), {}), resumed(settings(), {}), forgetful(settings(), {});
+  for (GuidingState* s : {&state, &forgetful}) {
+    s->absorb(path_to_light(1));
+    s->update(0, false);
+  }
+  state.absorb(path_to_light(2));
+  const std::string file = saved(state);
+  load_from(file, resumed);
+  CHECK(saved(resumed) == file);
+  for (const std::size_t i : {0u, 1u, 2u}) {
+    CHECK(saved(*resumed.model(i)) == saved(*state.model(i)));
+  }
+  CHECK(unguided_share(resumed) == unguided_share(state));
+
+  for (GuidingState* s : {&state, &resumed, &forgetful}) finish(*s);
+  for (const std::size_t i : {0u, 1u, 2u}) {
+    CHECK(saved(*resumed.model(i)) == saved(*state.model(i)));
+    // What was absorbed before saving makes a difference.
+    CHECK(saved(*forgetful.model(i)) != saved(*state.model(i)));
+  }
+  CHECK(resumed.model(0)->density({}) == (0.5 * 1 + 2 + 3) * 0.5 + 5);
+  CHECK(saved(resumed) == saved(state));
+  CHECK(unguided_share(resumed) == unguided_share(state));
+  CHECK(unguided_share(forgetful) != unguided_share(state));
+}
+
+TEST_CASE("guiding state: methods that share a model still share it when loaded") {
+  GuidingState state(settings(), {}), resumed(settings(), {});
+  state.absorb(path_to_light(1));
+  state.update(0, false);
+  load_from(saved(state), resumed);
+  CHECK(resumed.model(0) == resumed.model(1));
+  CHECK(resumed.model(0) != resumed.model(2));
+}
+
+TEST_CASE("guiding state: saved before anything is known") {
+  GuidingState state(settings(), {}), resumed(settings(), {});
+  state.absorb(path_to_light(1));
+  load_from(saved(state), resumed);
+  CHECK(resumed.frame() == nullptr);
+  CHECK(resumed.model(0) == nullptr);
+  for (GuidingState* s : {&state, &resumed}) s->update(0, true);
+  CHECK(saved(resumed) == saved(state));
+  CHECK(resumed.model(0)->density({}) == 1);
+}
+
+TEST_CASE("guiding state: cut off anywhere, it is refused") {
+  GuidingState state(settings(), {});
+  state.absorb(path_to_light(1));
+  state.update(0, false);
+  const std::string file = saved(state);
+  for (std::size_t size = 0; size < file.size(); ++size) {
+    GuidingState resumed(settings(), {});
+    CHECK_THROWS_AS(load_from(file.substr(0, size), resumed), InputError);
+  }
+}
+
+}  // namespace pharos

@@ -1,0 +1,349 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include <pharos/transport/kernel.h>
+
+namespace pharos {
+
+/// What all paths from the sensor share in one render.
+struct CameraScene {
+  const RenderTarget& target;
+  const PathSettings& settings;
+  const LightSelector& lights;  ///< for next event estimation
+};
+
+/// What one path from the sensor found.
+struct PathSample {
+  Rgb radiance;
+  Vec2 film;  ///< [pixels]
+  Features features;
+  bool splat = false;  ///< the camera was guided: the path may belong to any pixel
+};
+
+/// A path from the sensor in flight, with what it found so far and what is known of the paths from
+/// lights that could have made it. A value, like Path.
+template <class Counterparts>
+struct CameraPath {
+  Path path;
+  PathSample found;
+  [[no_unique_address]] Counterparts counterparts;
+};
+
+/// Path tracing:
+///
+///     begin() -> [ emission -> light samples -> step ] until the path ends
+///
+/// Light that both light samples and steps find is weighted by multiple importance sampling.
+/// `Counterparts` know which paths from lights make the same path.
+template <class Recorder, class Counterparts = NoCounterparts, class Rules = EstimatorRules>
+class CameraWalk {
+ public:
+  using InFlight = CameraPath<Counterparts>;
+
+  CameraWalk(const CameraScene& shared, const IterationContext& context, TransportArenas& arenas,
+             RenderCounters& counters, Recorder& recorder)
+      : shared_(shared),
+        scene_(shared.target.scene),
+        settings_(shared.settings),
+        counters_(counters),
+        kernel_(shared.target.scene, context.guiding, arenas, counters, recorder) {}
+
+  /// Runs a path to its end. It has at most `max_depth` segments.
+  PathSample run(const SampleStream& stream, std::uint16_t max_depth,
+                 Counterparts counterparts = {}) const {
+    InFlight flight{Path(stream), {}, std::move(counterparts)};
+    bool goes = begin(flight);
+    while (goes) goes = proceed(flight, max_depth);
+    return flight.found;
+  }
+
+  /// Begins a path at the lens and takes it to its first vertex. Returns false if it ends there.
+  bool begin(InFlight& flight) const {
+    ++counters_.paths;
+    Path& path = flight.path;
+    path.from_both_ends = Counterparts::kExist;
+    const RenderTarget& target = shared_.target;
+    const auto pixel = static_cast<int>(path.stream.key().index);
+    const Vec2 in_pixel = target.jitter ? path.stream.get_2d({Purpose::pixel}) : Vec2{0.5f, 0.5f};
+    const Vec2 size{static_cast<float>(target.width), static_cast<float>(target.height)};
+    flight.found.film = {static_cast<float>(pixel % target.width) + in_pixel.x,
+                         static_cast<float>(pixel / target.width) + in_pixel.y};
+    LensPoint lens = target.sensor.sample_lens(path.stream.get_2d({Purpose::lens}));
+    const Ray ray = target.sensor.ray(
+        lens, {flight.found.film.x / size.x, flight.found.film.y / size.y});
+    lens.position = ray.origin;
+    place(lens, path);
+    kernel_.recorder().begin(path.transport, flight.found.film);
+    kernel_.begin(path);
+
+    ScatterStep step;
+    step.direction = ray.direction;
+    step.event = Event::smooth_reflect;
+    step.value = step.unguided_weight = Rgb(1);
+    step.unguided_pdf = 1;
+    GuidingQuery query;  // lives as long as its guidance
+    Guidance guidance;
+    const GuidingFrame* guiding = kernel_.guiding();
+    if (guiding != nullptr && guiding->guides_camera()) {
+      flight.found.splat = true;
+      guidance = kernel_.guidance_at_lens(path, query);
+      if (!guide_first_step(flight, lens, size, guidance, step)) return false;
+    }
+    const bool goes = kernel_.advance(path, step, guidance, flight.counterparts);
+    if (path.bounce == 1) note_features(flight);
+    return goes;
+  }
+
+  /// Collects light at the current vertex and takes the path to the next one. Returns false if it
+  /// ends.
+  bool proceed(InFlight& flight, std::uint16_t max_depth) const {
+    add_emission(flight);
+    if (!goes_on(flight.path, max_depth)) return false;
+    Visitor visitor{*this, flight};
+    return kernel_.extend(flight.path, visitor, flight.counterparts);
+  }
+
+  /// Takes a path that begin() has begun to the vertex of this number and calls
+  /// `visit(scattering, guidance)` there, if lights are sampled at it.
+  template <class Visit>
+  void visit_vertex(InFlight& flight, std::uint16_t bounce, Visit&& visit) const {
+    bool goes = begin(flight);
+    while (goes && goes_on(flight.path, settings_.max_depth)) {
+      VertexVisitor<Visit> visitor{*this, bounce, visit};
+      goes = kernel_.extend(flight.path, visitor, flight.counterparts);
+    }
+  }
+
+  /// Samples the light of a branch at the primary numbers `u`, from the current vertex.
+  void sample_light(InFlight& flight, const LocalScattering& scattering, const Guidance& guidance,
+                    std::uint16_t branch, Vec2 u) const {
+    const Path& path = flight.path;
+    const float u_choice = shared_.lights.needs_number()
+                               ? path.numbers().get_1d(Purpose::light_choice, branch)
+                               : 0;
+    const int index = shared_.lights.choose(branch, u_choice);
+    const Light& emitter = *scene_.lights()[static_cast<std::size_t>(index)];
+    LightSample light = emitter.sample(path.here().position(), u);
+    light.pdf = Rules::light_sample_pdf(light.pdf, shared_.lights.probability(index));
+    if (light.kind == VertexKind::environment) {
+      light.point.position = scene_.environment_point(path.here().position(), light.direction);
+    }
+    if (light.pdf > 0) add_light_sample(flight, scattering, guidance, emitter, index, light);
+  }
+
+ private:
+  /// What happens at a vertex on the way.
+  struct Visitor {
+    const CameraWalk& walk;
+    InFlight& flight;
+
+    bool meets(Path&, const LocalScattering&) const { return true; }
+    void leaves(Path& path, const LocalScattering& scattering, const Guidance& guidance) const {
+      if (!walk.samples_lights(scattering)) return;
+      for (std::uint16_t branch = 0; branch < walk.shared_.lights.branches(); ++branch) {
+        walk.sample_light(flight, scattering, guidance, branch,
+                          path.numbers().get_2d(Purpose::light_position, branch));
+      }
+    }
+    bool survives(Path& path, const LocalScattering& scattering, ScatterStep& step) const {
+      return walk.survives(path, scattering, step);
+    }
+  };
+
+  /// Stops at one vertex.
+  template <class Visit>
+  struct VertexVisitor {
+    const CameraWalk& walk;
+    std::uint16_t bounce;
+    Visit& visit;
+    bool is_there = false;
+
+    bool meets(Path& path, const LocalScattering&) {
+      is_there = path.bounce == bounce;
+      return true;
+    }
+    void leaves(Path&, const LocalScattering& scattering, const Guidance& guidance) const {
+      if (is_there && walk.samples_lights(scattering)) visit(scattering, guidance);
+    }
+    bool survives(Path& path, const LocalScattering& scattering, ScatterStep& step) const {
+      return !is_there && walk.survives(path, scattering, step);
+    }
+  };
+
+  /// Whether the path may have a segment beyond the current vertex.
+  static bool goes_on(const Path& path, std::uint16_t max_depth) {
+    return path.here().kind != VertexKind::environment && path.bounce < max_depth;
+  }
+  bool samples_lights(const LocalScattering& scattering) const {
+    return settings_.next_event_estimation && !scattering.purely_discrete();
+  }
+
+  // --- the first vertex ----------------------------------------------------------------------
+
+  void place(const LensPoint& lens, Path& path) const {
+    PathVertex& start = path.vertices[path.at];
+    start.surface.position = lens.position;
+    start.surface.normal = lens.normal;
+    start.surface.shading.n = lens.normal;
+    start.medium = scene_.sensor_medium();
+    path.towards_previous = lens.normal;
+  }
+
+  /// Camera guiding: the mixture of uniform film positions and the guides' directions. A path of
+  /// any pixel may land in any other pixel, so all contributions become splats.
+  bool guide_first_step(InFlight& flight, const LensPoint& lens, Vec2 size,
+                        const Guidance& guidance, ScatterStep& step) const {
+    const VertexStream stream = flight.path.numbers();
+    if (guidance.is_guided() && stream.get_1d(Purpose::mix_choice) >= guidance.unguided_share) {
+      const std::optional<Proposal> proposal = guidance.propose(stream);
+      if (!proposal) return false;
+      step.direction = proposal->direction;
+      step.reach = proposal->reach;
+      step.distance = proposal->distance;
+      step.targets = proposal->targets;
+      step.within = proposal->within;
+    }
+    const auto response = shared_.target.sensor.response(lens, step.direction);
+    if (!response) return false;
+    flight.found.film = {response->film.x * size.x, response->film.y * size.y};
+    kernel_.recorder().film(flight.found.film);
+    step.unguided_pdf = response->direction_pdf;
+    step.value = Rgb(response->direction_pdf);
+    return true;
+  }
+
+  /// Takes note of what the first vertex shows.
+  void note_features(InFlight& flight) const {
+    const PathVertex& here = flight.path.here();
+    if (here.kind != VertexKind::surface) return;
+    flight.found.features = {.albedo = scene_.bsdf(here.surface).albedo(here.surface),
+                             .normal = here.surface.shading.n,
+                             .depth = flight.path.segment_length};
+  }
+
+  // --- light ----------------------------------------------------------------------------------
+
+  void add_emission(InFlight& flight) const {
+    const Path& path = flight.path;
+    const PathVertex& here = path.here();
+    if (here.kind == VertexKind::surface) {
+      const Light* light = scene_.light_at(here.surface);
+      if (light == nullptr) return;
+      const Rgb radiance = light->radiance(here.surface, path.towards_previous);
+      if (is_black(radiance)) return;
+      add_light(flight, *light, scene_.light_index(here.surface), radiance, [&] {
+        const Point3 origin =
+            Rules::light_sample_origin(scene_, path.before().position(), here.surface);
+        return light->pdf_point(origin, here.surface);
+      });
+    } else if (here.kind == VertexKind::environment) {
+      for (const int index : scene_.environment_lights()) {
+        const Light& light = *scene_.lights()[static_cast<std::size_t>(index)];
+        add_light(flight, light, index, light.environment_radiance(-path.towards_previous),
+                  [&] { return light.pdf_direction(-path.towards_previous); });
+      }
+    }
+  }
+
+  /// Emission that the path ran into; `light_pdf()` is the density of a light sample of it, without
+  /// the choice of the light.
+  template <class LightPdf>
+  void add_light(InFlight& flight, const Light& light, int index, Rgb radiance,
+                 LightPdf&& light_pdf) const {
+    const Path& path = flight.path;
+    const bool alone = path.arrived_discretely || !settings_.next_event_estimation;
+    const float sampled = alone ? 0.0f : shared_.lights.probability(index) * light_pdf();
+    const float weight = alone ? 1.0f : Rules::emission_weight(settings_.mis, path, sampled);
+    float whole_weight = weight;
+    if constexpr (Counterparts::kExist) {
+      if (is_black(radiance)) return;
+      whole_weight = flight.counterparts.of_emission(light, index, path.here(), sampled);
+    }
+    flight.found.radiance += whole_weight * path.throughput * radiance;
+    kernel_.recorder().emission(radiance, {weight, whole_weight});
+  }
+
+  void add_light_sample(InFlight& flight, const LocalScattering& scattering,
+                        const Guidance& guidance, const Light& emitter, int index,
+                        const LightSample& light) const {
+    const Path& path = flight.path;
+    const PathVertex& here = path.here();
+    const ScatterValue scatter = scattering.evaluate(light.direction);
+    Rgb value = scatter.value * light.radiance / light.pdf;
+    if (is_black(value)) return;
+    Ray shadow{here.origin_towards(light.direction), light.direction, light.distance};
+    // Ends just before the light's surface, by as much as positions are uncertain there.
+    if (std::isfinite(light.distance)) {
+      shadow =
+          ray_between(shadow.origin, light.point.origin_towards(-light.direction), light.direction);
+    }
+    Passage passage;
+    if (!kernel_.tracer().pass(shadow, here.medium_towards(scene_, light.direction),
+                               path.throughput * scatter.value, passage)) {
+      return;
+    }
+    value *= passage.transmittance;
+    const ResolvedVertex resolved{.direction = light.direction,
+                                  .distance = light.distance,
+                                  .position = light.point.position,
+                                  .kind = light.kind,
+                                  .event = scattering.smooth_event(light.direction),
+                                  .medium_density = passage.medium_density};
+    // No step can hit a light without extent.
+    float weight = 1;
+    if (!light.discrete) {
+      weight = Rules::light_sample_weight(settings_.mis, light.pdf,
+                                          step_density(guidance, resolved, scatter.pdf),
+                                          passage.medium_density);
+    }
+    float whole_weight = weight;
+    if constexpr (Counterparts::kExist) {
+      whole_weight =
+          flight.counterparts.of_light_sample(emitter, index, light, scatter.pdf, guidance, here,
+                                              resolved.event, passage.transmittance);
+    }
+    flight.found.radiance += whole_weight * path.throughput * value;
+    kernel_.recorder().connect({.position = light.point.position,
+                                .kind = light.kind,
+                                .direction = light.direction,
+                                .event = resolved.event,
+                                .discrete = light.discrete},
+                               {weight, whole_weight}, value, path.throughput);
+  }
+
+  // --- Russian roulette -----------------------------------------------------------------------
+
+  bool survives(Path& path, const LocalScattering& scattering, ScatterStep& step) const {
+    if (settings_.roulette == Roulette::off) return true;
+    const bool refracts =
+        step.event == Event::smooth_transmit || step.event == Event::discrete_transmit;
+    if (refracts) note_refraction(path, scattering);
+    if (path.bounce < settings_.roulette_depth) return true;
+    const float value =
+        max_component(path.throughput) * path.solid_angle_scale / path.first_throughput;
+    const float survival = std::min(settings_.roulette_limit, value);
+    if (path.numbers().get_1d(Purpose::roulette) >= survival) return false;
+    step.continuation = Rules::survivor_weight(survival);
+    return true;
+  }
+
+  /// Refraction compresses radiance into smaller solid angles; roulette must not take this for a
+  /// loss of light.
+  static void note_refraction(Path& path, const LocalScattering& scattering) {
+    const float ratio = square(scattering.bsdf().relative_ior());
+    const bool enters = dot(path.towards_previous, path.here().surface.normal) > 0;
+    path.solid_angle_scale *= enters ? 1 / ratio : ratio;
+  }
+
+  const CameraScene& shared_;
+  const Scene& scene_;
+  const PathSettings& settings_;
+  RenderCounters& counters_;
+  TransportKernel<Recorder, Rules> kernel_;
+};
+
+}  // namespace pharos

@@ -1,0 +1,176 @@
+#pragma once
+
+#include <optional>
+
+#include <pharos/core/arena.h>
+#include <pharos/rendering/integrator.h>
+#include <pharos/transport/estimator_rules.h>
+#include <pharos/transport/recorder.h>
+
+namespace pharos {
+
+/// Memory for guides, one of each for a work unit.
+struct TransportArenas {
+  Arena vertex;  ///< what lives until the next vertex is known
+  Arena path;    ///< what guides remember along paths; reset when no path is in flight
+};
+
+/// The knowledge of a walk whose paths no other technique can make: they need no MIS weights.
+struct NoCounterparts {
+  static constexpr bool kExist = false;
+};
+
+/// Advances paths from vertex to vertex, from the sensor and from lights alike:
+///
+///     begin(path) -> advance(path, first step) -> extend(path, …) until it returns false
+///
+/// A step is traced first and weighted then, because the density of a guided step may depend on
+/// what it hits. All state of a path is in the Path, so that calls for different paths may
+/// alternate. `Recorder` is told of everything (recorder.h).
+template <class Recorder, class Rules = EstimatorRules>
+class TransportKernel {
+ public:
+  TransportKernel(const Scene& scene, const GuidingFrame* guiding, TransportArenas& arenas,
+                  RenderCounters& counters, Recorder& recorder)
+      : scene_(scene),
+        guiding_(guiding),
+        arenas_(arenas),
+        tracer_(scene, counters),
+        recorder_(recorder) {}
+
+  const Scene& scene() const { return scene_; }
+  const GuidingFrame* guiding() const { return guiding_; }
+  Recorder& recorder() const { return recorder_; }
+  const typename Rules::Tracer& tracer() const { return tracer_; }
+
+  /// Begins a path at `path.here()`, its first vertex.
+  void begin(Path& path) const {
+    if (!describes_vertices()) return;
+    path.current = path.here().described(guiding_ != nullptr ? path.here().roughness(scene_) : 1);
+    recorder_.arrive(path.current, path.throughput, path.branch);
+  }
+
+  /// Returns the guidance at the first vertex, on the lens. It lives until the path is advanced.
+  Guidance guidance_at_lens(Path& path, GuidingQuery& query) const {
+    query = {.current = path.current, .towards_previous = path.towards_previous, .bounce = 0};
+    return ask(path, query);
+  }
+
+  /// Continues a path from its current vertex to the next one. `visitor` does what the kind of path
+  /// does at a vertex:
+  ///
+  ///     bool meets(Path&, const LocalScattering&)   // before guides are asked; false: the path ends
+  ///     void leaves(Path&, const LocalScattering&, const Guidance&)   // e.g. samples lights
+  ///     bool survives(Path&, const LocalScattering&, ScatterStep&)    // Russian roulette
+  ///
+  /// Returns false if the path ends; its throughput no longer matters then.
+  template <class Visitor, class Counterparts>
+  bool extend(Path& path, Visitor& visitor, Counterparts& counterparts) const {
+    const LocalScattering scattering =
+        path.here().scattering(scene_, path.towards_previous, path.transport);
+    if (!visitor.meets(path, scattering)) return false;
+    std::optional<GuidingQuery> query;  // lives as long as its guidance
+    Guidance guidance;
+    if (describes_vertices()) {
+      path.current.roughness = scattering.roughness();
+      if (guiding_ != nullptr) {
+        query.emplace(
+            GuidingQuery{.previous = &path.previous,
+                         .current = path.current,
+                         .towards_previous = path.towards_previous,
+                         .transport = path.transport,
+                         .bounce = path.from_both_ends ? std::uint16_t{0} : path.bounce,
+                         .scattering = &scattering,
+                         .medium = path.here().medium});
+        guidance = ask(path, *query);
+      }
+      recorder_.leave(scattering, path.current.roughness, guidance);
+    }
+    visitor.leaves(path, scattering, guidance);
+    ScatterStep step;
+    return sample_step(scattering, guidance, path.numbers(), step) &&
+           visitor.survives(path, scattering, step) && advance(path, step, guidance, counterparts);
+  }
+
+  /// Traces a step to the next vertex and weights it. Returns false if nothing can come of the path.
+  template <class Counterparts>
+  bool advance(Path& path, const ScatterStep& step, const Guidance& guidance,
+               Counterparts& counterparts) const {
+    const PathVertex& from = path.here();
+    PathVertex& to = path.vertices[1 - path.at];
+    const Ray ray{from.origin_towards(step.direction), step.direction};
+    Segment segment;
+    const bool arrives =
+        tracer_.trace(ray, from.medium_towards(scene_, step.direction), step,
+                      path.throughput * step.value, path.numbers(), segment, to.surface);
+    if (!arrives || !step.accepts(segment.kind, to.position())) return false;
+    to.kind = segment.kind;
+    to.medium = segment.medium;
+    weight_step(path, step, guidance, segment, to);
+    const bool is_lost = path.transport == Transport::importance &&
+                         (is_black(path.throughput) || to.kind == VertexKind::environment);
+    if (is_lost) return false;
+    if constexpr (Counterparts::kExist) {
+      counterparts.advance(from, to, step, guidance, segment.length,
+                           segment.passage.transmittance);
+    }
+    move_on(path, step, segment.length);
+    return !is_black(path.throughput);
+  }
+
+ private:
+  /// Whether a guide or a recorder needs descriptions of vertices.
+  bool describes_vertices() const { return Recorder::kRecords || guiding_ != nullptr; }
+
+  Guidance ask(Path& path, GuidingQuery& query) const {
+    arenas_.vertex.reset();
+    // A guide that remembered its path would know which end it began at.
+    PathMemories* memories = path.from_both_ends ? nullptr : &path.memories;
+    return guiding_->query(query, arenas_.vertex, memories, &arenas_.path);
+  }
+
+  /// Multiplies the throughput by f/p of a step that led to `to`.
+  void weight_step(Path& path, const ScatterStep& step, const Guidance& guidance,
+                   const Segment& segment, const PathVertex& to) const {
+    const ResolvedVertex resolved{.direction = step.direction,
+                                  .distance = segment.length,
+                                  .position = to.position(),
+                                  .kind = to.kind,
+                                  .event = step.event,
+                                  .medium_density = segment.passage.medium_density};
+    const Rgb transmittance = segment.passage.transmittance;
+    path.arrival = step_density(guidance, resolved, step.unguided_pdf);
+    path.medium_density = resolved.medium_density;
+    const bool plain = !guidance.is_guided() && !scene_.has_media();
+    Rgb weight = plain                    ? step.unguided_weight
+                 : path.arrival.total > 0 ? step.value * transmittance / path.arrival.total
+                                          : Rgb();
+    weight *= step.continuation;
+    path.arrived_discretely = path.bounce == 0 || is_discrete(step.event);
+    path.throughput *= weight;
+    recorder_.step(step, path.arrival, guidance, weight, resolved, transmittance);
+  }
+
+  /// Makes the vertex that a step led to the current one.
+  void move_on(Path& path, const ScatterStep& step, float length) const {
+    if (describes_vertices()) {
+      path.previous = path.current;
+      if (!path.from_both_ends) path.previous.event = step.event;
+    }
+    path.towards_previous = -step.direction;
+    path.segment_length = length;
+    path.at = 1 - path.at;
+    if (++path.bounce == 1) path.first_throughput = max_component(path.throughput);
+    if (!describes_vertices()) return;
+    path.current = path.here().described();
+    recorder_.arrive(path.current, path.throughput, path.branch);
+  }
+
+  const Scene& scene_;
+  const GuidingFrame* guiding_;
+  TransportArenas& arenas_;
+  typename Rules::Tracer tracer_;
+  Recorder& recorder_;
+};
+
+}  // namespace pharos

@@ -1,0 +1,117 @@
+#pragma once
+
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include <pharos/config/values.h>
+#include <pharos/transport/estimator_rules.h>
+
+namespace pharos {
+
+/// Faults that tests plant into the integrators, to see which tests notice.
+enum class PlantedFault {
+  none,
+  mis_without_guide,            ///< emission is weighted with the unguided density alone
+  zero_samples_dropped,         ///< paths of value zero do not count in the average
+  light_choice_forgotten,       ///< next event estimation omits the probability of its light
+  roulette_unweighted,          ///< survivors of roulette do not stand for the others
+  distance_density_forgotten,   ///< steps in media omit the density of their distance
+  boundaries_cast_shadows,      ///< neither light samples nor views get through boundaries of media
+  boundaries_count_as_origins,  ///< steps that meet light count as if they began at the last
+                                ///< boundary, and all of them as in empty space
+  camera_cosine_forgotten,      ///< shining surfaces seen from the lens are not foreshortened
+  reverse_density_forgotten,    ///< paths from the lens count as if light paths could not make them
+};
+template <>
+struct EnumNames<PlantedFault> {
+  static constexpr std::array<std::pair<std::string_view, PlantedFault>, 10> names{
+      {{"none", PlantedFault::none},
+       {"mis_without_guide", PlantedFault::mis_without_guide},
+       {"zero_samples_dropped", PlantedFault::zero_samples_dropped},
+       {"light_choice_forgotten", PlantedFault::light_choice_forgotten},
+       {"roulette_unweighted", PlantedFault::roulette_unweighted},
+       {"distance_density_forgotten", PlantedFault::distance_density_forgotten},
+       {"boundaries_cast_shadows", PlantedFault::boundaries_cast_shadows},
+       {"boundaries_count_as_origins", PlantedFault::boundaries_count_as_origins},
+       {"camera_cosine_forgotten", PlantedFault::camera_cosine_forgotten},
+       {"reverse_density_forgotten", PlantedFault::reverse_density_forgotten}}};
+};
+
+/// The fault in force, set before a render.
+inline PlantedFault planted_fault = PlantedFault::none;
+inline bool planted(PlantedFault fault) {
+  return planted_fault == fault;
+}
+
+/// Where the boundary lies that a step from `from` to `to` passes last; `from` if there is none.
+inline Point3 last_boundary(const Scene& scene, Point3 from, const SurfacePoint& to) {
+  Point3 last = from;
+  for (;;) {
+    const Vec3 direction = normalize(to.position - last);
+    const Ray ray{last + 1e-3f * direction, direction};
+    SurfacePoint at;
+    if (std::isinf(scene.intersect(ray, at)) || !scene.is_boundary(at)) return last;
+    last = at.position;
+  }
+}
+
+/// Traces segments with the planted fault.
+class FaultyTracer {
+ public:
+  FaultyTracer(const Scene& scene, RenderCounters& counters)
+      : scene_(scene), right_(scene, counters) {}
+
+  bool trace(const Ray& ray, const Medium* medium, const ScatterStep& step, Rgb throughput,
+             const VertexStream& numbers, Segment& segment, SurfacePoint& end) const {
+    const bool arrives = right_.trace(ray, medium, step, throughput, numbers, segment, end);
+    if (planted(PlantedFault::distance_density_forgotten)) segment.passage.medium_density = 1;
+    return arrives;
+  }
+  bool pass(const Ray& ray, const Medium* medium, Rgb throughput, Passage& passage) const {
+    if (planted(PlantedFault::boundaries_cast_shadows) && scene_.occluded(ray)) return false;
+    return right_.pass(ray, medium, throughput, passage);
+  }
+
+ private:
+  const Scene& scene_;
+  SegmentTracer right_;
+};
+
+/// The formulas of the estimators, of which the planted fault replaces one.
+struct FaultyRules : EstimatorRules {
+  using Tracer = FaultyTracer;
+
+  static bool keeps(Rgb value) {
+    return !(planted(PlantedFault::zero_samples_dropped) && is_black(value));
+  }
+  static float light_sample_pdf(float pdf, float probability) {
+    return planted(PlantedFault::light_choice_forgotten) ? pdf : pdf * probability;
+  }
+  static float light_sample_weight(MisHeuristic heuristic, float light_pdf, StepDensity step,
+                                   float medium_density) {
+    if (planted(PlantedFault::boundaries_count_as_origins)) step.total /= medium_density;
+    return EstimatorRules::light_sample_weight(heuristic, light_pdf, step, medium_density);
+  }
+  static float emission_weight(MisHeuristic heuristic, const Path& path, float light_pdf) {
+    float own = path.arrival.total;
+    if (planted(PlantedFault::mis_without_guide)) own = path.arrival.unguided;
+    if (planted(PlantedFault::boundaries_count_as_origins)) own /= path.medium_density;
+    return pharos::emission_weight(heuristic, own, light_pdf);
+  }
+  static Point3 light_sample_origin(const Scene& scene, Point3 from, const SurfacePoint& to) {
+    return planted(PlantedFault::boundaries_count_as_origins) ? last_boundary(scene, from, to)
+                                                              : from;
+  }
+  static float survivor_weight(float survival) {
+    return planted(PlantedFault::roulette_unweighted) ? 1 : 1 / survival;
+  }
+  static float foreshortening(float cosine) {
+    return planted(PlantedFault::camera_cosine_forgotten) ? 1 : cosine;
+  }
+  static double reverse_density(double density) {
+    return planted(PlantedFault::reverse_density_forgotten) ? 0 : density;
+  }
+};
+
+}  // namespace pharos
