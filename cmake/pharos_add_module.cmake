@@ -1,5 +1,8 @@
-# pharos_add_module(NAME SOURCES file... [TESTS file...] [LIBRARIES target...] [TEST_ONLY]
+# pharos_add_module(NAME [SOURCES file...] [TESTS file...] [LIBRARIES target...] [TEST_ONLY]
 #                   [NO_CONFORMANCE])
+#
+# Without SOURCES, the module consists of all .cpp files of the folder and its subfolders, and the
+# files in tests/ are its suite.
 #
 # Builds two targets. The shared library NAME.pharos.so is found by the loader in the plugin folder
 # (build/plugins in the build tree) or elsewhere through PHAROS_MODULE_PATH. The doctest suite
@@ -18,7 +21,10 @@ include_guard(GLOBAL)
 function(pharos_add_module name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "TEST_ONLY;NO_CONFORMANCE" "" "SOURCES;TESTS;LIBRARIES")
   if(NOT arg_SOURCES)
-    message(FATAL_ERROR "pharos_add_module(${name}): SOURCES is missing")
+    file(GLOB_RECURSE arg_SOURCES CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+    set(arg_TESTS ${arg_SOURCES})
+    list(FILTER arg_SOURCES EXCLUDE REGEX "/tests/")
+    list(FILTER arg_TESTS INCLUDE REGEX "/tests/[^/]*$")
   endif()
   if(arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "pharos_add_module(${name}): unknown '${arg_UNPARSED_ARGUMENTS}'")

@@ -11,14 +11,14 @@ namespace pharos {
 
 template <>
 struct EnumNames<focal::SplatExtent> {
-  static constexpr std::array<std::pair<std::string_view, focal::SplatExtent>, 2> names{
-      {{"line", focal::SplatExtent::line},
-       {"roughness_gated", focal::SplatExtent::roughness_gated}}};
+  static constexpr auto names =
+      std::to_array<EnumName<focal::SplatExtent>>({{"line", focal::SplatExtent::line},
+       {"roughness_gated", focal::SplatExtent::roughness_gated}});
 };
 template <>
 struct EnumNames<focal::SplatWeight> {
-  static constexpr std::array<std::pair<std::string_view, focal::SplatWeight>, 2> names{
-      {{"length", focal::SplatWeight::length}, {"share", focal::SplatWeight::share}}};
+  static constexpr auto names =
+      std::to_array<EnumName<focal::SplatWeight>>({{"length", focal::SplatWeight::length}, {"share", focal::SplatWeight::share}});
 };
 
 namespace focal {

@@ -48,10 +48,10 @@ class OpenPglLearner final : public Learner {
 
 template <>
 struct EnumNames<open_pgl::Directions> {
-  static constexpr std::array<std::pair<std::string_view, open_pgl::Directions>, 3> names{
-      {{"parallax_vmm", open_pgl::Directions::parallax_vmm},
+  static constexpr auto names =
+      std::to_array<EnumName<open_pgl::Directions>>({{"parallax_vmm", open_pgl::Directions::parallax_vmm},
        {"vmm", open_pgl::Directions::vmm},
-       {"quadtree", open_pgl::Directions::quadtree}}};
+       {"quadtree", open_pgl::Directions::quadtree}});
 };
 
 }  // namespace pharos

@@ -47,11 +47,10 @@ class ParallaxAwareMixturesGuider final : public GuiderOf<ParallaxAwareMixturesM
 
 template <>
 struct EnumNames<parallax_aware_mixtures::ProductFactor> {
-  static constexpr std::array<std::pair<std::string_view, parallax_aware_mixtures::ProductFactor>,
-                              3>
-      names{{{"none", parallax_aware_mixtures::ProductFactor::none},
+  static constexpr auto names =
+      std::to_array<EnumName<parallax_aware_mixtures::ProductFactor>>({{"none", parallax_aware_mixtures::ProductFactor::none},
              {"cosine", parallax_aware_mixtures::ProductFactor::cosine},
-             {"bsdf", parallax_aware_mixtures::ProductFactor::bsdf}}};
+             {"bsdf", parallax_aware_mixtures::ProductFactor::bsdf}});
 };
 
 }  // namespace pharos

@@ -8,6 +8,8 @@ PHAROS_MODULE(registry) {
   registry.add<ParallaxAwareMixturesLearner>(
       "parallax_aware_mixtures",
       "Mixtures of von Mises-Fisher lobes that store the distances of their lights");
+  registry.renamed<pharos::Learner>("vmf_mixtures", "parallax_aware_mixtures");
+  registry.renamed<pharos::Guider>("vmf_mixtures", "parallax_aware_mixtures");
   registry.add<ParallaxAwareMixturesGuider>(
       "parallax_aware_mixtures",
       "Directions sampled from von Mises-Fisher lobes, with parallax and products");

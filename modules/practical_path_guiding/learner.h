@@ -55,16 +55,15 @@ class PracticalPathGuidingLearner final : public Learner {
 
 template <>
 struct EnumNames<practical_path_guiding::SpatialFilter> {
-  static constexpr std::array<std::pair<std::string_view, practical_path_guiding::SpatialFilter>, 2>
-      names{{{"nearest", practical_path_guiding::SpatialFilter::nearest},
-             {"stochastic", practical_path_guiding::SpatialFilter::stochastic}}};
+  static constexpr auto names =
+      std::to_array<EnumName<practical_path_guiding::SpatialFilter>>({{"nearest", practical_path_guiding::SpatialFilter::nearest},
+             {"stochastic", practical_path_guiding::SpatialFilter::stochastic}});
 };
 template <>
 struct EnumNames<practical_path_guiding::DirectionalFilter> {
-  static constexpr std::array<
-      std::pair<std::string_view, practical_path_guiding::DirectionalFilter>, 2>
-      names{{{"nearest", practical_path_guiding::DirectionalFilter::nearest},
-             {"box", practical_path_guiding::DirectionalFilter::box}}};
+  static constexpr auto names =
+      std::to_array<EnumName<practical_path_guiding::DirectionalFilter>>({{"nearest", practical_path_guiding::DirectionalFilter::nearest},
+             {"box", practical_path_guiding::DirectionalFilter::box}});
 };
 
 }  // namespace pharos

@@ -8,6 +8,8 @@ PHAROS_MODULE(registry) {
   registry.add<PracticalPathGuidingLearner>(
       "practical_path_guiding",
       "SD-tree: a binary tree over the scene with directional quadtrees of incident radiance");
+  registry.renamed<pharos::Learner>("sd_tree", "practical_path_guiding");
+  registry.renamed<pharos::Guider>("sd_tree", "practical_path_guiding");
   registry.add<PracticalPathGuidingGuider>("practical_path_guiding",
                                            "Directions sampled from the quadtrees of an SD-tree");
 }

@@ -40,10 +40,10 @@ void extract_records(const PathView& path, GuidingTarget target, const PixelEsti
 
 template <>
 struct EnumNames<practical_path_guiding::GuidingTarget> {
-  static constexpr std::array<std::pair<std::string_view, practical_path_guiding::GuidingTarget>, 3>
-      names{{{"radiance", practical_path_guiding::GuidingTarget::radiance},
+  static constexpr auto names =
+      std::to_array<EnumName<practical_path_guiding::GuidingTarget>>({{"radiance", practical_path_guiding::GuidingTarget::radiance},
              {"product", practical_path_guiding::GuidingTarget::product},
-             {"relative", practical_path_guiding::GuidingTarget::relative}}};
+             {"relative", practical_path_guiding::GuidingTarget::relative}});
 };
 
 }  // namespace pharos

@@ -48,7 +48,7 @@ class VertexTripletsLearner final : public Learner {
 namespace pharos {
 template <>
 struct EnumNames<vertex_triplets::Prefix> {
-  static constexpr std::array<std::pair<std::string_view, vertex_triplets::Prefix>, 2> names{
-      {{"pairs", vertex_triplets::Prefix::pair}, {"triplets", vertex_triplets::Prefix::triplet}}};
+  static constexpr auto names =
+      std::to_array<EnumName<vertex_triplets::Prefix>>({{"pairs", vertex_triplets::Prefix::pair}, {"triplets", vertex_triplets::Prefix::triplet}});
 };
 }  // namespace pharos

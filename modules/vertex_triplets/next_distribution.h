@@ -81,9 +81,9 @@ class NextDistribution final : public GuidingDistribution {
 namespace pharos {
 template <>
 struct EnumNames<vertex_triplets::SurfaceTechnique> {
-  static constexpr std::array<std::pair<std::string_view, vertex_triplets::SurfaceTechnique>, 3>
-      names{{{"projected", vertex_triplets::SurfaceTechnique::projected},
+  static constexpr auto names =
+      std::to_array<EnumName<vertex_triplets::SurfaceTechnique>>({{"projected", vertex_triplets::SurfaceTechnique::projected},
              {"p0", vertex_triplets::SurfaceTechnique::p0},
-             {"p1", vertex_triplets::SurfaceTechnique::p1}}};
+             {"p1", vertex_triplets::SurfaceTechnique::p1}});
 };
 }  // namespace pharos

@@ -14,8 +14,8 @@ namespace pharos {
 enum class Metal { Ag, Al, Au, Cr, Cu, Fe, Ni, Ti, ideal };
 template <>
 struct EnumNames<Metal> {
-  static constexpr std::array<std::pair<std::string_view, Metal>, 9> names{
-      {{"Ag", Metal::Ag},
+  static constexpr auto names =
+      std::to_array<EnumName<Metal>>({{"Ag", Metal::Ag},
        {"Al", Metal::Al},
        {"Au", Metal::Au},
        {"Cr", Metal::Cr},
@@ -23,7 +23,7 @@ struct EnumNames<Metal> {
        {"Fe", Metal::Fe},
        {"Ni", Metal::Ni},
        {"Ti", Metal::Ti},
-       {"ideal", Metal::ideal}}};
+       {"ideal", Metal::ideal}});
 };
 
 /// A complex index of refraction eta - i k relative to vacuum, in linear Rec.709 channels.

@@ -14,10 +14,10 @@ namespace pharos {
 enum class WardVariant { ward, ward_duer, balanced };
 template <>
 struct EnumNames<WardVariant> {
-  static constexpr std::array<std::pair<std::string_view, WardVariant>, 3> names{
-      {{"ward", WardVariant::ward},
+  static constexpr auto names =
+      std::to_array<EnumName<WardVariant>>({{"ward", WardVariant::ward},
        {"ward_duer", WardVariant::ward_duer},
-       {"balanced", WardVariant::balanced}}};
+       {"balanced", WardVariant::balanced}});
 };
 
 /// See ward.cpp.

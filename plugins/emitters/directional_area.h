@@ -14,9 +14,9 @@ enum class EmissionLobe { cosine_power, von_mises_fisher };
 
 template <>
 struct EnumNames<EmissionLobe> {
-  static constexpr std::array<std::pair<std::string_view, EmissionLobe>, 2> names{
-      {{"cosine_power", EmissionLobe::cosine_power},
-       {"von_mises_fisher", EmissionLobe::von_mises_fisher}}};
+  static constexpr auto names =
+      std::to_array<EnumName<EmissionLobe>>({{"cosine_power", EmissionLobe::cosine_power},
+       {"von_mises_fisher", EmissionLobe::von_mises_fisher}});
 };
 
 /// See directional_area.cpp.

@@ -15,8 +15,8 @@ enum class SpotFalloff {
 
 template <>
 struct EnumNames<SpotFalloff> {
-  static constexpr std::array<std::pair<std::string_view, SpotFalloff>, 2> names{
-      {{"linear", SpotFalloff::linear}, {"smooth", SpotFalloff::smooth}}};
+  static constexpr auto names =
+      std::to_array<EnumName<SpotFalloff>>({{"linear", SpotFalloff::linear}, {"smooth", SpotFalloff::smooth}});
 };
 
 /// See spot.cpp.

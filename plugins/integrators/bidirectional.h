@@ -14,8 +14,8 @@ namespace pharos {
 enum class LightPaths { always, training };
 template <>
 struct EnumNames<LightPaths> {
-  static constexpr std::array<std::pair<std::string_view, LightPaths>, 2> names{
-      {{"always", LightPaths::always}, {"training", LightPaths::training}}};
+  static constexpr auto names =
+      std::to_array<EnumName<LightPaths>>({{"always", LightPaths::always}, {"training", LightPaths::training}});
 };
 
 /// The plugin `bidirectional`; see bidirectional.cpp.

@@ -13,8 +13,8 @@ namespace pharos {
 
 template <>
 struct EnumNames<MixingObjective> {
-  static constexpr std::array<std::pair<std::string_view, MixingObjective>, 2> names{
-      {{"kl", MixingObjective::kl}, {"variance", MixingObjective::variance}}};
+  static constexpr auto names =
+      std::to_array<EnumName<MixingObjective>>({{"kl", MixingObjective::kl}, {"variance", MixingObjective::variance}});
 };
 
 /// See learned.cpp.

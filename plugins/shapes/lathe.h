@@ -12,9 +12,9 @@ namespace pharos {
 enum class ProfileInterpolation { linear, catmull_rom };
 template <>
 struct EnumNames<ProfileInterpolation> {
-  static constexpr std::array<std::pair<std::string_view, ProfileInterpolation>, 2> names{
-      {{"linear", ProfileInterpolation::linear},
-       {"catmull_rom", ProfileInterpolation::catmull_rom}}};
+  static constexpr auto names =
+      std::to_array<EnumName<ProfileInterpolation>>({{"linear", ProfileInterpolation::linear},
+       {"catmull_rom", ProfileInterpolation::catmull_rom}});
 };
 
 /// See lathe.cpp.

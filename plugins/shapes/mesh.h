@@ -14,10 +14,10 @@ namespace pharos {
 enum class MeshNormals { file_or_flat, file_or_smooth, flat };
 template <>
 struct EnumNames<MeshNormals> {
-  static constexpr std::array<std::pair<std::string_view, MeshNormals>, 3> names{
-      {{"file_or_flat", MeshNormals::file_or_flat},
+  static constexpr auto names =
+      std::to_array<EnumName<MeshNormals>>({{"file_or_flat", MeshNormals::file_or_flat},
        {"file_or_smooth", MeshNormals::file_or_smooth},
-       {"flat", MeshNormals::flat}}};
+       {"flat", MeshNormals::flat}});
 };
 
 /// See mesh.cpp.

@@ -11,24 +11,24 @@ namespace pharos {
 enum class BitmapFilter { bilinear, nearest };
 template <>
 struct EnumNames<BitmapFilter> {
-  static constexpr std::array<std::pair<std::string_view, BitmapFilter>, 2> names{
-      {{"bilinear", BitmapFilter::bilinear}, {"nearest", BitmapFilter::nearest}}};
+  static constexpr auto names =
+      std::to_array<EnumName<BitmapFilter>>({{"bilinear", BitmapFilter::bilinear}, {"nearest", BitmapFilter::nearest}});
 };
 
 /// How the image continues outside the unit square of texture coordinates.
 enum class BitmapWrap { repeat, clamp, mirror };
 template <>
 struct EnumNames<BitmapWrap> {
-  static constexpr std::array<std::pair<std::string_view, BitmapWrap>, 3> names{
-      {{"repeat", BitmapWrap::repeat},
+  static constexpr auto names =
+      std::to_array<EnumName<BitmapWrap>>({{"repeat", BitmapWrap::repeat},
        {"clamp", BitmapWrap::clamp},
-       {"mirror", BitmapWrap::mirror}}};
+       {"mirror", BitmapWrap::mirror}});
 };
 
 template <>
 struct EnumNames<ColorSpace> {
-  static constexpr std::array<std::pair<std::string_view, ColorSpace>, 2> names{
-      {{"srgb", ColorSpace::srgb}, {"linear", ColorSpace::linear}}};
+  static constexpr auto names =
+      std::to_array<EnumName<ColorSpace>>({{"srgb", ColorSpace::srgb}, {"linear", ColorSpace::linear}});
 };
 
 class Bitmap final : public Texture {

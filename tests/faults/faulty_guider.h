@@ -41,10 +41,10 @@ class FoldingGuider final : public Guider {
 namespace pharos {
 template <>
 struct EnumNames<testing::GuideFault> {
-  static constexpr std::array<std::pair<std::string_view, testing::GuideFault>, 4> names{
-      {{"none", testing::GuideFault::none},
+  static constexpr auto names =
+      std::to_array<EnumName<testing::GuideFault>>({{"none", testing::GuideFault::none},
        {"scaled", testing::GuideFault::scaled},
        {"mirrored_branch_missing", testing::GuideFault::mirrored_branch_missing},
-       {"proposal_not_folded", testing::GuideFault::proposal_not_folded}}};
+       {"proposal_not_folded", testing::GuideFault::proposal_not_folded}});
 };
 }  // namespace pharos

@@ -25,8 +25,8 @@ enum class PlantedFault {
 };
 template <>
 struct EnumNames<PlantedFault> {
-  static constexpr std::array<std::pair<std::string_view, PlantedFault>, 10> names{
-      {{"none", PlantedFault::none},
+  static constexpr auto names =
+      std::to_array<EnumName<PlantedFault>>({{"none", PlantedFault::none},
        {"mis_without_guide", PlantedFault::mis_without_guide},
        {"zero_samples_dropped", PlantedFault::zero_samples_dropped},
        {"light_choice_forgotten", PlantedFault::light_choice_forgotten},
@@ -35,7 +35,7 @@ struct EnumNames<PlantedFault> {
        {"boundaries_cast_shadows", PlantedFault::boundaries_cast_shadows},
        {"boundaries_count_as_origins", PlantedFault::boundaries_count_as_origins},
        {"camera_cosine_forgotten", PlantedFault::camera_cosine_forgotten},
-       {"reverse_density_forgotten", PlantedFault::reverse_density_forgotten}}};
+       {"reverse_density_forgotten", PlantedFault::reverse_density_forgotten}});
 };
 
 /// The fault in force, set before a render.

@@ -1,5 +1,6 @@
-# Installs the build tree in BUILD to a fresh prefix under WORK, builds SOURCE against it, runs its
-# suite and that of its plugin's contract, and renders with it from the installed program.
+# Installs the build tree in BUILD to a fresh prefix under WORK, builds the module in SOURCE against
+# it, runs its suites, and renders SOURCE/example.yaml with the installed program. Then runs
+# SOURCE/check.cmake, if there is one.
 file(REMOVE_RECURSE ${WORK})
 file(MAKE_DIRECTORY ${WORK}/render)
 
@@ -17,24 +18,27 @@ step(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/build -G Ninja
      -D CMAKE_BUILD_TYPE=${BUILD_TYPE})
 step(${CMAKE_COMMAND} --build ${WORK}/build)
 step(ctest --test-dir ${WORK}/build --verbose)
-if(NOT output MATCHES "ok +texture +stripes +5 checks")
+if(NOT output MATCHES "ok +[a-z]+ +${MODULE} +5 checks")
   message(FATAL_ERROR "the contract's suite did not test the module:\n${output}")
 endif()
 
 set(pharos ${CMAKE_COMMAND} -E env PHAROS_MODULE_PATH=${WORK}/build/plugins
     ${WORK}/prefix/bin/pharos)
-step(${pharos} plugins stripes)
-if(NOT output MATCHES "texture 'stripes' \\(module stripes\\)")
+step(${pharos} plugins ${MODULE})
+if(NOT output MATCHES "[a-z]+ '${MODULE}' \\(module ${MODULE}\\)")
   message(FATAL_ERROR "the module is not listed:\n${output}")
 endif()
-step(${pharos} render ${SOURCE}/striped.yaml -o ${WORK}/render/striped.exr)
-if(NOT EXISTS ${WORK}/render/striped.exr)
+step(${pharos} render ${SOURCE}/example.yaml -o ${WORK}/render/example.exr)
+if(NOT EXISTS ${WORK}/render/example.exr)
   message(FATAL_ERROR "nothing was rendered")
+endif()
+if(EXISTS ${SOURCE}/check.cmake)
+  include(${SOURCE}/check.cmake)
 endif()
 
 # Without the module the same config must be refused, naming the plugin.
-execute_process(COMMAND ${WORK}/prefix/bin/pharos render ${SOURCE}/striped.yaml
+execute_process(COMMAND ${WORK}/prefix/bin/pharos render ${SOURCE}/example.yaml
                 WORKING_DIRECTORY ${WORK}/render RESULT_VARIABLE code ERROR_VARIABLE out)
-if(NOT code EQUAL 2 OR NOT out MATCHES "stripes")
-  message(FATAL_ERROR "expected a refusal that names 'stripes', got ${code}:\n${out}")
+if(NOT code EQUAL 2 OR NOT out MATCHES "${MODULE}")
+  message(FATAL_ERROR "expected a refusal that names '${MODULE}', got ${code}:\n${out}")
 endif()

@@ -54,6 +54,11 @@ const PluginInfo& Registry::require(const std::string& contract, const ConfigNod
   const std::vector<std::string> plugins = names(contract);
   if (!name.is_scalar()) fail_type(name, fmt::format("the name of a {}", contract));
   if (const PluginInfo* info = find(contract, name.text())) return *info;
+  if (const auto names = renamed_.find(contract); names != renamed_.end()) {
+    if (const auto now = names->second.find(name.text()); now != names->second.end()) {
+      name.fail(fmt::format("the {} '{}' is called '{}' now", contract, now->first, now->second));
+    }
+  }
   const std::vector<std::string> entries = named_components(context, contract);
   std::vector<std::string> all = plugins;
   all.insert(all.end(), entries.begin(), entries.end());

@@ -49,6 +49,13 @@ class Registry {
     defaults_[std::string(C::contract_name)] = std::move(name);
   }
 
+  /// States the name that a plugin of contract C had before. A config that uses it is refused with
+  /// a message that gives the new name.
+  template <class C>
+  void renamed(std::string old_name, std::string new_name) {
+    renamed_[std::string(C::contract_name)][std::move(old_name)] = std::move(new_name);
+  }
+
   /// Builds the component of contract C that `node` describes. The node is a mapping with `type`,
   /// the name of a plugin without further settings, `default`, the name of an entry of the scene's
   /// dictionaries, or the shorthand of the contract. An entry of the dictionaries takes precedence
@@ -94,6 +101,7 @@ class Registry {
   std::map<std::string, std::map<std::string, PluginInfo, std::less<>>, std::less<>> plugins_;
   std::map<std::string, Shorthand, std::less<>> shorthands_;
   std::map<std::string, std::string, std::less<>> defaults_;
+  std::map<std::string, std::map<std::string, std::string>> renamed_;  ///< by contract, old to new
   std::vector<std::string> searched_;
   std::string current_module_ = "program";
 };

@@ -33,8 +33,17 @@ class Schema;
 template <class T>
 using Check = std::function<bool(const T&)>;
 
-/// The names of the values of an enum. Each enum needs a specialization with
-/// `static constexpr std::array<std::pair<std::string_view, E>, n> names`.
+/// A value of an enum with its name in configs.
+template <class E>
+using EnumName = std::pair<std::string_view, E>;
+
+/// The names of the values of an enum. Each enum that is a setting needs a specialization:
+///
+///     template <>
+///     struct EnumNames<Color> {
+///       static constexpr auto names =
+///           std::to_array<EnumName<Color>>({{"red", Color::red}, {"blue", Color::blue}});
+///     };
 template <class E>
 struct EnumNames;
 

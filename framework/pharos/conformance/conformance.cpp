@@ -85,6 +85,9 @@ std::function<void(Suite&)> suite_of(const Subject& s) {
   if (contract == Shape::contract_name) {
     return [c = as.operator()<Shape>()](Suite& suite) { check_shape(c, suite); };
   }
+  if (contract == Integrator::contract_name) {
+    return [c = as.operator()<Integrator>()](Suite& suite) { check_integrator(*c, suite); };
+  }
   return {};
 }
 

@@ -9,6 +9,7 @@
 #include <pharos/guiding/contract/guider.h>
 #include <pharos/guiding/contract/learner.h>
 #include <pharos/rendering/filter.h>
+#include <pharos/rendering/integrator.h>
 #include <pharos/sampling/sampler.h>
 #include <pharos/scene/bsdf.h>
 #include <pharos/scene/emitter.h>
@@ -30,6 +31,7 @@ void check_sampler(const Sampler& sampler, Suite& suite);
 void check_phase_function(const PhaseFunction& phase, Suite& suite);
 void check_medium(const Medium& medium, Suite& suite);
 void check_shape(const Ref<Shape>& shape, Suite& suite);
+void check_integrator(const Integrator& integrator, Suite& suite);
 /// Tests a guider with the model that `learner` learns in small renders.
 void check_guider(const Registry& registry, const Subject& guider, const Subject& learner,
                   Suite& suite);

@@ -13,12 +13,12 @@ namespace pharos {
 /// square.
 template <>
 struct EnumNames<Purpose> {
-  static constexpr std::array<std::pair<std::string_view, Purpose>, 5> names{
-      {{"pixel", Purpose::pixel},
+  static constexpr auto names =
+      std::to_array<EnumName<Purpose>>({{"pixel", Purpose::pixel},
        {"lens", Purpose::lens},
        {"light_position", Purpose::light_position},
        {"bsdf_direction", Purpose::bsdf_direction},
-       {"guide_direction", Purpose::guide_direction}}};
+       {"guide_direction", Purpose::guide_direction}});
 };
 
 }  // namespace pharos

@@ -27,8 +27,8 @@ enum class Mode { plain, odd };
 
 template <>
 struct EnumNames<Mode> {
-  static constexpr std::array<std::pair<std::string_view, Mode>, 2> names{
-      {{"plain", Mode::plain}, {"odd", Mode::odd}}};
+  static constexpr auto names =
+      std::to_array<EnumName<Mode>>({{"plain", Mode::plain}, {"odd", Mode::odd}});
 };
 
 namespace {

@@ -54,8 +54,8 @@ struct Settings {
 namespace pharos {
 template <>
 struct EnumNames<Mode> {
-  static constexpr std::array<std::pair<std::string_view, Mode>, 2> names{
-      {{"one", Mode::one}, {"all", Mode::all}}};
+  static constexpr auto names =
+      std::to_array<EnumName<Mode>>({{"one", Mode::one}, {"all", Mode::all}});
 };
 }  // namespace pharos
 

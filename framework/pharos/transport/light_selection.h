@@ -19,8 +19,8 @@ enum class LightSelection {
 
 template <>
 struct EnumNames<LightSelection> {
-  static constexpr std::array<std::pair<std::string_view, LightSelection>, 2> names{
-      {{"one", LightSelection::one}, {"all", LightSelection::all}}};
+  static constexpr auto names =
+      std::to_array<EnumName<LightSelection>>({{"one", LightSelection::one}, {"all", LightSelection::all}});
 };
 
 /// The lights of a scene under a selection policy. Constant and thread-safe.

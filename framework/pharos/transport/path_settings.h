@@ -19,15 +19,15 @@ enum class Roulette { off, throughput };
 
 template <>
 struct EnumNames<MisHeuristic> {
-  static constexpr std::array<std::pair<std::string_view, MisHeuristic>, 3> names{
-      {{"balance", MisHeuristic::balance},
+  static constexpr auto names =
+      std::to_array<EnumName<MisHeuristic>>({{"balance", MisHeuristic::balance},
        {"power", MisHeuristic::power},
-       {"light_samples", MisHeuristic::light_samples}}};
+       {"light_samples", MisHeuristic::light_samples}});
 };
 template <>
 struct EnumNames<Roulette> {
-  static constexpr std::array<std::pair<std::string_view, Roulette>, 2> names{
-      {{"off", Roulette::off}, {"throughput", Roulette::throughput}}};
+  static constexpr auto names =
+      std::to_array<EnumName<Roulette>>({{"off", Roulette::off}, {"throughput", Roulette::throughput}});
 };
 
 /// How paths from the sensor are traced.

@@ -52,8 +52,8 @@ enum class KeptImages { first, all };
 
 template <>
 struct EnumNames<KeptImages> {
-  static constexpr std::array<std::pair<std::string_view, KeptImages>, 2> names{
-      {{"first", KeptImages::first}, {"all", KeptImages::all}}};
+  static constexpr auto names =
+      std::to_array<EnumName<KeptImages>>({{"first", KeptImages::first}, {"all", KeptImages::all}});
 };
 
 struct ExperimentConfig {

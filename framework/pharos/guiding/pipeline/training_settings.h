@@ -14,13 +14,13 @@ enum class TrainingImages { discard, combine };
 
 template <>
 struct EnumNames<ScheduleKind> {
-  static constexpr std::array<std::pair<std::string_view, ScheduleKind>, 2> names{
-      {{"uniform", ScheduleKind::uniform}, {"geometric", ScheduleKind::geometric}}};
+  static constexpr auto names =
+      std::to_array<EnumName<ScheduleKind>>({{"uniform", ScheduleKind::uniform}, {"geometric", ScheduleKind::geometric}});
 };
 template <>
 struct EnumNames<TrainingImages> {
-  static constexpr std::array<std::pair<std::string_view, TrainingImages>, 2> names{
-      {{"discard", TrainingImages::discard}, {"combine", TrainingImages::combine}}};
+  static constexpr auto names =
+      std::to_array<EnumName<TrainingImages>>({{"discard", TrainingImages::discard}, {"combine", TrainingImages::combine}});
 };
 
 /// How much of a render's budget trains its guides, and what becomes of the images of training.

@@ -22,8 +22,8 @@ enum class SpatialCells {
 };
 template <>
 struct EnumNames<SpatialCells> {
-  static constexpr std::array<std::pair<std::string_view, SpatialCells>, 2> names{
-      {{"kdtree", SpatialCells::kdtree}, {"single", SpatialCells::single}}};
+  static constexpr auto names =
+      std::to_array<EnumName<SpatialCells>>({{"kdtree", SpatialCells::kdtree}, {"single", SpatialCells::single}});
 };
 
 /// The learning state of methods that learn cell by cell of a kd-tree (KdTreeCells). Samples wait

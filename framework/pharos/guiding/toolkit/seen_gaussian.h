@@ -4,7 +4,7 @@
 #include <pharos/guiding/contract/spatial_mixture.h>
 
 /// One Gaussian as it is seen from a point, in double precision: the readable form of the
-/// densities. (The guiders of module spatial_gaussians ask eight components at once.)
+/// densities. Guiders that need speed evaluate eight components at once.
 namespace pharos {
 
 /// The density p0 of the directions from `origin` to points of a Gaussian [1/sr]; integrates to one

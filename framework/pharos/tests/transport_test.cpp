@@ -1,0 +1,140 @@
+// Paths in flight are values: copies and batches of them continue to the same bits.
+
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include <pharos/conformance/guide_stage.h>
+#include <pharos/conformance/guided.h>
+#include <pharos/transport/counterparts.h>
+#include <pharos/transport/light_walk.h>
+#include <pharos/transport/path_loop.h>
+#include <pharos/transport/splats.h>
+
+namespace pharos {
+namespace {
+
+constexpr int kEdge = 8;
+
+/// Everything that walks through a foggy room need.
+struct Stage {
+  Scene scene{conformance::room_parts(conformance::Room::lamp, true)};
+  std::unique_ptr<const PreparedSensor> sensor = scene.sensor().prepare(kEdge, kEdge);
+  RenderTarget target{scene, *sensor, kEdge, kEdge};
+  PathSettings settings{.roulette = Roulette::throughput, .roulette_depth = 2};
+  LightSelector lights{scene, LightSelection::one};
+  CameraScene shared{target, settings, lights};
+  conformance::KeyedSampler sampler;
+  IterationContext context{.sampler = sampler, .seed = 3};
+  TransportArenas arenas;
+  RenderCounters counters;
+  SilentRecorder recorder;
+
+  SampleStream stream(std::uint64_t index) const {
+    return {sampler, {.seed = 3, .index = index % (kEdge * kEdge), .sample = 0}};
+  }
+};
+
+using Walk = CameraWalk<SilentRecorder>;
+using Flight = Walk::InFlight;
+
+Flight begun(const Stage& stage, std::uint64_t index) {
+  return {Path(stage.stream(index)), {}, {}};
+}
+
+}  // namespace
+
+TEST_CASE("a batch of paths, advanced in turn, finds what the paths find one by one") {
+  Stage stage;
+  const Walk walk(stage.shared, stage.context, stage.arenas, stage.counters, stage.recorder);
+  std::vector<Rgb> alone;
+  for (int i = 0; i < kEdge * kEdge; ++i) {
+    alone.push_back(walk.run(stage.stream(i), stage.settings.max_depth).radiance);
+  }
+  std::vector<Flight> batch;
+  std::vector<bool> goes;
+  for (int i = 0; i < kEdge * kEdge; ++i) {
+    batch.push_back(begun(stage, i));
+    goes.push_back(walk.begin(batch.back()));
+  }
+  for (int round = 0; round <= stage.settings.max_depth; ++round) {
+    for (std::size_t i = batch.size(); i-- > 0;) {
+      if (goes[i]) goes[i] = walk.proceed(batch[i], stage.settings.max_depth);
+    }
+  }
+  int bright = 0;
+  for (std::size_t i = 0; i < batch.size(); ++i) {
+    CHECK_FALSE(goes[i]);
+    CHECK(batch[i].found.radiance == alone[i]);
+    bright += is_black(alone[i]) ? 0 : 1;
+  }
+  CHECK(bright > 10);
+}
+
+TEST_CASE("a copy of a path continues as the path does, and apart from it") {
+  Stage stage;
+  const Walk walk(stage.shared, stage.context, stage.arenas, stage.counters, stage.recorder);
+  int split = 0;
+  for (int i = 0; i < kEdge * kEdge; ++i) {
+    Flight flight = begun(stage, i);
+    if (!walk.begin(flight) || !walk.proceed(flight, 12)) continue;
+    Flight copy = flight;
+    Flight other = flight;
+    other.path.first_bounce = 100;  // draws other numbers
+    while (walk.proceed(other, 12)) continue;
+    while (walk.proceed(flight, 12)) continue;
+    while (walk.proceed(copy, 12)) continue;
+    CHECK(copy.found.radiance == flight.found.radiance);
+    CHECK(copy.path.bounce == flight.path.bounce);
+    split += other.found.radiance == flight.found.radiance ? 0 : 1;
+  }
+  CHECK(split > 10);
+}
+
+TEST_CASE("a path with what is known of its counterparts can be copied, too") {
+  Stage stage;
+  Arena backward;
+  LightSelector emitting(stage.scene, LightSelection::one);
+  const LightChoices choices{stage.lights, emitting};
+  using Counterparts = LightCounterparts<>;
+  using BidirectionalWalk = CameraWalk<SilentRecorder, Counterparts>;
+  const BidirectionalWalk walk(stage.shared, stage.context, stage.arenas, stage.counters,
+                               stage.recorder);
+  for (int i = 0; i < kEdge * kEdge; ++i) {
+    const SampleStream stream = stage.stream(i);
+    BidirectionalWalk::InFlight flight{
+        Path(stream), {}, Counterparts(stage.target, choices, nullptr,
+                                       stream.get_2d({Purpose::lens}), backward)};
+    if (!walk.begin(flight)) continue;
+    BidirectionalWalk::InFlight copy(flight);
+    while (walk.proceed(flight, 12)) continue;
+    while (walk.proceed(copy, 12)) continue;
+    CHECK(copy.found.radiance == flight.found.radiance);
+  }
+}
+
+TEST_CASE("records of paths from lights are linked and weighted like those from the sensor") {
+  Stage stage;
+  const LightScene lights{stage.target, stage.lights, 6};
+  PathLog log;
+  SplatRecorder<LogRecorder> recorder(6, log);
+  const LightWalk<SplatRecorder<LogRecorder>> walk(lights, stage.context, stage.arenas,
+                                                   stage.counters, recorder);
+  for (int i = 0; i < 32; ++i) walk.run(stage.stream(i));
+  REQUIRE(log.size() == 32);
+  int longer = 0;
+  for (std::size_t i = 0; i < log.size(); ++i) {
+    const PathView path = log[i];
+    CHECK(path.transport == Transport::importance);
+    longer += path.vertices.size() > 2 ? 1 : 0;
+    for (std::size_t k = 1; k < path.vertices.size(); ++k) {
+      const RecordedVertex& parent = path.vertices[path.vertices[k].parent];
+      CHECK(parent.next == k);
+      CHECK(mean(parent.throughput * parent.local_weight) ==
+            doctest::Approx(mean(path.vertices[k].throughput)).epsilon(1e-4));
+    }
+  }
+  CHECK(longer > 10);
+}
+
+}  // namespace pharos
