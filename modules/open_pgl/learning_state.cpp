@@ -49,7 +49,7 @@ void add(const Sample& sample, openpgl::cpp::SampleStorage& storage) {
   data.weight = sample.weight;
   data.pdf = sample.pdf;
   data.distance = sample.distance;
-  data.flags = sample.in_volume ? openpgl::cpp::SampleData::EInsideVolume : 0u;
+  if (sample.in_volume) data.flags = openpgl::cpp::SampleData::EInsideVolume;
   storage.AddSample(data);
 }
 

@@ -8,6 +8,7 @@ OpenPglModel::OpenPglModel(std::string bytes)
     : bytes_(std::move(bytes)), field_(field_of(bytes_)) {}
 
 const Workplace* OpenPglModel::at(const Query& query) const {
+  if (field_ == nullptr) return nullptr;
   std::unique_ptr<Workplace>& workplace = workplaces_.local();
   if (workplace == nullptr) workplace = std::make_unique<Workplace>(*field_);
   return workplace->take(query) ? workplace.get() : nullptr;
@@ -28,6 +29,7 @@ void OpenPglModel::archive(Archive& archive) {
 }
 
 double OpenPglModel::density(Point3 point, const Vec3* direction) const {
+  if (field_ == nullptr) return 0;
   Workplace workplace(*field_);
   if (!workplace.take(Query{.position = point})) return 0;
   return direction == nullptr ? 1 : workplace.pdf(*direction);

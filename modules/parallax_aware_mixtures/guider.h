@@ -47,10 +47,10 @@ class ParallaxAwareMixturesGuider final : public GuiderOf<ParallaxAwareMixturesM
 
 template <>
 struct EnumNames<parallax_aware_mixtures::ProductFactor> {
-  static constexpr auto names =
-      std::to_array<EnumName<parallax_aware_mixtures::ProductFactor>>({{"none", parallax_aware_mixtures::ProductFactor::none},
-             {"cosine", parallax_aware_mixtures::ProductFactor::cosine},
-             {"bsdf", parallax_aware_mixtures::ProductFactor::bsdf}});
+  static constexpr auto names = std::to_array<EnumName<parallax_aware_mixtures::ProductFactor>>(
+      {{"none", parallax_aware_mixtures::ProductFactor::none},
+       {"cosine", parallax_aware_mixtures::ProductFactor::cosine},
+       {"bsdf", parallax_aware_mixtures::ProductFactor::bsdf}});
 };
 
 }  // namespace pharos

@@ -1,6 +1,6 @@
 #include "learner.h"
 
-#include "learning.h"
+#include "lessons.h"
 #include "model.h"
 
 namespace pharos::parallax_aware_mixtures {
@@ -37,8 +37,8 @@ LearnerTraits ParallaxAwareMixturesLearner::traits() const {
 }
 
 std::unique_ptr<LearningState> ParallaxAwareMixturesLearner::begin(const LearningContext&) const {
-  return std::make_unique<KdTreeLearning<ParallaxAwareMixturesLearning>>(
-      ParallaxAwareMixturesLearning(settings_));
+  return std::make_unique<KdTreeLearning<ParallaxAwareMixturesLessons>>(
+      ParallaxAwareMixturesLessons(settings_));
 }
 
 std::shared_ptr<GuidingModel> ParallaxAwareMixturesLearner::empty_model() const {

@@ -1,6 +1,6 @@
 #include "learner.h"
 
-#include "learning.h"
+#include "lessons.h"
 #include "model.h"
 
 namespace pharos::spatial_gaussians {
@@ -38,8 +38,8 @@ LearnerTraits SpatialGaussiansLearner::traits() const {
 
 std::unique_ptr<LearningState> SpatialGaussiansLearner::begin(
     const LearningContext& context) const {
-  return std::make_unique<KdTreeLearning<SpatialGaussiansLearning>>(
-      SpatialGaussiansLearning(settings_, context));
+  return std::make_unique<KdTreeLearning<SpatialGaussiansLessons>>(
+      SpatialGaussiansLessons(settings_, context));
 }
 
 std::shared_ptr<GuidingModel> SpatialGaussiansLearner::empty_model() const {

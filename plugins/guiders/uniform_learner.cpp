@@ -25,7 +25,7 @@ class UniformState final : public LearningState {
         // There is nothing to learn where no guide will ever be asked. Steps that met no light
         // count: they say that it is dark there.
         if (!path.vertices[k].guidable) continue;
-        radiance_ += mean(incident_[k]);
+        radiance_ += path.vertices[k].continuation * mean(incident_[k]);
         ++steps_;
       }
     }

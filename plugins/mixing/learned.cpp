@@ -112,7 +112,9 @@ class LearnedState final : public MixingState {
 
   void archive(Archive& archive) override {
     archive.heading("learned mixing", 2);
+    const std::size_t count = regions_.size();
     archive.list(regions_, [&] { return new_region(); });
+    archive.expect(count == 0 || regions_.size() == count, "what was learned of mixing");
   }
 
  private:

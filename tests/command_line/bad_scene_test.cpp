@@ -99,5 +99,28 @@ TEST_CASE("guiding that does not fit together") {
           {"bad.yaml:5:", "error: "});
 }
 
+TEST_CASE("names that plugins had before") {
+  const auto guided = [](const std::string& learner, const std::string& guider) {
+    return "scene:\n  sensor: perspective\nbudget: { spp: 1 }\nintegrator:\n  type: path\n"
+           "  guiding: { learner: " +
+           learner + ", guider: " + guider + " }\n";
+  };
+  check_refused(guided("sd_tree", "sd_tree"),
+                {"bad.yaml:6:23: error: the learner 'sd_tree' is called 'practical_path_guiding'"});
+  check_refused(guided("{ type: vmf_mixtures }", "vmf_mixtures"),
+                {"bad.yaml:6:31: error: the learner 'vmf_mixtures' is called "
+                 "'parallax_aware_mixtures' now"});
+  check_refused(guided("focal", "vmf_mixtures"),
+                {"error: the guider 'vmf_mixtures' is called 'parallax_aware_mixtures' now"});
+}
+
+TEST_CASE("a method that names a model without the learner that can read it") {
+  check_refused(
+      "scene:\n  sensor: perspective\nbudget: { spp: 1 }\nintegrator:\n  type: path\n"
+      "  guiding: { methods: [ { learner: uniform, guider: uniform }, { guider: uniform, model: "
+      "a.model } ] }\n",
+      {"needs the 'learner' that can read it"});
+}
+
 }  // namespace
 }  // namespace pharos::testing

@@ -6,12 +6,36 @@
 
 namespace pharos::testing {
 
+namespace {
+
+const std::vector<conformance::Subject>& first_cases() {
+  static const Registry& registry = *[] {
+    auto* loaded = new Registry;  // lives as long as its components
+    load_modules(*loaded, PHAROS_PLUGINS, true);
+    return loaded;
+  }();
+  static const conformance::ExampleFolder folder;
+  static const std::vector<conformance::Subject> cases =
+      conformance::first_cases(registry, Sampler::contract_name, folder.path());
+  return cases;
+}
+
+}  // namespace
+
+std::vector<PreparedSubject> prepared_samplers(int pixels) {
+  std::vector<PreparedSubject> all;
+  for (const conformance::Subject& s : first_cases()) {
+    const auto& sampler = static_cast<const Sampler&>(*s.component);
+    if (sampler.needs_probe()) continue;
+    all.push_back(
+        {s.plugin->name, sampler.prepare({.width = pixels, .height = pixels}, {}, nullptr)});
+  }
+  return all;
+}
+
 std::vector<SamplerSubject> sampler_subjects() {
-  Registry registry;
-  load_modules(registry, PHAROS_PLUGINS, true);
-  const conformance::ExampleFolder folder;
   std::vector<SamplerSubject> all;
-  for (const auto& s : conformance::first_cases(registry, Sampler::contract_name, folder.path())) {
+  for (const conformance::Subject& s : first_cases()) {
     all.push_back({s.plugin->name, to_flow_yaml(s.node)});
   }
   return all;

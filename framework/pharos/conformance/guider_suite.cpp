@@ -160,6 +160,19 @@ bool check_camera(const GuidingFrame& frame, const Scene& scene, std::uint64_t s
   return true;
 }
 
+/// What a model says of vertices before its guider is asked.
+void check_places(const GuidingModel& model, const Scene& scene, std::uint64_t seed, Check& check) {
+  const std::uint32_t regions = model.info().regions;
+  for (const auto& vertex : stage_vertices(scene, seed)) {
+    const Place place = model.place(vertex->query().current);
+    check.expect(place.region < regions, [&] {
+      return fmt::format("{}: region {} of {}", vertex->text(), place.region, regions);
+    });
+    check.expect(is_non_negative(place.evidence),
+                 [&] { return fmt::format("{}: evidence {}", vertex->text(), place.evidence); });
+  }
+}
+
 bool same(const std::optional<Proposal>& a, const std::optional<Proposal>& b) {
   if (!a || !b) return a.has_value() == b.has_value();
   return a->direction == b->direction && a->events == b->events && a->reach == b->reach &&
@@ -253,11 +266,13 @@ void check_guider(const Registry& registry, const Subject& guider, const Subject
   Check& determinism = suite.check("determinism");
   Check& save_load = suite.check("save_load");
   Check& furnace = suite.check("furnace");
+  Check& places = suite.check("places");
   std::string why_not;
   const std::vector<Ref<Integrator>> integrators = integrators_for(pair, why_not);
   if (integrators.empty()) {
     why_not = "no integrator can follow: " + why_not;
-    for (Check* c : {&answers, &chi_square, &integral, &determinism, &save_load, &furnace}) {
+    for (Check* c :
+         {&answers, &chi_square, &integral, &determinism, &save_load, &furnace, &places}) {
       c->not_applicable(why_not);
     }
     return;
@@ -278,6 +293,7 @@ void check_guider(const Registry& registry, const Subject& guider, const Subject
     answers.expect(model != nullptr, [] { return "there is no model after training"; });
     if (model == nullptr) continue;
     const Scene scene(room_parts(Room::lamp, foggy));
+    check_places(*model, scene, suite.seed(), places);
     const GuidingFrame frame = frame_of(pair.the_guider(), model);
     answered +=
         check_densities(frame, scene, suite.seed(), Transport::radiance, chi_square, integral);

@@ -200,6 +200,16 @@ TEST_CASE("errors: names") {
             ", found nothing");
 }
 
+TEST_CASE("errors: a name that a plugin had before") {
+  Registry registry = paints();
+  registry.renamed<Paint>("simple", "plain");
+  const auto of = [&](const char* yaml) {
+    return test::input_error([&] { build(yaml, {}, registry); });
+  };
+  CHECK(of("simple") == "a.yaml:1:1: error: the paint 'simple' is called 'plain' now");
+  CHECK(of("{ type: simple }") == "a.yaml:1:9: error: the paint 'simple' is called 'plain' now");
+}
+
 TEST_CASE("errors: settings") {
   CHECK(error("{type: plain, valeu: 3}") ==
         "a.yaml:1:15: error: unknown key 'valeu' (did you mean 'value'?); known keys: 'value'");

@@ -32,11 +32,11 @@ inline PathLog lamp_paths(int count, std::uint64_t seed) {
     log.add(RecordedVertex{.throughput = Rgb(1)});
     log.add(RecordedVertex{.position = from,
                            .event = Event::smooth_reflect,
+                           .guidable = true,
                            .parent = 0,
                            .local_weight = Rgb(1),
                            .direction = normalize(to - from),
-                           .unguided_pdf = hits ? 20.0f : 0.1f,
-                           .guidable = true});
+                           .pdf = hits ? 20.0f : 0.1f});
     log.add(RecordedVertex{.position = to, .parent = 1, .emission = Rgb(hits ? 5.0f : 0.0f)});
   }
   return log;
@@ -46,13 +46,18 @@ inline std::shared_ptr<const GuidingModel> trained(LearningState& state, int ite
   std::shared_ptr<const GuidingModel> model;
   for (int i = 0; i < iterations; ++i) {
     state.absorb(lamp_paths(5000, static_cast<std::uint64_t>(i)));
-    model = state.update(static_cast<std::uint32_t>(i), i + 1 == iterations);
+    model = state.update(static_cast<std::uint32_t>(i), i + 1 == iterations).model;
   }
   return model;
 }
 
 inline std::shared_ptr<const GuidingModel> trained(const OpenPglSettings& settings) {
   return trained(*OpenPglLearner(settings).begin({.region = kRegion}));
+}
+
+/// Returns the density that a model expects from a direction at a point.
+inline double density(const GuidingModel& model, Point3 at, Vec3 direction) {
+  return model.density(at, &direction);
 }
 
 /// Returns a model's densities at random points and directions as text. The bytes of a field's file
@@ -63,16 +68,26 @@ inline std::string answers(const GuidingModel& model) {
   for (int i = 0; i < 200; ++i) {
     const Vec2 u = random.next_2d();
     const Point3 at{2 * u.x - 1, 2 * u.y - 1, 0};
-    out << std::hexfloat << model.density(at, warp::sphere_from_square(random.next_2d())) << ' ';
+    const Vec3 w = warp::sphere_from_square(random.next_2d());
+    out << std::hexfloat << density(model, at, w) << ' ';
   }
   return out.str();
 }
 
-template <class Savable>
-std::string saved(const Savable& what) {
+/// Returns the saved form of a model or a state.
+template <class T>
+std::string saved(const T& object) {
   std::ostringstream out;
-  what.save(out);
+  save(out, object);
   return out.str();
+}
+
+/// Returns the model with this saved form.
+inline std::shared_ptr<GuidingModel> loaded(const std::string& bytes) {
+  std::istringstream in(bytes);
+  const auto model = OpenPglLearner({}).empty_model();
+  load(in, *model);
+  return model;
 }
 
 }  // namespace pharos::open_pgl::testing

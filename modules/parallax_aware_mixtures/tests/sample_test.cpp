@@ -15,11 +15,11 @@ std::vector<Sample> samples_over(RecordedVertex surface, Vec3 onward,
   log.begin_path({}, Transport::radiance);
   log.add(RecordedVertex{.throughput = Rgb(1)});
   log.add(RecordedVertex{.event = Event::smooth_reflect,
+                         .guidable = true,
                          .parent = 0,
                          .local_weight = Rgb(1),
                          .direction = {0, 0, 1},
-                         .unguided_pdf = 0.5f,
-                         .guidable = true});
+                         .pdf = 0.5f});
   surface.position = {0, 0, 3};
   surface.normal = {0, 0, -1};
   surface.parent = 1;

@@ -34,12 +34,12 @@ PathLog lamp_paths(int count, std::uint64_t seed) {
     log.add(RecordedVertex{.throughput = Rgb(1), .local_weight = Rgb(1)});
     log.add(RecordedVertex{.position = from,
                            .event = Event::smooth_reflect,
+                           .guidable = true,
                            .parent = 0,
                            .throughput = Rgb(1),
                            .local_weight = Rgb(0.5f),
                            .direction = direction,
-                           .unguided_pdf = hits ? 5.0f : 0.16f,
-                           .guidable = true});
+                           .pdf = hits ? 5.0f : 0.16f});
     log.add(RecordedVertex{
         .position = from + direction, .parent = 1, .emission = Rgb(hits ? 20.0f : 0.1f)});
   }
@@ -57,19 +57,19 @@ PracticalPathGuidingSettings small_settings() {
   return {.spatial_threshold = 100};
 }
 
-std::shared_ptr<const GuidingModel> trained(LearningState& state, int iterations = 4) {
-  std::shared_ptr<const GuidingModel> model;
+/// Returns what the last of the iterations led to.
+Learned trained(LearningState& state, int iterations = 4) {
+  Learned learned;
   for (int i = 0; i < iterations; ++i) {
     const auto seed = static_cast<std::uint64_t>(i);
     state.absorb(lamp_paths(2000 << i, 2 * seed));
     state.absorb(lamp_paths(1000 << i, 2 * seed + 1));
-    model = state.update(static_cast<std::uint32_t>(i), i + 1 == iterations);
+    learned = state.update(static_cast<std::uint32_t>(i), i + 1 == iterations);
   }
-  return model;
+  return learned;
 }
 
-std::shared_ptr<const GuidingModel> trained(const PracticalPathGuidingSettings& settings,
-                                            int iterations = 4) {
+Learned trained(const PracticalPathGuidingSettings& settings, int iterations = 4) {
   const auto state = PracticalPathGuidingLearner(settings).begin(context());
   return trained(*state, iterations);
 }
@@ -78,17 +78,26 @@ const PracticalPathGuidingModel& as_tree(const std::shared_ptr<const GuidingMode
   return dynamic_cast<const PracticalPathGuidingModel&>(*model);
 }
 
-template <class Savable>
-std::string saved(const Savable& what) {
+/// Returns the saved form of a model or a state.
+template <class T>
+std::string saved(const T& object) {
   std::ostringstream out;
-  what.save(out);
+  save(out, object);
   return out.str();
+}
+
+/// Returns the model that was saved. Throws InputError if it is damaged.
+std::shared_ptr<const GuidingModel> loaded(const std::string& text) {
+  std::istringstream in(text);
+  const auto model = PracticalPathGuidingLearner(small_settings()).empty_model();
+  load(in, *model);
+  return model;
 }
 
 /// Returns the share of sampled directions at a point that are within 18 degrees of `direction`.
 double share_near(const PracticalPathGuidingModel& tree, Point3 at, Vec3 direction) {
   RandomStream random(9);
-  const QuadDensity density(tree.at(at).nodes);
+  const QuadDensity density(tree.nodes(tree.place({.position = at}).region));
   constexpr int kDraws = 2000;
   int near = 0;
   for (int i = 0; i < kDraws; ++i) {
@@ -109,12 +118,12 @@ TEST_CASE("the guide finds the lamp, with every filter and target") {
         settings.target = target;
         settings.spatial_filter = spatial;
         settings.directional_filter = filter;
-        const auto model = trained(settings);
+        const auto model = trained(settings).model;
         const PracticalPathGuidingModel& tree = as_tree(model);
         for (const Point3 at : {Point3{0.5f, 0.5f, 0}, {-0.7f, 0.2f, 0}, {0.01f, 0.01f, 0}}) {
           CHECK(share_near(tree, at, normalize(kLamp - at)) > 0.5);
         }
-        CHECK(tree.region_count() > 10);
+        CHECK(tree.info().regions > 10);
       }
     }
   }
@@ -125,15 +134,14 @@ TEST_CASE("cells are halved where records are above the threshold, axis after ax
   settings.spatial_filter = SpatialFilter::nearest;
   // 3000 records, 30 paths per pixel: the threshold is 100 sqrt(30 / 2) = 387. Each half is assumed
   // to have half of the records, also if the plane is across z and leaves one side without records.
-  const auto model = trained(settings, 1);
-  const PracticalPathGuidingModel& tree = as_tree(model);
-  CHECK(tree.region_count() == 8);
-  CHECK(tree.region_origins() == std::vector<std::uint32_t>(8, 0));
+  const Learned learned = trained(settings, 1);
+  CHECK(learned.model->info().regions == 8);
+  CHECK(learned.region_origins == std::vector<std::uint32_t>(8, 0));
   settings.spatial_threshold = 1e9;
-  CHECK(as_tree(trained(settings, 4)).region_count() == 1);
+  CHECK(trained(settings, 4).model->info().regions == 1);
   settings.spatial_threshold = 1e-3;
   settings.spatial_depth = 5;
-  CHECK(as_tree(trained(settings, 1)).region_count() == 32);
+  CHECK(trained(settings, 1).model->info().regions == 32);
 }
 
 TEST_CASE("regions come from those of the model before") {
@@ -141,10 +149,10 @@ TEST_CASE("regions come from those of the model before") {
   std::uint32_t before = 1;
   for (std::uint32_t i = 0; i < 4; ++i) {
     state->absorb(lamp_paths(2000 << i, i));
-    const auto model = state->update(i, false);
-    REQUIRE(model->region_origins().size() == model->region_count());
-    for (const std::uint32_t origin : model->region_origins()) CHECK(origin < before);
-    before = model->region_count();
+    const Learned learned = state->update(i, false);
+    REQUIRE(learned.region_origins.size() == learned.model->info().regions);
+    for (const std::uint32_t origin : learned.region_origins) CHECK(origin < before);
+    before = learned.model->info().regions;
   }
 }
 
@@ -155,7 +163,7 @@ TEST_CASE("the same bits for any number of threads") {
     PracticalPathGuidingSettings settings = small_settings();
     settings.target = GuidingTarget::relative;
     settings.batch_records = 1024;
-    const std::string bits = saved(*trained(settings));
+    const std::string bits = saved(*trained(settings).model);
     if (expected.empty()) expected = bits;
     CHECK(bits == expected);
   }
@@ -167,25 +175,10 @@ TEST_CASE("saved learning goes on as if it had not been interrupted") {
   trained(*whole, 2);
   whole->absorb(lamp_paths(500, 77));
   std::stringstream file;
-  whole->save(file);
+  save(file, *whole);
   const auto resumed = learner.begin(context());
-  resumed->load(file);
-  CHECK(saved(*trained(*whole, 2)) == saved(*trained(*resumed, 2)));
-}
-
-TEST_CASE("merged states know what both absorbed") {
-  PracticalPathGuidingSettings settings = small_settings();
-  settings.spatial_filter = SpatialFilter::nearest;
-  const PracticalPathGuidingLearner learner(settings);
-  const auto whole = learner.begin(context()), part = learner.begin(context()),
-             other = learner.begin(context());
-  whole->absorb(lamp_paths(2000, 1));
-  whole->absorb(lamp_paths(2000, 2));
-  part->absorb(lamp_paths(2000, 1));
-  other->absorb(lamp_paths(2000, 2));
-  part->merge(*other);
-  CHECK(saved(*whole->update(0, false)) == saved(*part->update(0, false)));
-  CHECK_THROWS_AS(part->merge(*other), InputError);
+  load(file, *resumed);
+  CHECK(saved(*trained(*whole, 2).model) == saved(*trained(*resumed, 2).model));
 }
 
 TEST_CASE("a cell that finds nothing keeps what it knew; without light there is no model") {
@@ -194,29 +187,86 @@ TEST_CASE("a cell that finds nothing keeps what it knew; without light there is 
   black.begin_path({}, Transport::radiance);
   black.add(RecordedVertex{.throughput = Rgb(1)});
   state->absorb(black);
-  CHECK(state->update(0, false) == nullptr);
+  CHECK(state->update(0, false).model == nullptr);
   state->absorb(lamp_paths(4000, 1));
-  const auto before = state->update(1, false);
-  const auto after = state->update(2, false);
+  const auto before = state->update(1, false).model;
+  const auto after = state->update(2, false).model;
   const Point3 at{0.5f, 0.5f, 0};
-  CHECK(after->density(at, normalize(kLamp - at)) == before->density(at, normalize(kLamp - at)));
+  const Vec3 to_lamp = normalize(kLamp - at);
+  CHECK(after->density(at, &to_lamp) == before->density(at, &to_lamp));
+}
+
+/// Returns paths with one guidable step each. Radiance (1, 2, 6) arrives from all directions within
+/// 60 degrees of +z. Half of the steps are uniform over these directions, half over all directions.
+PathLog cone_paths(int count, std::uint64_t seed) {
+  constexpr float kVersine = 0.5f;  // 1 - cos 60 degrees
+  PathLog log;
+  RandomStream random(seed);
+  for (int i = 0; i < count; ++i) {
+    const Vec2 u = random.next_2d(), v = random.next_2d();
+    const Vec3 direction =
+        i % 2 == 0 ? warp::cone_from_square(v, kVersine) : warp::sphere_from_square(v);
+    const bool is_lit = direction.z > 1 - kVersine;
+    const float cone_pdf = is_lit ? warp::cone_pdf(kVersine) : 0;
+    log.begin_path({0.5f, 0.5f}, Transport::radiance);
+    log.add(RecordedVertex{.throughput = Rgb(1), .local_weight = Rgb(1)});
+    log.add(RecordedVertex{.position = {2 * u.x - 1, 2 * u.y - 1, 0},
+                           .event = Event::smooth_reflect,
+                           .guidable = true,
+                           .parent = 0,
+                           .throughput = Rgb(1),
+                           .local_weight = Rgb(0.5f),
+                           .direction = direction,
+                           .pdf = 0.5f * (cone_pdf + warp::sphere_pdf())});
+    log.add(RecordedVertex{.parent = 1, .emission = is_lit ? Rgb(1, 2, 6) : Rgb()});
+  }
+  return log;
+}
+
+TEST_CASE("a model of radiance says how much arrives") {
+  const auto state = PracticalPathGuidingLearner(small_settings()).begin(context());
+  for (std::uint64_t i = 0; i < 5; ++i) state->absorb(cone_paths(20'000, i));
+  const auto learned = state->update(0, true).model;
+  REQUIRE(learned->info().regions > 1);
+  for (const auto& model : {learned, loaded(saved(*learned))}) {
+    const RadianceEstimate& estimate = as_tree(model);
+    CHECK(estimate.radiance_traits().incident);
+    CHECK(!estimate.radiance_traits().outgoing);
+    for (const Point3 at : {Point3{0.5f, 0.5f, 0}, {-0.7f, 0.2f, 0}, {0.01f, 0.01f, 0}}) {
+      // Each leaf has about 980 records with light: the standard deviation is below 3.2 %.
+      for (const Vec3 w : {Vec3{0, 0, 1}, {0.3f, 0.2f, 1}, {-0.4f, 0.5f, 1}, {0, -0.6f, 1}}) {
+        CHECK(estimate.incident_radiance(at, normalize(w)) ==
+              doctest::Approx(3).epsilon(0.12).scale(0));
+      }
+      CHECK(estimate.incident_radiance(at, {0, 0, -1}) == 0);
+      CHECK(estimate.incident_radiance(at, {1, 0, 0}) == 0);
+    }
+  }
+}
+
+TEST_CASE("models of other targets, and those that know nothing, say nothing of radiance") {
+  for (const GuidingTarget target : {GuidingTarget::product, GuidingTarget::relative}) {
+    PracticalPathGuidingSettings settings = small_settings();
+    settings.target = target;
+    const auto learned = trained(settings, 1).model;
+    CHECK(!as_tree(learned).radiance_traits().incident);
+    CHECK(!as_tree(loaded(saved(*learned))).radiance_traits().incident);
+  }
+  CHECK(PracticalPathGuidingModel().incident_radiance({}, {0, 0, 1}) == 0);
 }
 
 TEST_CASE("models survive being saved; damaged ones are refused or sound") {
-  const PracticalPathGuidingLearner learner(small_settings());
-  const auto model = trained(small_settings());
-  const std::string file = saved(*model);
-  std::istringstream in(file);
-  CHECK(saved(*learner.load_model(in)) == file);
+  const std::string file = saved(*trained(small_settings()).model);
+  CHECK(saved(*loaded(file)) == file);
   RandomStream random(1);
   for (int i = 0; i < 500; ++i) {
     std::string damaged = file;
     damaged[random() % damaged.size()] ^= static_cast<char>(1 << random() % 8);
     if (i % 5 == 0) damaged.resize(random() % damaged.size());
-    std::istringstream stream(damaged);
     try {
-      const auto loaded = learner.load_model(stream);
-      CHECK(std::isfinite(loaded->density({0.1f, 0.2f, 0}, {0, 0, 1})));
+      const auto model = loaded(damaged);
+      const Vec3 up{0, 0, 1};
+      CHECK(std::isfinite(model->density({0.1f, 0.2f, 0}, &up)));
     } catch (const InputError&) {
     }
   }

@@ -212,28 +212,46 @@ TEST_CASE("warping keeps points in their leaf and in order") {
   CHECK(density.sample({0.2f, 0.4f}).x < density.sample({0.4f, 0.4f}).x);
 }
 
+/// A tree with its density: what is saved of a cell.
+struct TreeAndDensity {
+  QuadTree tree;
+  std::vector<QuadNode> nodes;
+  void archive(Archive& archive) {
+    archive(tree, nodes);
+    archive.expect(is_density(nodes), "the density");
+  }
+};
+
+std::string saved(const TreeAndDensity& both) {
+  std::ostringstream out;
+  save(out, both);
+  return out.str();
+}
+
+TreeAndDensity loaded(const std::string& text) {
+  std::istringstream in(text);
+  TreeAndDensity both{QuadTree(QuadRefinement{}), {}};
+  load(in, both);
+  return both;
+}
+
 TEST_CASE("trees and densities survive being saved; damage is found") {
   const QuadTree tree = peaked({0.3f, 0.7f});
-  std::stringstream file;
-  tree.save(file);
-  save_nodes(tree.density(LeafMass::sum), file);
-  const std::string saved = file.str();
-  const QuadTree loaded = QuadTree::load(file);
-  CHECK(loaded.has_leaves_of(tree));
-  CHECK(loaded.total() == tree.total());
-  const std::vector<QuadNode> nodes = load_nodes(file);
-  CHECK(QuadDensity(nodes).at({0.3f, 0.7f}) ==
-        QuadDensity(tree.density(LeafMass::sum)).at({0.3f, 0.7f}));
+  const std::string file = saved({tree, tree.density(LeafMass::sum)});
+  const TreeAndDensity same = loaded(file);
+  CHECK(saved(same) == file);
+  CHECK(same.tree.node_count() == tree.node_count());
+  CHECK(same.tree.total() == tree.total());
+  const std::vector<QuadNode> nodes = tree.density(LeafMass::sum);
+  CHECK(QuadDensity(same.nodes).at({0.3f, 0.7f}) == QuadDensity(nodes).at({0.3f, 0.7f}));
   RandomStream random(1);
   int refused = 0;
   for (int i = 0; i < 300; ++i) {
-    std::string damaged = saved;
+    std::string damaged = file;
     damaged[random() % damaged.size()] ^= static_cast<char>(1 << random() % 8);
-    std::stringstream in(damaged);
     try {
-      QuadTree::load(in);
-      const std::vector<QuadNode> read = load_nodes(in);
-      CHECK(integral(QuadDensity(read)) == doctest::Approx(1).epsilon(0.01));
+      const TreeAndDensity read = loaded(damaged);
+      CHECK(integral(QuadDensity(read.nodes)) == doctest::Approx(1).epsilon(0.01));
     } catch (const InputError&) {
       ++refused;
     }

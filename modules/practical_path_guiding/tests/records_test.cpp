@@ -1,7 +1,10 @@
 #include "../records.h"
 
+#include <sstream>
+
 #include <doctest/doctest.h>
 
+#include <pharos/core/error.h>
 #include <pharos/core/warp.h>
 
 namespace pharos::practical_path_guiding {
@@ -15,12 +18,12 @@ PathLog lit_path(Vec2 film = {}) {
   log.add(RecordedVertex{.throughput = Rgb(1), .local_weight = Rgb(2)});
   log.add(RecordedVertex{.position = {1, 2, 3},
                          .event = Event::smooth_reflect,
+                         .guidable = true,
                          .parent = 0,
                          .throughput = Rgb(2),
                          .local_weight = Rgb(0.4f),
                          .direction = {0, 0, 1},
-                         .unguided_pdf = 0.5f,
-                         .guidable = true});
+                         .pdf = 0.5f});
   log.add(RecordedVertex{.position = {1, 2, 9}, .parent = 1, .emission = Rgb(3)});
   return log;
 }
@@ -54,17 +57,31 @@ TEST_CASE("a record says where, whither and what it counts, by target") {
   CHECK(pixels.at({1.5f, 0.5f}) == doctest::Approx(0.04));
 }
 
-TEST_CASE("pixels are averaged with their neighbors, and add up when merged") {
-  PixelEstimates a({4, 2, 7, 3}), b = a;
-  a.add({4.5f, 2.5f}, 3);
-  b.add({5.5f, 2.5f}, 1);
-  a.merge(b);
-  a.update(1, 1e-6);
-  CHECK(a.at({4.2f, 2.9f}) == doctest::Approx(2));
-  CHECK(a.at({5.2f, 2.9f}) == doctest::Approx(2));
-  CHECK(a.at({6.2f, 2.9f}) == doctest::Approx(1));
-  CHECK(a.at({99, 99}) == a.at({6.2f, 2.9f}));
-  CHECK_THROWS_AS(a.merge(PixelEstimates({0, 0, 3, 1})), InputError);
+TEST_CASE("pixels are averaged with their neighbors") {
+  PixelEstimates pixels({4, 2, 7, 3});
+  pixels.add({4.5f, 2.5f}, 3);
+  pixels.add({5.5f, 2.5f}, 1);
+  pixels.update(1, 1e-6);
+  CHECK(pixels.at({4.2f, 2.9f}) == doctest::Approx(2));
+  CHECK(pixels.at({5.2f, 2.9f}) == doctest::Approx(2));
+  CHECK(pixels.at({6.2f, 2.9f}) == doctest::Approx(1));
+  CHECK(pixels.at({99, 99}) == pixels.at({6.2f, 2.9f}));
+}
+
+TEST_CASE("saved estimates of pixels are those of one window, new paths included") {
+  PixelEstimates pixels({4, 2, 7, 3});
+  pixels.add({4.5f, 2.5f}, 3);
+  pixels.update(1, 1e-6);
+  pixels.add({4.5f, 2.5f}, 1);
+  std::stringstream file;
+  save(file, pixels);
+  std::stringstream again(file.str());
+  PixelEstimates same({4, 2, 7, 3}), other({0, 0, 3, 1});
+  load(file, same);
+  CHECK(same.at({4.5f, 2.5f}) == doctest::Approx(3));
+  same.update(1, 1e-6);
+  CHECK(same.at({4.5f, 2.5f}) == doctest::Approx(2));
+  CHECK_THROWS_AS(load(again, other), InputError);
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "../sample.h"
 
+#include <array>
+
 #include <doctest/doctest.h>
 
 namespace pharos::spatial_gaussians {
@@ -19,8 +21,7 @@ PathLog path_to(RecordedVertex at, RecordedVertex end, Transport transport = Tra
   return log;
 }
 
-const RecordedVertex kVertex{
-    .event = Event::smooth_reflect, .unguided_pdf = 0.5f, .guidable = true};
+const RecordedVertex kVertex{.event = Event::smooth_reflect, .guidable = true, .pdf = 0.5f};
 const RecordedVertex kLamp{.position = {0, 0, 2}, .emission = Rgb(3)};
 
 std::vector<Sample> samples_of(const PathLog& log) {
@@ -43,12 +44,14 @@ TEST_CASE("a step is a sample of radiance over density") {
 }
 
 TEST_CASE("the density is that of guide and scattering together, and not below its floor") {
+  const std::array techniques{Technique{0.25f, 0.5f}, Technique{0.75f, 1.5f}};
   RecordedVertex guided = kVertex;
-  guided.guided_pdf = 1.5f;
-  guided.unguided_fraction = 0.25f;
-  CHECK(samples_of(path_to(guided, kLamp))[0].pdf == 1.25f);
+  guided.pdf = 0.25f * 0.5f + 0.75f * 1.5f;
+  PathLog log = path_to(guided, kLamp);
+  log.set_techniques(1, techniques);
+  CHECK(samples_of(log)[0].pdf == 1.25f);
   RecordedVertex rare = kVertex;
-  rare.unguided_pdf = 0.01f;
+  rare.pdf = 0.01f;
   const Sample sample = samples_of(path_to(rare, kLamp))[0];
   CHECK(sample.pdf == 0.1f);
   CHECK(sample.weight == doctest::Approx(30));
@@ -56,7 +59,7 @@ TEST_CASE("the density is that of guide and scattering together, and not below i
 
 TEST_CASE("in media weights have transmittance and the density of the length, densities do not") {
   RecordedVertex foggy = kVertex;
-  foggy.unguided_pdf = 0.5f * 0.2f;
+  foggy.pdf = 0.5f * 0.2f;
   foggy.medium_density = 0.2f;
   foggy.transmittance = Rgb(0.4f);
   const Sample sample = samples_of(path_to(foggy, kLamp))[0];

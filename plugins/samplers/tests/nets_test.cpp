@@ -167,4 +167,10 @@ TEST_CASE("pmj02bn: points lie farther apart than those of pmj02") {
   }
 }
 
+TEST_CASE("samplers: any number of samples is as good") {
+  CHECK(IndependentSampler().preferred_samples({}) == 1);
+  CHECK(SobolSampler().preferred_samples({}) == 1);
+  CHECK_FALSE(SobolSampler().needs_probe());
+}
+
 }  // namespace pharos

@@ -46,7 +46,8 @@ class MixingState {
   virtual void update(std::uint32_t regions, std::span<const std::uint32_t> origins) = 0;
   /// The shares in force since the last update().
   virtual std::shared_ptr<const MixingShares> shares() const = 0;
-  /// Saves the state, or loads it into a state that MixingPolicy::begin() made for the same render.
+  /// Saves the state, or loads it into a state that MixingPolicy::begin() made for the same render
+  /// and that has been updated for the number of regions that was saved.
   virtual void archive(Archive& archive) = 0;
 };
 

@@ -62,6 +62,11 @@ std::vector<GuidingMethod> GuidingSettings::resolved_methods() const {
     if (methods.size() > kMostMethods) {
       throw InputError("there are more than " + std::to_string(kMostMethods) + " methods");
     }
+    for (const GuidingMethod& method : methods) {
+      if (method.shares_model() && !method.model_file.empty()) {
+        throw InputError("a method with a 'model' needs the 'learner' that can read it");
+      }
+    }
     return methods;
   }
   if (learner == nullptr) throw InputError("guiding has no learner");

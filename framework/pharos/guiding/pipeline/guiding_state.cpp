@@ -74,9 +74,7 @@ GuidingState::GuidingState(const GuidingSettings& settings, const LearningContex
     weights.push_back(method.weight);
   }
   mixing_ = settings.mixing->begin(weights);
-  std::uint32_t regions = 0;
-  for (const Source& source : sources_) regions += source.regions;
-  mixing_->update(regions, {});
+  mixing_->update(regions(), {});
   rebuild_frame();
 }
 
@@ -99,6 +97,12 @@ void GuidingState::update(std::uint32_t iteration, bool last) {
   }
   mixing_->update(static_cast<std::uint32_t>(origins.size()), origins);
   rebuild_frame();
+}
+
+std::uint32_t GuidingState::regions() const {
+  std::uint32_t sum = 0;
+  for (const Source& source : sources_) sum += source.regions;
+  return sum;
 }
 
 void GuidingState::rebuild_frame() {
@@ -140,6 +144,7 @@ std::size_t GuidingState::model_bytes() const {
 void GuidingState::archive(Archive& archive) {
   archive.heading("guiding", 1);
   for (Source& source : sources_) source.archive(archive);
+  if (archive.loads()) mixing_->update(regions(), {});
   mixing_->archive(archive);
   if (archive.loads()) rebuild_frame();
 }

@@ -16,7 +16,8 @@ class GuidingState {
   GuidingState(const GuidingSettings& settings, const LearningContext& context);
   ~GuidingState();
 
-  /// What guides the coming iteration; null before anything is known.
+  /// What guides the coming iteration; null before anything is known. It must not outlive the
+  /// settings, whose guiders it uses.
   std::shared_ptr<const GuidingFrame> frame() const { return frame_; }
   void absorb(const PathLog& log);
   void update(std::uint32_t iteration, bool last);
@@ -39,6 +40,7 @@ class GuidingState {
     Ref<Guider> guider;
     std::size_t source;
   };
+  std::uint32_t regions() const;
   void rebuild_frame();
 
   std::vector<Source> sources_;

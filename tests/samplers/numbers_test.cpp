@@ -1,3 +1,5 @@
+// What holds for the numbers of every registered sampler.
+
 #include <array>
 #include <cmath>
 #include <memory>
@@ -9,42 +11,10 @@
 #include <pharos/statistics/goodness_of_fit.h>
 #include <pharos/statistics/hypothesis.h>
 
-#include "../halton.h"
-#include "../independent.h"
-#include "../multi_jittered.h"
-#include "../pmj02.h"
-#include "../pmj02bn.h"
-#include "../sheared.h"
-#include "../sobol.h"
-#include "../stratified.h"
-#include "../toroidal_shift.h"
-#include "../z_sobol.h"
+#include "subjects.h"
 
-namespace pharos {
+namespace pharos::testing {
 namespace {
-
-struct Subject {
-  std::string name;
-  std::unique_ptr<const PreparedSampler> sampler;
-};
-
-std::vector<Subject> subjects() {
-  std::vector<Subject> all;
-  const auto add = [&all](const char* name, const Sampler& sampler) {
-    all.push_back({name, sampler.prepare({.width = 300, .height = 300}, {}, nullptr)});
-  };
-  add("halton", HaltonSampler());
-  add("independent", IndependentSampler());
-  add("multi_jittered", MultiJitteredSampler());
-  add("pmj02", Pmj02Sampler());
-  add("pmj02bn", Pmj02bnSampler());
-  add("sheared", ShearedSampler({.base = std::make_shared<MultiJitteredSampler>()}));
-  add("sobol", SobolSampler());
-  add("stratified", StratifiedSampler());
-  add("toroidal_shift", ToroidalShiftSampler({.base = std::make_shared<SobolSampler>()}));
-  add("z_sobol", ZSobolSampler());
-  return all;
-}
 
 constexpr std::array kDimensions{Dimension{Purpose::pixel},
                                  Dimension{Purpose::lens},
@@ -66,7 +36,7 @@ double uncorrelated_p_value(const std::vector<float>& a, const std::vector<float
 }  // namespace
 
 TEST_CASE("samplers: numbers are those of the key and the dimension, in any order") {
-  for (const Subject& s : subjects()) {
+  for (const PreparedSubject& s : prepared_samplers(300)) {
     CAPTURE(s.name);
     const PathKey key{.seed = 5, .iteration = 2, .index = 77, .sample = 13};
     const SampleStream stream(*s.sampler, key), again(*s.sampler, key);
@@ -86,7 +56,7 @@ TEST_CASE("samplers: numbers are those of the key and the dimension, in any orde
 
 TEST_CASE("samplers: each number is uniform over pixels, for any sample") {
   std::vector<double> p_values;
-  for (const Subject& s : subjects()) {
+  for (const PreparedSubject& s : prepared_samplers(300)) {
     CAPTURE(s.name);
     for (const std::uint32_t sample : {0u, 3u, 1'000'000u}) {
       for (const Dimension d : kDimensions) {
@@ -105,7 +75,7 @@ TEST_CASE("samplers: each number is uniform over pixels, for any sample") {
 }
 
 TEST_CASE("samplers: numbers stay below one and 1D numbers are uniform") {
-  for (const Subject& s : subjects()) {
+  for (const PreparedSubject& s : prepared_samplers(300)) {
     CAPTURE(s.name);
     double sum = 0, squares = 0;
     constexpr int kPixels = 1000, kSamples = 16;
@@ -127,7 +97,7 @@ TEST_CASE("samplers: numbers stay below one and 1D numbers are uniform") {
 TEST_CASE("samplers: dimensions, pixels and seeds are uncorrelated") {
   // Tests the samples of 3,000 pixels for each pair of dimensions, within a pixel and over pixels.
   std::vector<double> p_values;
-  for (const Subject& s : subjects()) {
+  for (const PreparedSubject& s : prepared_samplers(300)) {
     for (const std::uint32_t samples : {4u, 16u}) {
       std::vector<std::vector<float>> columns(2 * kDimensions.size() + 2);
       for (std::uint64_t pixel = 0; pixel < 3000; ++pixel) {
@@ -155,10 +125,4 @@ TEST_CASE("samplers: dimensions, pixels and seeds are uncorrelated") {
   for (const double p : statistics::holm_adjusted(p_values)) CHECK(p > 0.01);
 }
 
-TEST_CASE("samplers: any number of samples is as good") {
-  CHECK(IndependentSampler().preferred_samples({}) == 1);
-  CHECK(SobolSampler().preferred_samples({}) == 1);
-  CHECK_FALSE(SobolSampler().needs_probe());
-}
-
-}  // namespace pharos
+}  // namespace pharos::testing

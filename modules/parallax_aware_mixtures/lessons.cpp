@@ -1,10 +1,10 @@
-#include "learning.h"
+#include "lessons.h"
 
 #include "model.h"
 
 namespace pharos::parallax_aware_mixtures {
 
-std::shared_ptr<const GuidingModel> ParallaxAwareMixturesLearning::model(
+std::shared_ptr<const GuidingModel> ParallaxAwareMixturesLessons::model(
     const KdTreeCells<Sample, CellMixture>& cells) const {
   std::vector<ParallaxAwareMixturesModel::Cell> contents;
   for (std::size_t i = 0; i < cells.size(); ++i) {

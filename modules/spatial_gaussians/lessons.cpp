@@ -1,4 +1,4 @@
-#include "learning.h"
+#include "lessons.h"
 
 #include "model.h"
 
@@ -12,15 +12,15 @@ double size_of(const Bounds3& region) {
 
 }  // namespace
 
-SpatialGaussiansLearning::SpatialGaussiansLearning(const SpatialGaussiansSettings& settings,
-                                                   const LearningContext& context)
+SpatialGaussiansLessons::SpatialGaussiansLessons(const SpatialGaussiansSettings& settings,
+                                                 const LearningContext& context)
     : settings_(settings),
       rule_{settings.least_pdf,
             settings.environment_distance * static_cast<float>(size_of(context.region))},
       scene_size_(size_of(context.region)),
       seed_(context.seed) {}
 
-std::shared_ptr<const GuidingModel> SpatialGaussiansLearning::model(
+std::shared_ptr<const GuidingModel> SpatialGaussiansLessons::model(
     const KdTreeCells<Sample, CellMixture>& cells) const {
   std::vector<SpatialGaussiansModel::Cell> contents;
   for (std::size_t i = 0; i < cells.size(); ++i) {

@@ -12,14 +12,14 @@
 namespace pharos::parallax_aware_mixtures {
 
 /// How von Mises-Fisher mixtures are learned during one render, for KdTreeLearning.
-class ParallaxAwareMixturesLearning {
+class ParallaxAwareMixturesLessons {
  public:
   using Sample = parallax_aware_mixtures::Sample;
   using Cell = CellMixture;
   static constexpr const char* kHeading = "parallax_aware_mixtures_learning";
   static constexpr std::uint32_t kVersion = 1;
 
-  explicit ParallaxAwareMixturesLearning(const ParallaxAwareMixturesSettings& settings)
+  explicit ParallaxAwareMixturesLessons(const ParallaxAwareMixturesSettings& settings)
       : settings_(settings) {}
 
   const ParallaxAwareMixturesSettings& settings() const { return settings_; }

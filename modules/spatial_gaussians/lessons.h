@@ -12,15 +12,14 @@
 namespace pharos::spatial_gaussians {
 
 /// How Gaussians are learned during one render, for KdTreeLearning.
-class SpatialGaussiansLearning {
+class SpatialGaussiansLessons {
  public:
   using Sample = spatial_gaussians::Sample;
   using Cell = CellMixture;
   static constexpr const char* kHeading = "spatial_gaussians_learning";
   static constexpr std::uint32_t kVersion = 1;
 
-  SpatialGaussiansLearning(const SpatialGaussiansSettings& settings,
-                           const LearningContext& context);
+  SpatialGaussiansLessons(const SpatialGaussiansSettings& settings, const LearningContext& context);
 
   const SpatialGaussiansSettings& settings() const { return settings_; }
   void extract(const PathView& path, std::vector<Sample>& samples) {
