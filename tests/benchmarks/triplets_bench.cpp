@@ -89,8 +89,7 @@ std::shared_ptr<const VertexTripletsModel> broad_model(const Bounds3& bounds, in
   }
   const ModelKind kind{.environment = {10 * size}};
   return std::make_shared<VertexTripletsModel>(kind, Octree({bounds.center(), size}),
-                                               std::vector{cell}, CameraMixture(),
-                                               std::vector<std::uint32_t>{0}, 0);
+                                               std::vector{cell}, CameraMixture(), 0);
 }
 
 std::vector<Measurement> answers(const Registry& registry, int count, int repeats) {

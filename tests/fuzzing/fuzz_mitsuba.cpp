@@ -13,7 +13,7 @@
 
 #include <pharos/tests/fixtures.h>
 
-#include "document.h"
+#include "document/document.h"
 
 namespace {
 

@@ -10,7 +10,7 @@
 #include <pharos/core/random.h>
 #include <pharos/guiding/record/path_record.h>
 #include <pharos/guiding/toolkit/guidable_steps.h>
-#include <pharos/rendering/scatter_step.h>
+#include <pharos/transport/scatter_step.h>
 
 namespace pharos {
 namespace {

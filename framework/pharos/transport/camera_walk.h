@@ -73,11 +73,11 @@ class CameraWalk {
     flight.found.film = {static_cast<float>(pixel % target.width) + in_pixel.x,
                          static_cast<float>(pixel / target.width) + in_pixel.y};
     LensPoint lens = target.sensor.sample_lens(path.stream.get_2d({Purpose::lens}));
-    const Ray ray = target.sensor.ray(
-        lens, {flight.found.film.x / size.x, flight.found.film.y / size.y});
+    const Ray ray =
+        target.sensor.ray(lens, {flight.found.film.x / size.x, flight.found.film.y / size.y});
     lens.position = ray.origin;
     place(lens, path);
-    kernel_.recorder().begin(path.transport, flight.found.film);
+    kernel_.recorder().begin(path, flight.found.film);
     kernel_.begin(path);
 
     ScatterStep step;
@@ -122,9 +122,8 @@ class CameraWalk {
   void sample_light(InFlight& flight, const LocalScattering& scattering, const Guidance& guidance,
                     std::uint16_t branch, Vec2 u) const {
     const Path& path = flight.path;
-    const float u_choice = shared_.lights.needs_number()
-                               ? path.numbers().get_1d(Purpose::light_choice, branch)
-                               : 0;
+    const float u_choice =
+        shared_.lights.needs_number() ? path.numbers().get_1d(Purpose::light_choice, branch) : 0;
     const int index = shared_.lights.choose(branch, u_choice);
     const Light& emitter = *scene_.lights()[static_cast<std::size_t>(index)];
     LightSample light = emitter.sample(path.here().position(), u);
@@ -264,7 +263,7 @@ class CameraWalk {
       whole_weight = flight.counterparts.of_emission(light, index, path.here(), sampled);
     }
     flight.found.radiance += whole_weight * path.throughput * radiance;
-    kernel_.recorder().emission(radiance, {weight, whole_weight});
+    kernel_.recorder().emission(path, radiance, {weight, whole_weight});
   }
 
   void add_light_sample(InFlight& flight, const LocalScattering& scattering,
@@ -307,12 +306,13 @@ class CameraWalk {
                                               resolved.event, passage.transmittance);
     }
     flight.found.radiance += whole_weight * path.throughput * value;
-    kernel_.recorder().connect({.position = light.point.position,
+    kernel_.recorder().connect(path,
+                               {.position = light.point.position,
                                 .kind = light.kind,
                                 .direction = light.direction,
                                 .event = resolved.event,
                                 .discrete = light.discrete},
-                               {weight, whole_weight}, value, path.throughput);
+                               {weight, whole_weight}, value);
   }
 
   // --- Russian roulette -----------------------------------------------------------------------

@@ -3,9 +3,8 @@
 #include <optional>
 
 #include <pharos/rendering/integrator.h>
-#include <pharos/transport/light_selection.h>
-
 #include <pharos/transport/estimator_rules.h>
+#include <pharos/transport/light_selection.h>
 #include <pharos/transport/subpath_densities.h>
 
 /// The paths of the other kind that could have made a path: the other techniques of the balance

@@ -47,7 +47,7 @@ class TransportKernel {
   void begin(Path& path) const {
     if (!describes_vertices()) return;
     path.current = path.here().described(guiding_ != nullptr ? path.here().roughness(scene_) : 1);
-    recorder_.arrive(path.current, path.throughput, path.branch);
+    recorder_.arrive(path);
   }
 
   /// Returns the guidance at the first vertex, on the lens. It lives until the path is advanced.
@@ -59,8 +59,8 @@ class TransportKernel {
   /// Continues a path from its current vertex to the next one. `visitor` does what the kind of path
   /// does at a vertex:
   ///
-  ///     bool meets(Path&, const LocalScattering&)   // before guides are asked; false: the path ends
-  ///     void leaves(Path&, const LocalScattering&, const Guidance&)   // e.g. samples lights
+  ///     bool meets(Path&, const LocalScattering&)   // before guides are asked; false: the path
+  ///     ends void leaves(Path&, const LocalScattering&, const Guidance&)   // e.g. samples lights
   ///     bool survives(Path&, const LocalScattering&, ScatterStep&)    // Russian roulette
   ///
   /// Returns false if the path ends; its throughput no longer matters then.
@@ -74,17 +74,16 @@ class TransportKernel {
     if (describes_vertices()) {
       path.current.roughness = scattering.roughness();
       if (guiding_ != nullptr) {
-        query.emplace(
-            GuidingQuery{.previous = &path.previous,
-                         .current = path.current,
-                         .towards_previous = path.towards_previous,
-                         .transport = path.transport,
-                         .bounce = path.from_both_ends ? std::uint16_t{0} : path.bounce,
-                         .scattering = &scattering,
-                         .medium = path.here().medium});
+        query.emplace(GuidingQuery{.previous = &path.previous,
+                                   .current = path.current,
+                                   .towards_previous = path.towards_previous,
+                                   .transport = path.transport,
+                                   .bounce = path.from_both_ends ? std::uint16_t{0} : path.bounce,
+                                   .scattering = &scattering,
+                                   .medium = path.here().medium});
         guidance = ask(path, *query);
       }
-      recorder_.leave(scattering, path.current.roughness, guidance);
+      recorder_.leave(path, scattering, guidance);
     }
     visitor.leaves(path, scattering, guidance);
     ScatterStep step;
@@ -92,7 +91,8 @@ class TransportKernel {
            visitor.survives(path, scattering, step) && advance(path, step, guidance, counterparts);
   }
 
-  /// Traces a step to the next vertex and weights it. Returns false if nothing can come of the path.
+  /// Traces a step to the next vertex and weights it. Returns false if nothing can come of the
+  /// path.
   template <class Counterparts>
   bool advance(Path& path, const ScatterStep& step, const Guidance& guidance,
                Counterparts& counterparts) const {
@@ -111,8 +111,7 @@ class TransportKernel {
                          (is_black(path.throughput) || to.kind == VertexKind::environment);
     if (is_lost) return false;
     if constexpr (Counterparts::kExist) {
-      counterparts.advance(from, to, step, guidance, segment.length,
-                           segment.passage.transmittance);
+      counterparts.advance(from, to, step, guidance, segment.length, segment.passage.transmittance);
     }
     move_on(path, step, segment.length);
     return !is_black(path.throughput);
@@ -148,7 +147,7 @@ class TransportKernel {
     weight *= step.continuation;
     path.arrived_discretely = path.bounce == 0 || is_discrete(step.event);
     path.throughput *= weight;
-    recorder_.step(step, path.arrival, guidance, weight, resolved, transmittance);
+    recorder_.step(path, step, guidance, weight, resolved, transmittance);
   }
 
   /// Makes the vertex that a step led to the current one.
@@ -163,7 +162,7 @@ class TransportKernel {
     if (++path.bounce == 1) path.first_throughput = max_component(path.throughput);
     if (!describes_vertices()) return;
     path.current = path.here().described();
-    recorder_.arrive(path.current, path.throughput, path.branch);
+    recorder_.arrive(path);
   }
 
   const Scene& scene_;

@@ -19,8 +19,8 @@ enum class LightSelection {
 
 template <>
 struct EnumNames<LightSelection> {
-  static constexpr auto names =
-      std::to_array<EnumName<LightSelection>>({{"one", LightSelection::one}, {"all", LightSelection::all}});
+  static constexpr auto names = std::to_array<EnumName<LightSelection>>(
+      {{"one", LightSelection::one}, {"all", LightSelection::all}});
 };
 
 /// The lights of a scene under a selection policy. Constant and thread-safe.

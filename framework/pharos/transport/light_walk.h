@@ -15,8 +15,8 @@ struct LightScene {
   std::uint16_t first_bounce = 0;  ///< number of the light's vertex in the stream's dimensions
 };
 
-/// A path from a light in flight, with what is known of the paths from the lens that could have made
-/// it. A value, like Path.
+/// A path from a light in flight, with what is known of the paths from the lens that could have
+/// made it. A value, like Path.
 template <class Counterparts>
 struct LightPath {
   Path path;
@@ -48,22 +48,22 @@ class LightWalk {
     while (goes) goes = proceed(flight);
   }
 
-  /// Begins a path at a light, shows the light to the sensor, and takes the path to its first vertex
-  /// beyond. Returns false if the path ends before.
+  /// Begins a path at a light, shows the light to the sensor, and takes the path to its first
+  /// vertex beyond. Returns false if the path ends before.
   bool begin(InFlight& flight) const {
     ++counters_.paths;
     Path& path = flight.path;
     path.transport = Transport::importance;
     path.from_both_ends = true;
     path.first_bounce = shared_.first_bounce;
-    kernel_.recorder().begin(path.transport, {});
+    kernel_.recorder().begin(path, {});
     ScatterStep step;
     return !scene_.lights().empty() && emit(flight, step) &&
            kernel_.advance(path, step, {}, flight.counterparts);
   }
 
-  /// Connects the current vertex to the lens and takes the path to the next vertex. Returns false if
-  /// it ends.
+  /// Connects the current vertex to the lens and takes the path to the next vertex. Returns false
+  /// if it ends.
   bool proceed(InFlight& flight) const {
     Visitor visitor{*this, flight.counterparts};
     return kernel_.extend(flight.path, visitor, flight.counterparts);
@@ -85,16 +85,16 @@ class LightWalk {
 
   // --- the light ------------------------------------------------------------------------------
 
-  /// Draws a ray that leaves a light, and shows the light itself to the sensor. False if nothing can
-  /// come of it.
+  /// Draws a ray that leaves a light, and shows the light itself to the sensor. False if nothing
+  /// can come of it.
   bool emit(InFlight& flight, ScatterStep& step) const {
     Path& path = flight.path;
     const VertexStream numbers = path.numbers();
     const int index = shared_.lights.choose(0, numbers.get_1d(Purpose::light_choice));
     const Light& light = *scene_.lights()[static_cast<std::size_t>(index)];
     const float chosen = shared_.lights.probability(index);
-    const EmissionSample emission = light.sample_emission(
-        numbers.get_2d(Purpose::light_position), numbers.get_2d(Purpose::bsdf_direction));
+    const EmissionSample emission = light.sample_emission(numbers.get_2d(Purpose::light_position),
+                                                          numbers.get_2d(Purpose::bsdf_direction));
     if (!(emission.pdf.direction > 0) || !(chosen > 0)) return false;
     place(emission, path);
     // Light of the environment crosses media from infinitely far away.
@@ -163,8 +163,7 @@ class LightWalk {
                         float chosen) const {
     if (!light.is_environment()) return;
     const RenderTarget& target = shared_.target;
-    const LensPoint lens =
-        target.sensor.sample_lens(flight.path.numbers().get_2d(Purpose::lens));
+    const LensPoint lens = target.sensor.sample_lens(flight.path.numbers().get_2d(Purpose::lens));
     const Vec3 towards = -emission.direction;
     const std::optional<SensorResponse> seen = target.sensor.response(lens, towards);
     if (!seen) return;
@@ -203,11 +202,12 @@ class LightWalk {
       weight = counterparts.of_connection(path.here(), *way, event, transmittance);
     }
     const Rgb seen = way->pdf * transmittance * value;
-    kernel_.recorder().connect({.position = way->lens.position,
+    kernel_.recorder().connect(path,
+                               {.position = way->lens.position,
                                 .kind = VertexKind::sensor,
                                 .direction = way->direction,
                                 .event = event},
-                               {1, weight}, seen, path.throughput);
+                               {1, weight}, seen);
     contribute(way->film, weight * path.throughput * seen);
   }
 

@@ -24,12 +24,13 @@ struct Path {
   std::uint16_t first_bounce = 0;  ///< number of the first vertex in the dimensions of `stream`
   std::uint16_t bounce = 0;        ///< number of the current vertex; 0 on the lens or on the light
   std::uint32_t branch = 0;        ///< key of the branch, for records
+  std::uint32_t record = kNoVertex;  ///< index of the current vertex in the record of the path
 
-  Rgb throughput{1};            ///< f/p of everything before the current vertex
-  Vec3 towards_previous;        ///< unit; at the first vertex its normal
-  StepDensity arrival;          ///< densities of the step that led here
-  float medium_density = 1;     ///< the medium's factor in `arrival`
-  float segment_length = 0;     ///< of the step that led here [scene units]
+  Rgb throughput{1};         ///< f/p of everything before the current vertex
+  Vec3 towards_previous;     ///< unit; at the first vertex its normal
+  StepDensity arrival;       ///< densities of the step that led here
+  float medium_density = 1;  ///< the medium's factor in `arrival`
+  float segment_length = 0;  ///< of the step that led here [scene units]
   bool arrived_discretely = true;
 
   float first_throughput = 1;   ///< largest component after the first step, for Russian roulette

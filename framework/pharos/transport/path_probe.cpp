@@ -29,8 +29,8 @@ class PinnedSampler final : public PreparedSampler {
 /// Keeps the contribution of the last light sample, throughput included.
 class LightProbeRecorder : public SilentRecorder {
  public:
-  void connect(const Connection&, PathWeight weight, Rgb value, Rgb throughput) {
-    last_ = throughput * (weight.own_end * value);
+  void connect(const Path& path, const Connection&, PathWeight weight, Rgb value) {
+    last_ = path.throughput * (weight.own_end * value);
   }
   /// Returns that contribution; black if there was none since the last call.
   Rgb take() { return std::exchange(last_, Rgb()); }

@@ -21,13 +21,13 @@ template <>
 struct EnumNames<MisHeuristic> {
   static constexpr auto names =
       std::to_array<EnumName<MisHeuristic>>({{"balance", MisHeuristic::balance},
-       {"power", MisHeuristic::power},
-       {"light_samples", MisHeuristic::light_samples}});
+                                             {"power", MisHeuristic::power},
+                                             {"light_samples", MisHeuristic::light_samples}});
 };
 template <>
 struct EnumNames<Roulette> {
-  static constexpr auto names =
-      std::to_array<EnumName<Roulette>>({{"off", Roulette::off}, {"throughput", Roulette::throughput}});
+  static constexpr auto names = std::to_array<EnumName<Roulette>>(
+      {{"off", Roulette::off}, {"throughput", Roulette::throughput}});
 };
 
 /// How paths from the sensor are traced.

@@ -87,9 +87,10 @@ std::string path_text(const PathView& path, Rgb radiance) {
   return out;
 }
 
-void LightPathTeller::arrive(const GuidingVertex& vertex, Rgb throughput, std::uint32_t) {
-  text_ += fmt::format("{:3} {:<11} at {}  throughput {}\n", number_++, kind_name(vertex.kind),
-                       text(vertex.position), text(throughput));
+void LightPathTeller::arrive(const Path& path) {
+  text_ +=
+      fmt::format("{:3} {:<11} at {}  throughput {}\n", number_++, kind_name(path.current.kind),
+                  text(path.current.position), text(path.throughput));
 }
 
 void LightPathTeller::contribute(Vec2 film, Rgb contribution) {

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include <pharos/guiding/record/path_record.h>
-#include <pharos/transport/scatter_step.h>
+#include <pharos/transport/path.h>
 
 namespace pharos {
 
@@ -30,56 +30,58 @@ struct SilentRecorder {
   static constexpr bool kRecords = false;
 
   /// A path begins; `film` in pixels, unknown for paths from lights.
-  void begin(Transport, Vec2 /*film*/) {}
+  void begin(Path&, Vec2 /*film*/) {}
   /// A guide of the camera chose this place on the film [pixels].
   void film(Vec2) {}
-  /// A vertex is reached, the first one included.
-  void arrive(const GuidingVertex&, Rgb /*throughput*/, std::uint32_t /*branch*/) {}
+  /// The path has reached its current vertex, or begins there.
+  void arrive(Path&) {}
   /// Emission of the current vertex.
-  void emission(Rgb /*radiance*/, PathWeight) {}
+  void emission(const Path&, Rgb /*radiance*/, PathWeight) {}
   /// The path is about to leave the current vertex.
-  void leave(const LocalScattering&, float /*roughness*/, const Guidance&) {}
+  void leave(const Path&, const LocalScattering&, const Guidance&) {}
   /// A connection from the current vertex; `value` is its f/p, without throughput.
-  void connect(const Connection&, PathWeight, Rgb /*value*/, Rgb /*throughput*/) {}
+  void connect(const Path&, const Connection&, PathWeight, Rgb /*value*/) {}
   /// The step from the current vertex, once the next vertex is known.
-  void step(const ScatterStep&, const StepDensity&, const Guidance&, Rgb /*weight*/,
-            const ResolvedVertex&, Rgb /*transmittance*/) {}
+  void step(const Path&, const ScatterStep&, const Guidance&, Rgb /*weight*/, const ResolvedVertex&,
+            Rgb /*transmittance*/) {}
   /// What a path from a light adds to the film [pixels], as FilmTile::add_splat() takes it.
   void contribute(Vec2 /*film*/, Rgb /*contribution*/) {}
 };
 
-/// Writes paths into a PathLog.
+/// Writes paths into a PathLog, one after another. What it knows of a path in flight is
+/// Path::record, so that branches of a path can be recorded in turn.
 class LogRecorder {
  public:
   static constexpr bool kRecords = true;
   explicit LogRecorder(PathLog& log) : log_(log) {}
 
-  void begin(Transport transport, Vec2 film) {
-    log_.begin_path(film, transport);
-    current_ = kNoVertex;
+  void begin(Path& path, Vec2 film) {
+    log_.begin_path(film, path.transport);
+    path.record = kNoVertex;
   }
   void film(Vec2 film) { log_.set_film(film); }
-  void arrive(const GuidingVertex& vertex, Rgb throughput, std::uint32_t branch) {
-    current_ = log_.add(RecordedVertex{.position = vertex.position,
-                                       .normal = vertex.normal,
-                                       .kind = vertex.kind,
-                                       .parent = current_,
-                                       .throughput = throughput,
-                                       .branch = branch});
+  void arrive(Path& path) {
+    path.record = log_.add(RecordedVertex{.position = path.current.position,
+                                          .normal = path.current.normal,
+                                          .kind = path.current.kind,
+                                          .parent = path.record,
+                                          .throughput = path.throughput,
+                                          .branch = path.branch});
   }
-  void emission(Rgb radiance, PathWeight weight) {
-    current().emission += weight.own_end * radiance;
-    current().joint_emission += weight.both_ends * radiance;
+  void emission(const Path& path, Rgb radiance, PathWeight weight) {
+    RecordedVertex& here = log_.vertex(path.record);
+    here.emission += weight.own_end * radiance;
+    here.joint_emission += weight.both_ends * radiance;
   }
-  void leave(const LocalScattering& scattering, float roughness, const Guidance& guidance) {
-    RecordedVertex& here = current();
-    here.roughness = roughness;
+  void leave(const Path& path, const LocalScattering& scattering, const Guidance& guidance) {
+    RecordedVertex& here = log_.vertex(path.record);
+    here.roughness = path.current.roughness;
     if (scattering.is_surface()) here.eta = scattering.bsdf().relative_ior();
     here.guidable = !scattering.purely_discrete();
     here.mixing_key = guidance.mixing_key;
   }
-  void connect(const Connection& end, PathWeight weight, Rgb value, Rgb) {
-    log_.add(RecordedLightSample{.vertex = current_,
+  void connect(const Path& path, const Connection& end, PathWeight weight, Rgb value) {
+    log_.add(RecordedLightSample{.vertex = path.record,
                                  .position = end.position,
                                  .kind = end.kind,
                                  .event = end.event,
@@ -89,28 +91,26 @@ class LogRecorder {
                                  .joint_contribution = weight.both_ends * value,
                                  .mis_weight = weight.own_end});
   }
-  void step(const ScatterStep& step, const StepDensity& density, const Guidance& guidance,
-            Rgb weight, const ResolvedVertex& target, Rgb transmittance) {
-    RecordedVertex& here = current();
+  void step(const Path& path, const ScatterStep& step, const Guidance& guidance, Rgb weight,
+            const ResolvedVertex& target, Rgb transmittance) {
+    RecordedVertex& here = log_.vertex(path.record);
     here.event = step.event;
     here.direction = step.direction;
     here.local_weight = weight;
     here.continuation = step.continuation;
-    here.pdf = density.total;
+    here.pdf = path.arrival.total;
     here.mixing_key = guidance.mixing_key;
     here.guidable |= guidance.is_guided();
     here.medium_density = target.medium_density;
     here.transmittance = transmittance;
     std::array<Technique, GuidingSettings::kMostMethods + 1> techniques;
-    log_.set_techniques(current_, guidance.techniques(target, density.unguided, techniques));
+    log_.set_techniques(path.record,
+                        guidance.techniques(target, path.arrival.unguided, techniques));
   }
   void contribute(Vec2, Rgb) {}
 
  private:
-  RecordedVertex& current() { return log_.vertex(current_); }
-
   PathLog& log_;
-  std::uint32_t current_ = kNoVertex;
 };
 
 }  // namespace pharos

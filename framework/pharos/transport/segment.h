@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include <pharos/rendering/integrator.h>
-#include <pharos/transport/scatter_step.h>
 #include <pharos/scene/scene.h>
+#include <pharos/transport/scatter_step.h>
 
 namespace pharos {
 

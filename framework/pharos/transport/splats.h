@@ -63,7 +63,7 @@ class SplatRecorder : public Recorder {
 class LightPathTeller : public SilentRecorder {
  public:
   static constexpr bool kRecords = true;
-  void arrive(const GuidingVertex& vertex, Rgb throughput, std::uint32_t branch);
+  void arrive(const Path& path);
   void contribute(Vec2 film, Rgb contribution);
   PathTrace trace() const { return {total_, text_}; }
 

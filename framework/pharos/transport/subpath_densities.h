@@ -5,9 +5,8 @@
 
 #include <pharos/core/arena.h>
 #include <pharos/rendering/integrator.h>
-#include <pharos/transport/scatter_step.h>
-
 #include <pharos/transport/path_vertex.h>
+#include <pharos/transport/scatter_step.h>
 
 /// Densities for the balance heuristic over whole paths (Veach 1997, section 10.2). They are those
 /// of vertices, in vertex measure: [1/m^2] on surfaces, [1/m^3] in media, [1/sr] for the

@@ -66,7 +66,7 @@ TEST_CASE(
   };
   const auto density = [&](Vec3 direction) -> double {
     const auto first = seen(direction);
-    return first ? guide.density(*first).value : 0;
+    return first ? guide.density(*first) : 0;
   };
   const auto fit = statistics::fit_direction_density(draw, density);
   CHECK(fit.outside_support == 0);

@@ -45,7 +45,7 @@ struct InMedium {
       : vertices(std::move(next)),
         phase(mean_cosine),
         scattering(phase, Rgb(1), kBack, Transport::radiance),
-        guide(NextDistribution::make(vertices, scattering, {}, rules, 0, 0, arena)) {}
+        guide(NextDistribution::make(vertices, scattering, {}, rules, 0, arena)) {}
 
   std::vector<NextVertex> vertices;
   Cone phase;
@@ -61,9 +61,8 @@ statistics::DensityFit fit_directions(const NextDistribution& guide, VertexKind 
     return fits ? std::optional(proposal->direction) : std::nullopt;
   };
   const auto density = [&](Vec3 direction) -> double {
-    return guide
-        .density({.direction = direction, .distance = 1, .kind = kind, .event = Event::scatter})
-        .value;
+    return guide.density(
+        {.direction = direction, .distance = 1, .kind = kind, .event = Event::scatter});
   };
   return statistics::fit_direction_density(draw, density);
 }
@@ -100,7 +99,7 @@ TEST_CASE("near specular: shares of the phase function and of the Gaussians (eq.
   for (int i = 0; i < 100; ++i) {
     const Vec3 direction = warp::cone_from_square(random.next_2d(), 0.3f);
     const auto density = [&](const InMedium& where) {
-      return where.guide->density({.direction = direction, .event = Event::scatter}).value;
+      return where.guide->density({.direction = direction, .event = Event::scatter});
     };
     const float phase = at.phase.evaluate(kBack, direction);
     CHECK(density(at) == doctest::Approx(0.5f * (phase + density(rough))).epsilon(1e-3));
@@ -114,13 +113,11 @@ double over_distances(const NextDistribution& guide, Vec3 direction, Event event
   double sum = 0;
   for (int i = 0; i < kSteps; ++i) {
     const auto t = static_cast<float>((i + 0.5) * kReach / kSteps);
-    sum += guide
-               .density({.direction = direction,
-                         .distance = t,
-                         .position = t * direction,
-                         .kind = VertexKind::volume,
-                         .event = event})
-               .value *
+    sum += guide.density({.direction = direction,
+                          .distance = t,
+                          .position = t * direction,
+                          .kind = VertexKind::volume,
+                          .event = event}) *
            kReach / kSteps;
   }
   return sum;
@@ -194,13 +191,11 @@ TEST_CASE("in media: points along the rays of narrow cones follow their density 
         for (int k = 0; k < kLengths * kFine; ++k) {
           const auto t = static_cast<float>(kFrom + (k + 0.5) * step);
           expected[cell(direction, t)] += kDraws * side * side / (size * size * size) * step *
-                                          at.guide
-                                              ->density({.direction = direction,
-                                                         .distance = t,
-                                                         .position = t * direction,
-                                                         .kind = VertexKind::volume,
-                                                         .event = Event::scatter})
-                                              .value;
+                                          at.guide->density({.direction = direction,
+                                                             .distance = t,
+                                                             .position = t * direction,
+                                                             .kind = VertexKind::volume,
+                                                             .event = Event::scatter});
         }
       }
     }
@@ -315,14 +310,12 @@ TEST_CASE("discrete events: each as often as its components' shares, distances i
   const Vec3 back = normalize(Vec3{0.1f, -0.15f, -1});
   const LocalScattering scattering(surface, pane, back, Transport::radiance);
   Arena arena;
-  const auto* guide = NextDistribution::make(next, scattering, {}, {}, 0, 0, arena);
+  const auto* guide = NextDistribution::make(next, scattering, {}, {}, 0, arena);
   REQUIRE(guide != nullptr);
   const auto reflected = guide->density(
       {.distance = 1, .kind = VertexKind::surface, .event = Event::discrete_reflect});
-  CHECK(reflected.value == doctest::Approx(0.6f));
-  CHECK(reflected.measure == Measure::discrete);
-  CHECK(guide->density({.kind = VertexKind::environment, .event = Event::discrete_reflect}).value ==
-        0);
+  CHECK(reflected == doctest::Approx(0.6f));
+  CHECK(guide->density({.kind = VertexKind::environment, .event = Event::discrete_reflect}) == 0);
   CHECK(over_distances(*guide, -back, Event::discrete_transmit) ==
         doctest::Approx(0.4).epsilon(1e-2));
   RandomStream random(9);
@@ -344,8 +337,8 @@ TEST_CASE("projections: seen from their own means there is no direction") {
   const Cone phase(0);
   const LocalScattering scattering(phase, Rgb(1), kBack, Transport::radiance);
   Arena arena;
-  CHECK(NextDistribution::make(next, scattering, {}, {}, 1e-6f, 0, arena) == nullptr);
-  CHECK(NextDistribution::make(next, scattering, {}, {.technique = SurfaceTechnique::p0}, 1e-6f, 0,
+  CHECK(NextDistribution::make(next, scattering, {}, {}, 1e-6f, arena) == nullptr);
+  CHECK(NextDistribution::make(next, scattering, {}, {.technique = SurfaceTechnique::p0}, 1e-6f,
                                arena) != nullptr);
 }
 

@@ -22,28 +22,30 @@ std::shared_ptr<const VertexTripletsModel> pairs_at_a_pane() {
     cell.pairs.push_back({Mode{VertexKind::surface, event, VertexKind::surface},
                           {make_component<3>(share, gaussian)}});
   }
-  return std::make_shared<VertexTripletsModel>(
-      ModelKind{.prefix = Prefix::pair}, Octree({{}, 4}), std::vector<CellKnowledge>{cell},
-      CameraMixture(std::vector<FirstVertex>{}), std::vector<std::uint32_t>{0}, 0);
+  return std::make_shared<VertexTripletsModel>(ModelKind{.prefix = Prefix::pair}, Octree({{}, 4}),
+                                               std::vector<CellKnowledge>{cell},
+                                               CameraMixture(std::vector<FirstVertex>{}), 0);
 }
 
 TEST_CASE("guides: where reflection is total, nothing aims at transmission") {
-  const auto bound = VertexTripletsGuider({}).bind(pairs_at_a_pane());
+  const VertexTripletsGuider guider({});
+  const BoundGuider bound(guider, pairs_at_a_pane());
   const SurfacePoint surface{.normal = {0, 0, 1}, .shading = Frame::from_normal({0, 0, 1})};
   const Vec3 back = normalize(Vec3{0.6f, 0, 0.8f});
-  const GuidingVertex previous{.position = {1, 0, 1}};
+  const GuidingVertex previous{.position = {1, 0, 1}}, current{.position = {0, 0, 0}};
   for (const bool total : {false, true}) {
     const Pane pane(total);
     const LocalScattering scattering(surface, pane, back, Transport::radiance);
     const GuidingQuery query{.previous = &previous,
-                             .current = {.position = {0, 0, 0}},
+                             .current = current,
                              .towards_previous = back,
-                             .scattering = scattering};
+                             .scattering = &scattering,
+                             .region = bound.model().place(current).region};
     Arena arena;
-    const GuidingDistribution* guide = bound->query(query, arena);
+    const GuidingDistribution* guide = bound.query(query, arena);
     REQUIRE(guide != nullptr);
     const auto share = [&](Event event) {
-      return guide->density({.distance = 1, .kind = VertexKind::surface, .event = event}).value;
+      return guide->density({.distance = 1, .kind = VertexKind::surface, .event = event});
     };
     CHECK(share(Event::discrete_reflect) == doctest::Approx(total ? 1 : 0.25));
     CHECK(share(Event::discrete_transmit) == doctest::Approx(total ? 0 : 0.75));

@@ -95,18 +95,24 @@ TEST_CASE("octree: about as many cells as there are thresholds in all samples") 
 
 TEST_CASE("octree: saved and loaded it is the same; damage is noticed") {
   const Octree tree = grown(200);
-  std::stringstream saved;
-  tree.save(saved);
+  std::ostringstream saved;
+  save(saved, tree);
   const std::string bytes = saved.str();
-  CHECK(Octree::load(saved) == tree);
-  for (const std::size_t length : {bytes.size() - 1, std::size_t{3}, std::size_t{21}}) {
-    std::istringstream cut(bytes.substr(0, length));
-    CHECK_THROWS_AS(Octree::load(cut), InputError);
+  const auto loaded = [](const std::string& text) {
+    std::istringstream in(text);
+    Octree result(Cube{});
+    load(in, result);
+    return result;
+  };
+  CHECK(loaded(bytes) == tree);
+  // The cuts are within the cube, within the number of nodes, and after the first node.
+  for (const std::size_t length :
+       {std::size_t{3}, std::size_t{21}, std::size_t{25}, bytes.size() - 1}) {
+    CHECK_THROWS_AS(loaded(bytes.substr(0, length)), InputError);
   }
   std::string turned = bytes;
   turned.back() = 0;  // turns a cell into an inner node without parts
-  std::istringstream damaged(turned);
-  CHECK_THROWS_AS(Octree::load(damaged), InputError);
+  CHECK_THROWS_AS(loaded(turned), InputError);
 }
 
 }  // namespace
