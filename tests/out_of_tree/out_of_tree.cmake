@@ -18,7 +18,7 @@ step(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/build -G Ninja
      -D CMAKE_BUILD_TYPE=${BUILD_TYPE})
 step(${CMAKE_COMMAND} --build ${WORK}/build)
 step(ctest --test-dir ${WORK}/build --verbose)
-if(NOT output MATCHES "ok +[a-z]+ +${MODULE} +5 checks")
+if(NOT output MATCHES "ok +[a-z]+ +${MODULE} +[0-9]+ checks")
   message(FATAL_ERROR "the contract's suite did not test the module:\n${output}")
 endif()
 
