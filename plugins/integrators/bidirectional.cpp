@@ -54,7 +54,8 @@ LightPathRules BidirectionalIntegrator::Settings::light_path_rules() const {
 IntegratorTraits BidirectionalIntegrator::traits() const {
   return {.records = {.light_samples = true, .light_paths = true},
           .guided = true,
-          .guided_camera = true};
+          .guided_camera = true,
+          .trains_with_other_paths = settings_.light_paths == LightPaths::training};
 }
 
 const GuidingSettings* BidirectionalIntegrator::guiding() const {

@@ -75,7 +75,7 @@ TEST_CASE("synthesize: it is told of with all other commands and plugins") {
   CHECK(run_pharos("synthesize --help", folder.path()).out.find("--pair-step") !=
         std::string::npos);
   CHECK(run_pharos("plugins command", folder.path()).out.find("synthesize") != std::string::npos);
-  check_refused(Mistake{.arguments = "synthesize"}, {"did you mean 'synthesize'?"});
+  check_refused(Mistake{.arguments = "synthesise"}, {"did you mean 'synthesize'?"});
 }
 
 TEST_CASE("synthesize: mistakes") {

@@ -280,6 +280,7 @@ void check_guider(const Registry& registry, const Subject& guider, const Subject
   for (Check* c : {&chi_square, &integral, &determinism, &save_load}) {
     c->not_applicable("the guide knows nothing at any vertex");
   }
+  places.not_applicable("there is no model");
   const bool guides_light_paths = pair.the_guider().traits().guides_light_paths;
   int answered = 0;
   for (const bool foggy : {false, true}) {

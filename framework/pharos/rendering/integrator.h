@@ -63,7 +63,7 @@ struct RenderTarget {
 
 /// One path, step by step, as text; made by replaying its key.
 struct PathTrace {
-  Rgb radiance;
+  Rgb radiance;  ///< what the path adds to the image: the sum over all pixels for one sample each
   std::string text;
 };
 
@@ -87,7 +87,9 @@ class PreparedIntegrator {
 struct IntegratorTraits {
   RecordNeeds records;         ///< what it can record
   bool guided = false;         ///< asks guiders at vertices
-  bool guided_camera = false;  ///< asks camera guiders
+  bool guided_camera = false;  ///< lets guiders propose first vertices
+  /// Training iterations make other paths than the final image does.
+  bool trains_with_other_paths = false;
 };
 
 /// Contract: how light transport is estimated. Knows no guiding method by name.

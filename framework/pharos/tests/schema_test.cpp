@@ -231,7 +231,7 @@ TEST_CASE("errors: ranges") {
   CHECK(error("radius: 0.30001") == "a.yaml:1:9: error: radius must be <= 0.3, got 0.30001");
   CHECK(error("radius: 0.3") == "no error");
   CHECK(error("count: -1") == "a.yaml:1:8: error: count must be >= 0, got -1");
-  CHECK(error("color: [0, 2, 0]") == "a.yaml:1:9: error: color must be <= 1, got [0, 2, 0]");
+  CHECK(error("color: [0, 2, 0]") == "a.yaml:1:8: error: color must be <= 1, got [0, 2, 0]");
   CHECK(error("limit: 1") == "a.yaml:1:8: error: limit must be > 1, got 1");
   CHECK(error("list: [1, -2]") == "a.yaml:1:7: error: list must be >= 0, got [1, -2]");
   CHECK(error("inner:\n  count: 10") == "a.yaml:2:10: error: count must be <= 9, got 10");
@@ -280,7 +280,7 @@ TEST_CASE("errors: other types") {
         "a.yaml:1:7: error: expected a list of 3 numbers [x, y, z], found the list [1, 2]");
   CHECK(error("axis: [1, 2, z]") == "a.yaml:1:14: error: expected a number, found the scalar 'z'");
   CHECK(error("color: red") ==
-        "a.yaml:1:9: error: expected a color: a number or a list of 3 numbers [r, g, b], found "
+        "a.yaml:1:8: error: expected a color: a number or a list of 3 numbers [r, g, b], found "
         "the scalar 'red'");
   CHECK(error("mode: al") ==
         "a.yaml:1:7: error: expected one of 'one', 'all', found the scalar 'al' (did you mean "

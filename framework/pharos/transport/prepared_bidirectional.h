@@ -50,7 +50,7 @@ class PreparedBidirectional : public PreparedIntegrator {
   PathTrace replay(const PathKey& key, const IterationContext& context) const override {
     PathLog log;
     LogRecorder recorder(log);
-    LightPathTeller teller;
+    LightPathTeller teller(target_);
     Arenas arenas;
     RenderCounters counters;
     const SampleStream stream(context.sampler, key);

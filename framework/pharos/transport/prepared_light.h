@@ -29,7 +29,7 @@ class PreparedLightTracing : public PreparedIntegrator {
   }
 
   PathTrace replay(const PathKey& key, const IterationContext& context) const override {
-    LightPathTeller teller;
+    LightPathTeller teller(target_);
     RenderCounters counters;
     TransportArenas arenas;
     LightWalk(shared_, context, arenas, counters, teller).run(SampleStream(context.sampler, key));

@@ -63,11 +63,14 @@ class SplatRecorder : public Recorder {
 class LightPathTeller : public SilentRecorder {
  public:
   static constexpr bool kRecords = true;
+  explicit LightPathTeller(const RenderTarget& target)
+      : pixels_(static_cast<float>(target.window.area())) {}
   void arrive(const Path& path);
   void contribute(Vec2 film, Rgb contribution);
-  PathTrace trace() const { return {total_, text_}; }
+  PathTrace trace() const { return {total_ / pixels_, text_}; }
 
  private:
+  float pixels_;
   std::string text_;
   int number_ = 0;
   Rgb total_;
