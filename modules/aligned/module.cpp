@@ -6,7 +6,7 @@
 
 PHAROS_MODULE(registry) {
   using namespace pharos::aligned;
-  registry.add<AlignedSampler>("aligned", "Points aligned with the edges of integrands");
+  registry.add<AlignedSampler>("aligned", "Point sets aligned with the edges of integrands");
   registry.add<DirectionsCommand>("directions",
                                   "Draw the estimated directions of the edges in a scene");
   registry.add<SynthesizeCommand>("synthesize",

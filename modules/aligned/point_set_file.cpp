@@ -39,7 +39,7 @@ PointSet load_set(std::istream& in, std::uint32_t points) {
   return set;
 }
 
-/// What stands before the points.
+/// The header of the file, before the points.
 struct Head {
   std::uint64_t key = 0;
   std::uint32_t sets = 0, points = 0;

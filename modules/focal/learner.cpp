@@ -15,47 +15,48 @@ void RegionSettings::describe(Schema<RegionSettings>& s) {
 void FocalSettings::describe(Schema<FocalSettings>& s) {
   using S = FocalSettings;
   s.field("region", &S::region,
-          "Where focal points may lie; by default the bounds of geometry and sensor");
+          "Box that can contain focal points; by default the bounds of geometry and sensor");
   s.field("region_growths", &S::region_growths,
-          "How often the region may double, each time after an iteration before narrowing in which "
-          "its densest place is at its boundary: virtual images may lie outside the scene")
+          "How often the region may double in size: after an iteration before narrowing, if its "
+          "densest cell touches its boundary, because virtual images may lie outside the scene")
       .at_least(0)
       .at_most(8);
   s.field("split_threshold", &S::split_threshold,
-          "Share of all mass above which a cell is divided (gamma)")
+          "Share of the total mass above which a cell is split (gamma)")
       .at_least(1e-6)
       .at_most(1);
-  s.field("max_depth", &S::max_depth, "Depth of the finest cells: edges are 2^-(depth + 1)")
+  s.field("max_depth", &S::max_depth,
+          "Maximum depth of leaves, whose edges are 2^-(depth + 1) of the region's")
       .at_least(0)
       .at_most(Octree::kMostLevels - 1);
-  s.field(
-       "narrowing_iterations", &S::narrowing_iterations,
-       "How many of the last training iterations narrow the density to true focal points; at most "
-       "a third of them all")
+  s.field("narrowing_iterations", &S::narrowing_iterations,
+          "Number of training iterations that narrow the density to true focal points: the last "
+          "ones, and at most a third of all")
       .at_least(0);
   s.field("splat_extent", &S::splat_extent,
-          "What a path meets: all of each segment's line (paper), or the segment alone unless its "
-          "end is nearly specular (authors' code)");
+          "Where a path adds mass: along the whole line of each segment (paper), or only along the "
+          "segment itself unless its end is nearly specular (authors' code)");
   s.field("glossy_roughness", &S::glossy_roughness,
-          "Roughness below which an end is nearly specular, for `roughness_gated`")
+          "For `roughness_gated`: roughness below which the end of a segment is nearly specular")
       .at_least(0)
       .at_most(1);
   s.field("splat_weight", &S::splat_weight,
-          "What a cell gets before narrowing: by the length within it (paper), or by its share of "
-          "the segment (authors' code)");
+          "Weight of a contribution in a cell before narrowing: the length within the cell "
+          "(paper), or the cell's share of the splatted length (authors' code)");
   s.field("decay", &S::decay,
-          "Share of earlier iterations' masses that is kept: 0 (paper), 0.5 (authors' code)")
+          "Factor on the masses of earlier iterations: 0 (paper), 0.5 (authors' code)")
       .at_least(0)
       .below(1);
   s.field("narrowing_decay", &S::narrowing_decay,
-          "The same once narrowing has begun: 0 (paper), 0.25 (authors' code)")
+          "The same factor once narrowing has begun: 0 (paper), 0.25 (authors' code)")
       .at_least(0)
       .below(1);
-  s.field("mis_compensation", &S::mis_compensation,
-          "Leave to the BSDF what it samples well, while narrowing");
+  s.field(
+      "mis_compensation", &S::mis_compensation,
+      "MIS compensation while narrowing: the density leaves to BSDF sampling what it samples well");
   s.field("prune_ratio", &S::prune_ratio,
-          "After training, nodes in which no leaf is denser than this many times their mean become "
-          "leaves; 0 keeps all")
+          "After training, a node becomes a leaf if none of its leaves is denser than this many "
+          "times their mean; 0 keeps all nodes")
       .at_least(0);
 }
 

@@ -11,14 +11,14 @@ namespace pharos {
 
 template <>
 struct EnumNames<focal::SplatExtent> {
-  static constexpr auto names =
-      std::to_array<EnumName<focal::SplatExtent>>({{"line", focal::SplatExtent::line},
+  static constexpr auto names = std::to_array<EnumName<focal::SplatExtent>>(
+      {{"line", focal::SplatExtent::line},
        {"roughness_gated", focal::SplatExtent::roughness_gated}});
 };
 template <>
 struct EnumNames<focal::SplatWeight> {
-  static constexpr auto names =
-      std::to_array<EnumName<focal::SplatWeight>>({{"length", focal::SplatWeight::length}, {"share", focal::SplatWeight::share}});
+  static constexpr auto names = std::to_array<EnumName<focal::SplatWeight>>(
+      {{"length", focal::SplatWeight::length}, {"share", focal::SplatWeight::share}});
 };
 
 namespace focal {
@@ -46,11 +46,12 @@ struct FocalSettings {
   static void describe(Schema<FocalSettings>& schema);
 };
 
-/// Learns where light meets in space from the lines that carry it (Rath et al. 2023).
+/// Learns a density of focal points, where light meets in space, from the path segments that carry
+/// light (Rath et al. 2023).
 class FocalLearner final : public Learner {
  public:
   using Settings = FocalSettings;
-  /// Throws InputError for a region without volume.
+  /// Throws InputError if the region has no volume.
   explicit FocalLearner(const Settings& settings);
 
   LearnerTraits traits() const override;

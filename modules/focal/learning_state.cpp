@@ -11,10 +11,12 @@
 namespace pharos::focal {
 namespace {
 
-/// Segments are splatted in groups of this size, each into sums of its own, this many at a time.
+/// The number of segments in a group, and the number of groups that are splatted at a time. Each
+/// group has its own sums.
 constexpr std::size_t kGroup = 4096, kGroups = 16;
 
-/// The region as a box with a volume: a flat one gets a thousandth of its diagonal as thickness.
+/// Returns the region as a box with a volume. A flat region gets a thousandth of its diagonal as
+/// thickness.
 Box region_box(const Bounds3& region) {
   Box box{{-0.5, -0.5, -0.5}, {1, 1, 1}};
   if (region.empty()) return box;
@@ -41,7 +43,7 @@ double diagonal(const Box& box) {
   return std::sqrt(squared);
 }
 
-/// The old masses, of which `decay` is kept, and the new ones for each path.
+/// Multiplies masses by `decay` and adds the new sums divided by the number of paths.
 void fold(std::vector<double>& masses, const std::vector<double>& sums, double decay,
           double paths) {
   for (std::size_t i = 0; i < masses.size(); ++i) {
@@ -62,7 +64,8 @@ FocalLearningState::FocalLearningState(const FocalSettings& settings,
       sums_(density_) {
   const Box box = region_box(region_of(settings, context));
   diagonal_ = diagonal(box);
-  // Learning starts from the even density in both octrees, each divided as if it had all mass.
+  // Learning starts with the uniform density in both octrees. Each is refined as if it had all
+  // mass.
   converging_ = diverging_ =
       refined(uniform_octree(box, 0.5),
               {.threshold = settings.split_threshold / 2, .max_depth = max_depth_});
@@ -86,7 +89,7 @@ void FocalLearningState::absorb(const PathLog& log) {
 void FocalLearningState::splat_waiting() {
   const std::size_t count = (waiting_.size() + kGroup - 1) / kGroup;
   groups_.assign(count, FocalSums(density_));
-  // Isolated: the thread that waits here must not take up rendering instead.
+  // The loop is isolated, because the thread that waits here must not take up rendering instead.
   tbb::this_task_arena::isolate([&] {
     tbb::parallel_for(std::size_t{0}, count, [&](std::size_t g) {
       const std::size_t begin = g * kGroup;
@@ -109,7 +112,7 @@ void FocalLearningState::splat(std::span<const Segment> segments, FocalSums& sum
 
 Learned FocalLearningState::update(std::uint32_t iteration, bool last) {
   splat_waiting();
-  // An iteration that found no light is no reason to forget what earlier ones did.
+  // If an iteration finds no light, the masses of earlier iterations stay.
   if (sums_.total() > 0) {
     const double decay = narrowing_ ? settings_.narrowing_decay : settings_.decay;
     const double kept = knows_something_ ? decay : 0;
@@ -120,7 +123,7 @@ Learned FocalLearningState::update(std::uint32_t iteration, bool last) {
     if (growths_left_ > 0 && !narrows(iteration + 1)) grow_region(mass);
     knows_something_ = true;
   }
-  // Without a guide so far, there is nothing to narrow.
+  // Only a learned density can be narrowed.
   narrowing_ = knows_something_ && narrows(iteration + 1);
   paths_ = 0;
   return {knows_something_ ? model(last) : nullptr};
@@ -144,7 +147,7 @@ void FocalLearningState::grow_region(double total_mass) {
   if (!is_at_boundary || max_depth_ + 1 >= Octree::kMostLevels) return;
   converging_ = enlarged(converging_);
   diverging_ = enlarged(diverging_);
-  ++max_depth_;  // cells as small as before
+  ++max_depth_;  // keeps the size of the smallest cells
   --growths_left_;
   refine(total_mass);
 }

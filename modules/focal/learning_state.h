@@ -11,7 +11,7 @@
 
 namespace pharos::focal {
 
-/// What is learned during one render: two octrees that become finer where mass collects.
+/// The state of learning during one render: two octrees that become finer where mass collects.
 class FocalLearningState final : public LearningState {
  public:
   FocalLearningState(const FocalSettings& settings, const LearningContext& context);
@@ -22,29 +22,30 @@ class FocalLearningState final : public LearningState {
 
  private:
   bool narrows(std::uint32_t iteration) const;
-  /// Splats the segments that wait, many at a time and always in the same groups.
+  /// Splats the waiting segments in concurrent groups. The groups do not depend on the number of
+  /// threads, so the sums have the same bits.
   void splat_waiting();
   void splat(std::span<const Segment> segments, FocalSums& sums) const;
   void refine(double total_mass);
   void grow_region(double total_mass);
-  /// Puts the refined octrees in force.
+  /// Makes the refined octrees the current density and clears the sums.
   void use_octrees();
   std::shared_ptr<const GuidingModel> model(bool last) const;
 
   FocalSettings settings_;
-  std::uint32_t first_narrowing_;  ///< iteration
-  double diagonal_;                ///< of the region at first [scene units]
+  std::uint32_t first_narrowing_;  ///< first iteration that narrows the density
+  double diagonal_;                ///< diagonal of the initial region [scene units]
   int max_depth_;
   int growths_left_;  ///< how often the region may still double
   LearningOctree converging_, diverging_;
-  FocalDensity density_;  ///< in force in this iteration
+  FocalDensity density_;  ///< density of the current iteration
   bool knows_something_ = false;
   bool narrowing_ = false;
 
-  // Of this iteration.
+  // Data of the current iteration.
   FocalSums sums_;
   std::uint64_t paths_ = 0;
-  std::vector<Segment> waiting_;
+  std::vector<Segment> waiting_;   ///< segments that wait to be splatted
   std::vector<Rgb> incident_;      ///< scratch
   std::vector<FocalSums> groups_;  ///< scratch
 };

@@ -31,7 +31,7 @@ ModelInfo FocalModel::info() const {
 
 void FocalModel::archive(Archive& archive) {
   archive(density_.converging, density_.diverging);
-  // Directions are drawn as if the masses added up to one: a density that does not is no density.
+  // Sampling assumes that the masses add up to one.
   constexpr double kRounding = 1e-4;
   const double mass = density_.converging.mass() + density_.diverging.mass();
   archive.expect(

@@ -5,7 +5,7 @@
 
 PHAROS_MODULE(registry) {
   using namespace pharos::focal;
-  registry.add<FocalLearner>("focal",
-                             "Learns octrees of the points where light meets (focal path guiding)");
-  registry.add<FocalGuider>("focal", "Samples directions through the points where light meets");
+  registry.add<FocalLearner>(
+      "focal", "A density of focal points, where light meets in space, in two octrees");
+  registry.add<FocalGuider>("focal", "Directions toward focal points, or away from them");
 }

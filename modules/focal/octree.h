@@ -137,7 +137,7 @@ class Octree {
     return a.box_ == b.box_ && a.nodes_ == b.nodes_;
   }
   std::size_t size_bytes() const { return nodes_.size() * (2 * sizeof(Node) + sizeof(Warp)); }
-  /// Loading throws InputError for anything that is no octree.
+  /// Saves or loads the octree. Throws InputError if the loaded data is not an octree.
   void archive(Archive& archive);
 
   /// Returns the density at a point [1/scene unit^3], 0 outside the box.

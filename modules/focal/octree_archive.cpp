@@ -7,7 +7,8 @@ namespace {
 
 constexpr std::size_t kMostNodes = 1u << 25;
 
-/// Whether children follow their parents breadth-first, each once, and densities are finite.
+/// Returns whether nodes are in breadth-first order, each node except the first has exactly one
+/// parent, and densities are finite.
 bool are_sound(const std::vector<Octree::Node>& nodes) {
   std::uint32_t next = 1;
   std::vector<int> levels(nodes.size(), 1);

@@ -9,7 +9,7 @@ namespace pharos::focal {
 /// An octree during learning: its cells, and the mass that each cell has collected.
 struct LearningOctree {
   Octree octree;
-  std::vector<double> masses;  ///< of child c of node i at index [8 i + c]; 0 for inner children
+  std::vector<double> masses;  ///< mass of child c of node i at index [8 i + c]; 0 if inner
 
   /// The mass of all leaves.
   double mass() const;

@@ -7,7 +7,8 @@
 namespace pharos::focal {
 namespace {
 
-/// The distances along a segment's line that count, ahead of the origin and behind it.
+/// The range of distances along a segment's line that receives mass: up to `ahead` in front of the
+/// origin and down to `behind` behind the origin.
 struct Reach {
   explicit Reach(const Segment& s)
       : ahead(s.whole_line ? kInfinity : s.length), behind(s.whole_line ? -kInfinity : 0.0f) {}
@@ -86,7 +87,7 @@ bool meets_whole_line(const RecordedVertex& end, const ExtentRule& rule) {
   return end.kind == VertexKind::surface && end.roughness < rule.roughness;
 }
 
-/// Unguided sampling, and all guides as one technique.
+/// Returns unguided sampling, and all guides combined into one technique.
 std::pair<Technique, Technique> techniques_of(const PathView& path, const RecordedVertex& vertex) {
   const std::span<const Technique> all = path.techniques(vertex);
   if (all.empty()) return {{.share = 1}, {}};
@@ -111,7 +112,8 @@ void extract_segments(const PathView& path, const ExtentRule& rule, std::vector<
     const float contribution = mean(vertex.throughput * vertex.local_weight * incident[end.parent]);
     if (!(contribution > 0) || !std::isfinite(contribution)) continue;
     const bool escapes = end.kind == VertexKind::environment;
-    // In a medium the density is over distances too: what of it is the direction's is not known.
+    // In a medium, the recorded density is also over distances. The factor of the direction alone
+    // is not known.
     const bool directional = end.kind != VertexKind::volume;
     const auto [unguided, guided] = techniques_of(path, vertex);
     segments.push_back({.origin = vertex.position,

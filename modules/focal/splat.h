@@ -28,12 +28,12 @@ enum class SplatWeight {
 struct Segment {
   Point3 origin;
   Vec3 direction;            ///< unit
-  float length = 0;          ///< to its end; infinite where it left the scene
-  float contribution = 0;    ///< f/p of all that came along it, mean of the channels; > 0
-  float unguided_pdf = 0;    ///< of the BSDF or phase function [1/sr]
-  float guided_pdf = 0;      ///< of all guides [1/sr]; 0: not known
-  float unguided_share = 1;  ///< share of unguided sampling
-  bool whole_line = false;   ///< meets points anywhere on its line, not just up to its end
+  float length = 0;          ///< distance to its end [scene units]; infinite if it left the scene
+  float contribution = 0;    ///< f/p of all light along the segment, mean of the channels; > 0
+  float unguided_pdf = 0;    ///< density of the BSDF or phase function [1/sr]; 0: not known
+  float guided_pdf = 0;      ///< density of all guides [1/sr]; 0: not known
+  float unguided_share = 1;  ///< share of unguided samples
+  bool whole_line = false;   ///< the path adds mass to the whole line, not only up to the end
 
   void archive(Archive& archive);
 };
@@ -41,10 +41,10 @@ struct Segment {
 /// The rule by which extract_segments() sets Segment::whole_line.
 struct ExtentRule {
   SplatExtent extent = SplatExtent::line;
-  float roughness = 0.3f;  ///< ends below this are nearly specular, for `roughness_gated`
+  float roughness = 0.3f;  ///< for `roughness_gated`: smoother ends are nearly specular
 };
 
-/// Appends the segments of a path that carried light.
+/// Appends the segments of a path that carried light. `incident` is scratch memory.
 void extract_segments(const PathView& path, const ExtentRule& rule, std::vector<Rgb>& incident,
                       std::vector<Segment>& segments);
 

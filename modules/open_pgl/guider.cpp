@@ -3,7 +3,8 @@
 namespace pharos::open_pgl {
 namespace {
 
-/// An answered query. The library's own answer is made again if other queries came in between.
+/// The answer to a query. If the thread has made other queries since, the library computes the
+/// answer again.
 class OpenPglDistribution final : public GuidingDistribution {
  public:
   OpenPglDistribution(const OpenPglModel& model, const Query& query)
@@ -26,7 +27,7 @@ class OpenPglDistribution final : public GuidingDistribution {
 
 void OpenPglGuiderSettings::describe(Schema<OpenPglGuiderSettings>& s) {
   s.field("cosine", &OpenPglGuiderSettings::cosine,
-          "Multiply by the cosine on opaque surfaces, if the field's distributions can");
+          "Multiply by the cosine on opaque surfaces, if the field's distributions support it");
   s.example("{ cosine: false }");
 }
 

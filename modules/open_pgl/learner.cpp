@@ -8,22 +8,26 @@ namespace pharos::open_pgl {
 void OpenPglSettings::describe(Schema<OpenPglSettings>& s) {
   using S = OpenPglSettings;
   s.field("directions", &S::directions,
-          "What cells hold: von Mises-Fisher mixtures with parallax or without, or quadtrees");
-  s.field("cell_samples", &S::cell_samples, "Samples after which a cell is divided").at_least(64);
-  s.field("max_depth", &S::max_depth, "Planes above the deepest cell at most")
+          "Directional distributions in the cells: von Mises-Fisher mixtures with or without "
+          "parallax, or quadtrees");
+  s.field("cell_samples", &S::cell_samples, "Number of samples after which a cell is divided")
+      .at_least(64);
+  s.field("max_depth", &S::max_depth, "Maximum number of dividing planes above a cell")
       .at_least(1)
       .at_most(32);
   s.field("neighbors", &S::neighbors,
-          "Sometimes take a neighboring cell instead of a vertex's own, by its position");
+          "Sometimes use a neighboring cell instead of the vertex's own, chosen by a hash of the "
+          "vertex's position");
   s.field("batch_samples", &S::batch_samples,
-          "Samples that wait at most (40 bytes each): when there are more, they are learned from "
-          "before the iteration ends")
+          "Number of waiting samples (40 bytes each) at which the field learns from them before "
+          "the iteration ends")
       .at_least(1024);
-  s.field("least_pdf", &S::least_pdf, "Counts in place of smaller densities of samples")
+  s.field("least_pdf", &S::least_pdf, "Lower bound of the densities of samples")
       .unit("1/sr")
       .above(0);
   s.field("glossy", &S::glossy,
-          "Roughness below which a surface shows what is behind it: distances go on there")
+          "Roughness below which a surface acts as a mirror or lens: distances continue to the "
+          "image behind it")
       .at_least(0)
       .at_most(1);
   s.example("{ directions: quadtree, neighbors: false }");

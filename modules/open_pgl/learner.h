@@ -12,12 +12,12 @@ namespace open_pgl {
 
 /// The library's kinds of distributions of directions.
 enum class Directions {
-  parallax_vmm,  ///< von Mises-Fisher mixtures that know where their light is
+  parallax_vmm,  ///< von Mises-Fisher mixtures that store the distances of their lights
   vmm,           ///< the same without parallax
   quadtree       ///< directional quadtrees
 };
 
-/// Parameters of the library's fields; what it does not let be set keeps its own values.
+/// Parameters of the library's fields. The library fixes all others.
 struct OpenPglSettings {
   Directions directions = Directions::parallax_vmm;
   std::uint32_t cell_samples = 32000;
@@ -30,7 +30,7 @@ struct OpenPglSettings {
   static void describe(Schema<OpenPglSettings>& schema);
 };
 
-/// Learns where light comes from by Intel's library Open PGL.
+/// Learns incident radiance with a field of Intel's library Open PGL.
 class OpenPglLearner final : public Learner {
  public:
   using Settings = OpenPglSettings;
@@ -48,8 +48,8 @@ class OpenPglLearner final : public Learner {
 
 template <>
 struct EnumNames<open_pgl::Directions> {
-  static constexpr auto names =
-      std::to_array<EnumName<open_pgl::Directions>>({{"parallax_vmm", open_pgl::Directions::parallax_vmm},
+  static constexpr auto names = std::to_array<EnumName<open_pgl::Directions>>(
+      {{"parallax_vmm", open_pgl::Directions::parallax_vmm},
        {"vmm", open_pgl::Directions::vmm},
        {"quadtree", open_pgl::Directions::quadtree}});
 };

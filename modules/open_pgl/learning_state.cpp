@@ -25,8 +25,8 @@ std::unique_ptr<openpgl::cpp::Field> new_field(const OpenPglSettings& settings,
   config.SetSpatialStructureArgMaxDepth(settings.max_depth);
   config.SetUseKnnLookup(settings.neighbors);
   auto field = std::make_unique<openpgl::cpp::Field>(&device(), config);
-  if (region.empty()) return field;  // it takes the bounds of its first samples
-  // The library knows nothing on the very bounds.
+  if (region.empty()) return field;  // the field takes the bounds of its first samples
+  // The library knows nothing exactly on the bounds. The margin moves them away from the scene.
   const Vec3 margin = Vec3{1, 1, 1} * (1e-3f * region.diagonal());
   field->SetSceneBounds(
       openpgl::cpp::Box3(to_point(region.low - margin), to_point(region.high + margin)));
@@ -85,7 +85,7 @@ void OpenPglLearningState::learn() {
 void OpenPglLearningState::archive(Archive& archive) {
   archive.heading("open_pgl_learning", 2);
   archive(lessons_, samples_);
-  // The library stores only fields that have learned.
+  // The library can store only a field that has learned.
   std::string bytes = lessons_ > 0 && !archive.loads() ? bytes_of(*field_) : std::string();
   if (lessons_ > 0) archive_bytes(archive, bytes);
   if (archive.loads()) field_ = lessons_ > 0 ? field_of(bytes) : new_field(settings_, region_);

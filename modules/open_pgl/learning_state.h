@@ -12,8 +12,8 @@
 
 namespace pharos::open_pgl {
 
-/// A field that learns during one render. The models it gives away are copies, made by way of the
-/// library's files, as fields change in place.
+/// The state of learning during one render: a field of the library. A field changes in place, so
+/// models are copies of it, made through the library's files.
 class OpenPglLearningState final : public LearningState {
  public:
   OpenPglLearningState(const OpenPglSettings& settings, const Bounds3& region);
@@ -23,16 +23,16 @@ class OpenPglLearningState final : public LearningState {
   void archive(Archive& archive) override;
 
  private:
-  /// Lets the field learn from the samples that wait: at the end of an iteration, or when they are
-  /// many.
+  /// Lets the field learn from the waiting samples. Called at the end of an iteration, or earlier
+  /// if there are `batch_samples`.
   void learn();
 
   OpenPglSettings settings_;
   Bounds3 region_;
   SampleRule rule_;
   std::unique_ptr<openpgl::cpp::Field> field_;
-  std::uint64_t lessons_ = 0;    ///< calls of learn() with samples
-  std::vector<Sample> samples_;  ///< that wait
+  std::uint64_t lessons_ = 0;    ///< number of calls of learn() with samples
+  std::vector<Sample> samples_;  ///< samples that wait for learn()
   PathScratch scratch_;
 };
 

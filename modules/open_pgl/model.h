@@ -11,22 +11,25 @@
 
 namespace pharos::open_pgl {
 
-/// A field of Open PGL that changes no more.
+/// A field of Open PGL that no longer changes.
 class OpenPglModel final : public GuidingModel {
  public:
   static constexpr std::string_view kName = "open_pgl";
 
   OpenPglModel() = default;
-  /// `bytes` as bytes_of() makes them.
+  /// Makes the field from `bytes`, as bytes_of() returns them.
   explicit OpenPglModel(std::string bytes);
 
-  /// This thread's workplace, which has taken the query; null: the field knows nothing there.
+  /// Returns this thread's workplace with the answer to the query, or null if the field knows
+  /// nothing there.
   const Workplace* at(const Query& query) const;
 
-  /// The size is that of the stored field; in memory the library's cells are about as large.
+  /// ModelInfo::bytes is the size of the stored field. The library needs about as much memory for
+  /// its cells.
   ModelInfo info() const override;
   void archive(Archive& archive) override;
-  /// At a point alone 1 if the field knows something there: the library tells no more.
+  /// If `direction` is null, returns 1 if the field knows something at the point, otherwise 0,
+  /// because the library has no density of points.
   double density(Point3 point, const Vec3* direction) const override;
 
  private:

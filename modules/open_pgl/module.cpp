@@ -6,9 +6,9 @@
 
 PHAROS_MODULE(registry) {
   using namespace pharos::open_pgl;
-  device();  // made before any limit on threads is in force, because it would keep this limit
-  registry.add<OpenPglLearner>(
-      "open_pgl",
-      "Fields of the library Open PGL: mixtures or quadtrees in the cells of a kd-tree");
+  device();  // made before any limit on threads is set, because the device would keep this limit
+  registry.add<OpenPglLearner>("open_pgl",
+                               "Fields of the library Open PGL: directional mixtures or quadtrees "
+                               "in the cells of a kd-tree");
   registry.add<OpenPglGuider>("open_pgl", "Directions sampled from fields of the library Open PGL");
 }

@@ -41,7 +41,7 @@ std::uint64_t checksum(const std::string& bytes) {
 }  // namespace
 
 openpgl::cpp::Device& device() {
-  // Every processor of the last ten years has eight lanes.
+  // All processors of the last ten years support eight SIMD lanes.
   static openpgl::cpp::Device device(PGL_DEVICE_TYPE_CPU_8);
   return device;
 }

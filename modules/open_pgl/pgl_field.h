@@ -28,7 +28,8 @@ std::string bytes_of(const openpgl::cpp::Field& field);
 /// Returns the field for bytes of bytes_of(). Throws InputError if the library refuses them.
 std::unique_ptr<openpgl::cpp::Field> field_of(const std::string& bytes);
 
-/// Saves or loads a field's bytes with a checksum, because the library trusts what it loads.
+/// Saves or loads a field's bytes with a checksum, because the library does not validate what it
+/// loads.
 void archive_bytes(Archive& archive, std::string& bytes);
 
 }  // namespace pharos::open_pgl

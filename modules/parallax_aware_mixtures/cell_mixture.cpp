@@ -19,7 +19,8 @@ Point3 to_point(const Direction& d) {
   return {static_cast<float>(d[0]), static_cast<float>(d[1]), static_cast<float>(d[2])};
 }
 
-/// Directions spread evenly over the sphere, on a spiral by the golden angle.
+/// Returns direction `i` of `count` directions that are spread evenly over the sphere, on a spiral
+/// with the golden angle.
 Direction spiral_direction(std::size_t i, std::size_t count) {
   constexpr double kGoldenAngle = 2.39996322972865332;
   const double z = 1 - (2 * static_cast<double>(i) + 1) / static_cast<double>(count);
@@ -29,7 +30,7 @@ Direction spiral_direction(std::size_t i, std::size_t count) {
 
 }  // namespace
 
-/// One update of a cell, step by step.
+/// One update of a cell.
 class CellUpdate {
  public:
   CellUpdate(CellMixture& cell, std::span<const Sample> samples,
@@ -76,7 +77,8 @@ class CellUpdate {
     }
   }
 
-  /// The pivot follows the mean of all origins, and lobes point from there at where they did.
+  /// Moves the pivot to the mean of all origins, and turns the lobes toward the same lights as
+  /// before.
   void move_pivot(std::span<const Sample> samples) {
     Direction sum = Direction::Zero();
     for (const Sample& s : samples) sum += to_vector(s.origin);
@@ -113,7 +115,7 @@ class CellUpdate {
     return aimed;
   }
 
-  /// Those of samples that found something; weights add up to their number.
+  /// Sets the directions of the samples that found light. Their weights add up to their number.
   void set_directions() {
     double total = 0, count = 0;
     for (const AimedSample& s : aimed_) {
@@ -138,8 +140,8 @@ class CellUpdate {
         [&](std::size_t i, std::size_t j) { join(i, j); });
   }
 
-  /// The cost of merging two lobes, from wherever in the cell it is largest. Only whether it is
-  /// below `bound` matters.
+  /// Returns the largest cost of merging two lobes over several viewpoints in the cell. The search
+  /// ends at the first cost that is at least `bound`.
   double cost_anywhere(std::size_t i, std::size_t j, double bound) const {
     const PlacedLobe a = placed(i), b = placed(j);
     double most = merge_cost(a.lobe, b.lobe);
@@ -179,7 +181,7 @@ class CellUpdate {
     split_until_settled([&] { return assess(); }, [&] { return split(); },
                         [&](std::span<const std::size_t> changed) { fit(changed); },
                         [&](std::size_t k, const Assessment& again) {
-                          // The whole lobe knew where the light of its halves is.
+                          // The halves keep the distance of the whole lobe's light.
                           Assessment& known = cell_.assessments_[k];
                           known = {.inverse = known.inverse, .certainty = known.certainty};
                           known += again;
@@ -225,9 +227,9 @@ class CellUpdate {
   const ParallaxAwareMixturesSettings& settings_;
   std::vector<AimedSample> aimed_;
   std::vector<WeightedDirection> directions_;
-  Bounds3 box_;                  ///< of the samples' origins
-  std::vector<Moments> frozen_;  ///< of earlier iterations
-  std::vector<Moments> seen_;    ///< of this one
+  Bounds3 box_;                  ///< bounds of the samples' origins
+  std::vector<Moments> frozen_;  ///< moments of earlier iterations
+  std::vector<Moments> seen_;    ///< moments of this iteration
 };
 
 void CellMixture::update(std::span<const Sample> samples,

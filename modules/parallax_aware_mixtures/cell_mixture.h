@@ -12,20 +12,20 @@
 
 namespace pharos::parallax_aware_mixtures {
 
-/// What one cell learns: a mixture of von Mises-Fisher lobes of the directions of its samples, as
-/// they are seen from a pivot, the mean of their origins.
+/// The learning of one cell: a mixture of von Mises-Fisher lobes over the directions of the cell's
+/// samples, as seen from a pivot. The pivot is the mean of the samples' origins.
 class CellMixture {
  public:
   /// Learns from the samples of one iteration, in their order.
   void update(std::span<const Sample> samples, const ParallaxAwareMixturesSettings& settings);
   bool knows_something() const { return !mixture_.empty(); }
-  /// What was learned so far counts `factor` times as much as it did.
+  /// Multiplies the weight of everything learned so far by `factor`.
   void forget(double factor);
 
   const Mixture& mixture() const { return mixture_; }
   std::vector<double> inverse_distances() const;
   Point3 pivot() const;
-  /// Samples that found something, faded ones in part.
+  /// Returns the number of samples that found light. forget() reduces it.
   double samples() const { return found_; }
 
   void archive(Archive& archive);
@@ -34,13 +34,13 @@ class CellMixture {
   friend class CellUpdate;
 
   Direction pivot_ = Direction::Zero();
-  double origins_ = 0;      ///< samples that the pivot is the mean of
-  double found_ = 0;        ///< samples that found something
-  double since_merge_ = 0;  ///< samples
+  double origins_ = 0;      ///< number of samples whose mean is the pivot
+  double found_ = 0;        ///< number of samples that found light
+  double since_merge_ = 0;  ///< number of samples since the last merge
   Mixture mixture_;
   std::vector<Moments> moments_;
-  std::vector<Assessment> assessments_;  ///< of each lobe since it was made
-  std::vector<Sample> first_;            ///< kept until there are enough for a mixture
+  std::vector<Assessment> assessments_;  ///< one for each lobe, since it was made
+  std::vector<Sample> first_;            ///< samples that are kept until they suffice for a mixture
 };
 
 }  // namespace pharos::parallax_aware_mixtures

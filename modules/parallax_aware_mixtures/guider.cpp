@@ -25,15 +25,15 @@ class ParallaxAwareMixturesDistribution final : public GuidingDistribution {
 
 void ParallaxAwareMixturesGuiderSettings::describe(Schema<ParallaxAwareMixturesGuiderSettings>& s) {
   s.field("product", &ParallaxAwareMixturesGuiderSettings::product,
-          "What mixtures are multiplied by at a vertex: nothing, a lobe in place of the cosine, or "
-          "lobes fitted to its BSDF or phase function");
+          "Factor that mixtures are multiplied by at a vertex: nothing, a lobe in place of the "
+          "cosine, or lobes fitted to the BSDF or phase function");
   s.field("bsdf_samples", &ParallaxAwareMixturesGuiderSettings::bsdf_samples,
-          "For `bsdf`: directions that these lobes are fitted to")
+          "For `bsdf`: number of sampled directions to which these lobes are fitted")
       .at_least(4)
       .at_most(kMostScatteringSamples);
   s.field("bsdf_tail", &ParallaxAwareMixturesGuiderSettings::bsdf_tail,
-          "For `bsdf`: directions whose density is below this share of the largest make the second "
-          "lobe")
+          "For `bsdf`: directions whose density is below this share of the largest density form "
+          "the second lobe")
       .above(0)
       .below(1);
   s.example("{ product: none }");
@@ -51,7 +51,7 @@ const GuidingDistribution* ParallaxAwareMixturesGuider::query(
   return seen == nullptr ? nullptr : arena.make<ParallaxAwareMixturesDistribution>(*seen);
 }
 
-/// The lobes that the mixture is multiplied by.
+/// Returns the lobes that the mixture is multiplied by.
 ScatteringLobes ParallaxAwareMixturesGuider::factors_at(const GuidingQuery& query) const {
   if (settings_.product == ProductFactor::bsdf) {
     return fit_scattering(*query.scattering, {settings_.bsdf_samples, settings_.bsdf_tail});

@@ -13,7 +13,7 @@
 namespace pharos {
 namespace parallax_aware_mixtures {
 
-/// What the mixture of incident radiance is multiplied by.
+/// The factor that the mixture of incident radiance is multiplied by.
 enum class ProductFactor {
   none,    ///< nothing
   cosine,  ///< a lobe in place of the cosine, on opaque surfaces

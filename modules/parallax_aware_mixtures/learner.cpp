@@ -9,19 +9,22 @@ void ParallaxAwareMixturesSettings::describe(Schema<ParallaxAwareMixturesSetting
   using S = ParallaxAwareMixturesSettings;
   describe_mixture_learning(s);
   s.field("parallax", &S::parallax,
-          "Remember how far away light is, and let lobes point there from everywhere in the cell");
-  s.field("first_kappa", &S::first_kappa, "Concentration of the lobes before the first fit")
+          "Store the distances of lights, and turn lobes toward them from every point of a cell");
+  s.field("first_kappa", &S::first_kappa, "Concentration (kappa) of the lobes before the first fit")
       .above(0)
       .at_most(1e6);
   s.field("prior_share", &S::prior_share,
-          "What every lobe is believed to have seen, relative to all that was seen")
+          "Prior weight of each lobe, relative to the weight of all directions")
       .above(0);
   s.field("prior_strength", &S::prior_strength,
-          "Samples without any preference that every lobe is believed to have seen besides")
+          "Prior number of samples per lobe that have no preferred direction")
       .above(0);
-  s.field("most_kappa", &S::most_kappa, "Largest concentration of a lobe").at_least(1).at_most(1e6);
+  s.field("most_kappa", &S::most_kappa, "Largest concentration (kappa) of a lobe")
+      .at_least(1)
+      .at_most(1e6);
   s.field("glossy", &S::glossy,
-          "Roughness below which a surface shows what is behind it: distances go on there")
+          "Roughness below which a surface acts as a mirror or lens: distances continue to the "
+          "image behind it")
       .at_least(0)
       .at_most(1);
   s.example("{ spatial: single, parallax: false, components: 5, most_components: 12 }");

@@ -4,7 +4,7 @@
 
 namespace pharos::parallax_aware_mixtures {
 
-/// Parameters of the method; docs and sources are in the README.
+/// Parameters of the method. The README documents them and states their sources.
 struct ParallaxAwareMixturesSettings : MixtureLearningSettings {
   ParallaxAwareMixturesSettings() { first_samples = 128; }
 
@@ -17,11 +17,12 @@ struct ParallaxAwareMixturesSettings : MixtureLearningSettings {
   static void describe(Schema<ParallaxAwareMixturesSettings>& schema);
 };
 
-/// Learns where light comes from as mixtures of von Mises-Fisher lobes (Ruppert et al. 2020).
+/// Learns the directional distribution of incident radiance as mixtures of von Mises-Fisher lobes
+/// (Ruppert et al. 2020).
 class ParallaxAwareMixturesLearner final : public Learner {
  public:
   using Settings = ParallaxAwareMixturesSettings;
-  /// Throws InputError when there may be fewer lobes than there are at first.
+  /// Throws InputError if a mixture begins with more lobes than it may have.
   explicit ParallaxAwareMixturesLearner(const Settings& settings);
 
   LearnerTraits traits() const override;

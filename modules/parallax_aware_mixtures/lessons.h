@@ -11,7 +11,8 @@
 
 namespace pharos::parallax_aware_mixtures {
 
-/// How von Mises-Fisher mixtures are learned during one render, for KdTreeLearning.
+/// The part of KdTreeLearning that is specific to von Mises-Fisher mixtures: extracts samples from
+/// paths, teaches cells, and makes models.
 class ParallaxAwareMixturesLessons {
  public:
   using Sample = parallax_aware_mixtures::Sample;

@@ -53,7 +53,7 @@ struct Assessment {
     archive(samples, divergence_sum, weight, spread, inverse, certainty);
   }
 
-  /// The Pearson chi-square divergence, the lobe's part of it:
+  /// Returns the lobe's part of the Pearson chi-square divergence:
   ///
   ///     D_k = 1/N sum_n p_k v_k(w_n) (f_n / q_n - 1)^2 / p(w_n)
   ///

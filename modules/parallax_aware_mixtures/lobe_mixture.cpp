@@ -67,7 +67,7 @@ bool is_sound(const std::vector<LobeGroup>& groups) {
       total += group.weight[i];
     }
   }
-  // Directions are drawn as if the weights added up to one.
+  // Sampling assumes that the weights add up to one.
   return groups.size() <= kMostGroups && std::abs(total - 1) < 1e-4;
 }
 

@@ -14,7 +14,7 @@ struct LobeGroup {
   Float8 mean[3]{};           ///< unit
   Float8 kappa{};             ///< >= kLeastKappa
   Float8 mode{};              ///< the lobe's density at its mean [1/sr]
-  Float8 inverse_distance{};  ///< of where its light comes from [1/scene unit]; 0: infinitely far
+  Float8 inverse_distance{};  ///< 1 / distance of the light [1/scene unit]; 0: infinitely far
 
   void archive(Archive& archive);
 };
@@ -29,7 +29,7 @@ inline constexpr double kLargestInverse = 1e12;
 void append_groups(const Mixture& mixture, std::span<const double> inverse_distances,
                    std::vector<LobeGroup>& groups);
 
-/// Whether these are lobes whose weights sum to one, or none at all.
+/// Returns whether `groups` is empty or consists of valid lobes whose weights add up to one.
 bool is_sound(const std::vector<LobeGroup>& groups);
 
 }  // namespace pharos::parallax_aware_mixtures

@@ -72,9 +72,9 @@ Expectation expectation(const Mixture& mixture, std::span<const WeightedDirectio
 void maximize(std::span<const Moments> moments, const FitRules& rules, Mixture& mixture);
 
 /// Returns the objective, which expectation-maximization raises with every step. It is the
-/// log-likelihood of the directions, plus that of the frozen moments (each with its own lobe), plus
-/// the logarithm of the prior, up to a constant. `seen` is the weight of all directions and frozen
-/// moments.
+/// log-likelihood of the directions, plus the log-likelihood of the frozen moments (each with its
+/// own lobe), plus the logarithm of the prior, up to a constant. `seen` is the weight of all
+/// directions and frozen moments.
 double objective(const Mixture& mixture, double log_likelihood, double seen, const FitRules& rules);
 
 /// Fits a mixture to directions, starting with its current lobes. A weight acts as a number of

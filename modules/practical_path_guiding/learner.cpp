@@ -8,35 +8,41 @@ namespace pharos::practical_path_guiding {
 void PracticalPathGuidingSettings::describe(Schema<PracticalPathGuidingSettings>& s) {
   using S = PracticalPathGuidingSettings;
   s.field("spatial_threshold", &S::spatial_threshold,
-          "Records of an iteration, over the square root of half its samples a pixel, above which "
-          "a cell is halved (c)")
+          "A cell is halved if its records in an iteration exceed this number times the square "
+          "root of half the iteration's samples per pixel (c)")
       .at_least(10);
-  s.field("spatial_depth", &S::spatial_depth, "Planes above the smallest cell at most")
+  s.field("spatial_depth", &S::spatial_depth, "Maximum number of dividing planes above a cell")
       .at_least(0)
       .at_most(KdTree::kMostLevels);
-  s.field("directional_threshold", &S::directional_threshold,
-          "Share of a cell's light above which a quarter of its directions is divided (rho)")
+  s.field(
+       "directional_threshold", &S::directional_threshold,
+       "Share of the cell's flux above which a quarter of the quadtree's square is divided (rho)")
       .at_least(1e-4)
       .at_most(1);
-  s.field("directional_depth", &S::directional_depth, "Levels of quarters at most")
+  s.field("directional_depth", &S::directional_depth, "Maximum number of quadtree levels")
       .at_least(1)
       .at_most(QuadDensity::kMostLevels);
   s.field("spatial_filter", &S::spatial_filter,
-          "Which cell learns from a record: its own, or one at random around it");
+          "Cell that receives a record: the one at its position, or the one at a random point in a "
+          "box of that cell's size around it");
   s.field("directional_filter", &S::directional_filter,
-          "Which leaves of directions do: the one it lies in, or those in a box around it");
+          "Leaves of the quadtree that receive a record: the one at its direction, or all that "
+          "overlap a box of that leaf's size around it");
   s.field("target", &S::target,
-          "What is sampled in proportion to: incident radiance, or the root of the second moment "
-          "of what it contributes to the vertex or, relatively, to the pixel (variance-aware)");
-  s.field("pixel_radius", &S::pixel_radius,
-          "For the relative target: pixels are averaged with those up to so far away")
+          "Quantity that the sampling density is proportional to: incident radiance, or the root "
+          "of the second moment of reflected radiance (`product`) or of the contribution relative "
+          "to the pixel (`relative`, variance-aware)");
+  s.field(
+       "pixel_radius", &S::pixel_radius,
+       "For `relative`: pixel values are averaged over pixels up to this far away along both axes")
       .at_least(0)
       .at_most(16);
   s.field("least_pixel", &S::least_pixel,
-          "For the relative target: no pixel counts as darker, relative to the image's mean")
+          "For `relative`: lower bound of the pixel values, relative to the mean of the image")
       .above(0);
   s.field("batch_records", &S::batch_records,
-          "Records that wait at most (24 bytes each) before they are added to the trees")
+          "Number of waiting records (24 bytes each) at which they are added to the trees before "
+          "the iteration ends")
       .at_least(1024);
   s.example("{ target: product, spatial_filter: nearest, directional_filter: nearest }");
   s.example("{ target: relative, spatial_threshold: 500 }");

@@ -13,15 +13,15 @@ namespace pharos {
 namespace practical_path_guiding {
 
 enum class SpatialFilter {
-  nearest,    ///< the cell that a record lies in
-  stochastic  ///< a cell at random within a box of that cell's size around the record
+  nearest,    ///< the cell that contains the record
+  stochastic  ///< the cell at a random point within a box of that cell's size around the record
 };
 enum class DirectionalFilter {
-  nearest,  ///< the leaf that a direction lies in
+  nearest,  ///< the leaf that contains the direction
   box       ///< all leaves, by their shares of a box of that leaf's size around the direction
 };
 
-/// Parameters of the method; docs and sources are in the README.
+/// Parameters of the method. The README documents them and states their sources.
 struct PracticalPathGuidingSettings {
   double spatial_threshold = 4000;
   int spatial_depth = 40;
@@ -55,15 +55,15 @@ class PracticalPathGuidingLearner final : public Learner {
 
 template <>
 struct EnumNames<practical_path_guiding::SpatialFilter> {
-  static constexpr auto names =
-      std::to_array<EnumName<practical_path_guiding::SpatialFilter>>({{"nearest", practical_path_guiding::SpatialFilter::nearest},
-             {"stochastic", practical_path_guiding::SpatialFilter::stochastic}});
+  static constexpr auto names = std::to_array<EnumName<practical_path_guiding::SpatialFilter>>(
+      {{"nearest", practical_path_guiding::SpatialFilter::nearest},
+       {"stochastic", practical_path_guiding::SpatialFilter::stochastic}});
 };
 template <>
 struct EnumNames<practical_path_guiding::DirectionalFilter> {
-  static constexpr auto names =
-      std::to_array<EnumName<practical_path_guiding::DirectionalFilter>>({{"nearest", practical_path_guiding::DirectionalFilter::nearest},
-             {"box", practical_path_guiding::DirectionalFilter::box}});
+  static constexpr auto names = std::to_array<EnumName<practical_path_guiding::DirectionalFilter>>(
+      {{"nearest", practical_path_guiding::DirectionalFilter::nearest},
+       {"box", practical_path_guiding::DirectionalFilter::box}});
 };
 
 }  // namespace pharos

@@ -12,7 +12,8 @@
 namespace pharos::practical_path_guiding {
 namespace {
 
-/// A cube with the scene's lowest corner. (A scene without extent is taken to be of size one.)
+/// Returns a cube that contains the scene and has the same lowest corner. If the scene has no
+/// extent, the edge of the cube is one.
 Bounds3 cube_around(const Bounds3& region) {
   const Vec3 extent = region.high - region.low;
   const float size = std::max({extent.x, extent.y, extent.z});
@@ -23,14 +24,14 @@ Bounds3 cube_around(const Bounds3& region) {
   return cube;
 }
 
-/// Both halves of a box.
+/// Returns both halves of a box.
 std::array<Bounds3, 2> halves(const Bounds3& box, int axis) {
   std::array<Bounds3, 2> parts{box, box};
   parts[0].high[axis] = parts[1].low[axis] = 0.5f * (box.low[axis] + box.high[axis]);
   return parts;
 }
 
-/// The whole path's contribution to its pixel, mean of the channels.
+/// Returns the contribution of the whole path to its pixel, mean of the channels.
 double value_of(const PathView& path, const std::vector<Rgb>& incident) {
   const RecordedVertex& lens = path.vertices[0];
   return mean(lens.throughput * lens.local_weight * incident[0]);
@@ -95,7 +96,7 @@ void PracticalPathGuidingLearningState::flush() {
 
 Learned PracticalPathGuidingLearningState::update(std::uint32_t, bool) {
   flush();
-  const double samples = paths_ / film_pixels_;  // a pixel
+  const double samples = paths_ / film_pixels_;  // per pixel
   const double threshold = settings_.spatial_threshold * std::sqrt(samples / 2);
   parallel_for(cells_.size(), [&](std::size_t i) { conclude(cells_[i]); });
   const std::vector<std::uint32_t> leaves = tree_.leaves();
@@ -116,7 +117,7 @@ Learned PracticalPathGuidingLearningState::update(std::uint32_t, bool) {
 }
 
 void PracticalPathGuidingLearningState::conclude(Cell& cell) const {
-  // Who found nothing keeps what is known.
+  // A cell that found no light keeps its density.
   if (cell.learning.total() > 0) {
     cell.known = cell.learning.density(leaf_mass());
     cell.known_light = static_cast<float>(cell.light / cell.records);

@@ -14,8 +14,9 @@
 
 namespace pharos::practical_path_guiding {
 
-/// What is learned during one render: a binary tree over a cube around the scene whose cells are
-/// halved where many records come, axis after axis, and a directional quadtree in each.
+/// The state of learning during one render: a binary tree over a cube around the scene, with a
+/// directional quadtree in each cell. Cells with many records are halved, across x, y and z in
+/// turn.
 class PracticalPathGuidingLearningState final : public LearningState {
  public:
   PracticalPathGuidingLearningState(const PracticalPathGuidingSettings& settings,
@@ -28,13 +29,14 @@ class PracticalPathGuidingLearningState final : public LearningState {
  private:
   struct Cell {
     Bounds3 box;
-    int level = 0;                ///< planes above it
-    double records = 0;           ///< of this iteration
-    double light = 0;             ///< sum of their values
-    QuadTree learning;            ///< of this iteration
-    std::vector<QuadNode> known;  ///< as of the iteration before; none: nothing
-    float known_light = 0;        ///< mean value of a record
-    float known_records = 0;      ///< behind what is known
+    int level = 0;       ///< number of planes above the cell
+    double records = 0;  ///< number of records in this iteration
+    double light = 0;    ///< sum of the values of these records
+    QuadTree learning;   ///< tree that accumulates this iteration
+    /// Density of the last iteration that found light in the cell; empty: nothing known.
+    std::vector<QuadNode> known;
+    float known_light = 0;    ///< mean value of the records behind `known`
+    float known_records = 0;  ///< number of the records behind `known`
 
     void archive(Archive& archive) {
       archive(box, level, records, light, learning, known, known_light, known_records);
@@ -47,13 +49,15 @@ class PracticalPathGuidingLearningState final : public LearningState {
   QuadRefinement refinement() const {
     return {settings_.directional_threshold, settings_.directional_depth};
   }
-  /// Adds the records that wait to their cells.
+  /// Adds the waiting records to their cells.
   void flush();
-  /// The cell that learns from a record, by the spatial filter.
+  /// Returns the cell that receives a record, by the spatial filter.
   std::uint32_t cell_for(const Record& record, RandomStream random) const;
-  /// What a cell has learned becomes what it knows, and it begins anew.
+  /// Replaces a cell's known density by what it accumulated in this iteration, and starts a new
+  /// refined tree. Keeps the known density if the iteration found no light in the cell.
   void conclude(Cell& cell) const;
-  /// Halves a cell again and again, as long as its share of records is above `threshold`.
+  /// Halves a cell, and then its halves, as long as a cell's share of the records is above
+  /// `threshold`.
   void halve(std::uint32_t leaf, std::uint32_t cell, double threshold);
   std::shared_ptr<const GuidingModel> model() const;
 
@@ -62,11 +66,11 @@ class PracticalPathGuidingLearningState final : public LearningState {
   double film_pixels_;
   KdTree tree_;
   std::vector<Cell> cells_;
-  std::vector<std::uint32_t> origins_{0};  ///< of each cell, among those of the last model
+  std::vector<std::uint32_t> origins_{0};  ///< cell of the last model that contained each cell
   PixelEstimates pixels_;
-  std::uint64_t batches_ = 0;    ///< calls of flush()
-  double paths_ = 0;             ///< of this iteration
-  std::vector<Record> records_;  ///< that wait
+  std::uint64_t batches_ = 0;    ///< number of calls of flush()
+  double paths_ = 0;             ///< number of paths in this iteration
+  std::vector<Record> records_;  ///< records that wait for flush()
   std::vector<Rgb> incident_;    ///< scratch
 };
 

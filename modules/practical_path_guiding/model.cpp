@@ -62,7 +62,8 @@ double PracticalPathGuidingModel::density(Point3 point, const Vec3* direction) c
   return QuadDensity(nodes(cell)).at(warp::square_from_sphere(*direction)) * warp::sphere_pdf();
 }
 
-/// The mean of radiance over density estimates the integral of radiance over all directions.
+// The cell's mean of radiance divided by density estimates the integral of radiance over all
+// directions.
 float PracticalPathGuidingModel::incident_radiance(Point3 point, Vec3 direction) const {
   return static_cast<float>(density(point, nullptr) * density(point, &direction));
 }

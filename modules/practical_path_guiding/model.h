@@ -11,23 +11,24 @@
 
 namespace pharos::practical_path_guiding {
 
-/// Densities over directions by place: a directional quadtree in each cell of a binary tree (the
-/// SD-tree of Mueller et al. 2017). Regions are the cells. Cells that know nothing have no nodes.
+/// Directional densities that depend on position: a directional quadtree in each cell of a binary
+/// tree (the SD-tree of Mueller et al. 2017). The regions are the cells. A cell without data has no
+/// nodes.
 class PracticalPathGuidingModel final : public GuidingModel, public RadianceEstimate {
  public:
   static constexpr std::string_view kName = "practical_path_guiding";
 
-  /// What a cell knows.
+  /// The learned data of a cell.
   struct Cell {
-    std::vector<QuadNode> nodes;  ///< of its density over directions; none: nothing
-    float light = 0;              ///< mean of what its records found
+    std::vector<QuadNode> nodes;  ///< quadtree of the density over directions; empty: nothing known
+    float light = 0;              ///< mean value of the records
     float records = 0;            ///< number of records behind the density
     void archive(Archive& archive) { archive(nodes, light, records); }
   };
 
   PracticalPathGuidingModel() = default;
-  /// `cells` are in the order of their numbers in the tree. `of_radiance`: the densities are
-  /// proportional to incident radiance.
+  /// `cells` is in the order of the cell numbers in the tree. `of_radiance` states that the
+  /// densities are proportional to incident radiance.
   PracticalPathGuidingModel(KdTree tree, const std::vector<Cell>& cells, bool of_radiance);
 
   ModelInfo info() const override;
@@ -38,11 +39,11 @@ class PracticalPathGuidingModel final : public GuidingModel, public RadianceEsti
   }
   double density(Point3 point, const Vec3* direction) const override;
 
-  /// Incident radiance is known if the densities are proportional to it.
+  /// The model knows incident radiance only if its densities are proportional to it.
   RadianceTraits radiance_traits() const override { return {.incident = of_radiance_}; }
   float incident_radiance(Point3 point, Vec3 direction) const override;
 
-  /// The density of a cell; empty: nothing known.
+  /// Returns the quadtree of a cell. It is empty if nothing is known there.
   std::span<const QuadNode> nodes(std::uint32_t cell) const {
     return {nodes_.data() + first_[cell], nodes_.data() + first_[cell + 1]};
   }
@@ -54,8 +55,8 @@ class PracticalPathGuidingModel final : public GuidingModel, public RadianceEsti
   void add(const Cell& cell);
 
   KdTree tree_;
-  std::vector<QuadNode> nodes_;             ///< of all cells, one after another
-  std::vector<std::uint32_t> first_{0, 0};  ///< of each cell, and the end
+  std::vector<QuadNode> nodes_;             ///< nodes of all cells, one cell after another
+  std::vector<std::uint32_t> first_{0, 0};  ///< index of each cell's first node, and the end
   std::vector<CellFacts> facts_{{}};
   bool of_radiance_ = true;
 };

@@ -8,24 +8,24 @@
 
 namespace pharos::practical_path_guiding {
 
-/// Estimates of the pixels' values: blurred means over all paths so far, for a target that is
-/// relative to the image.
+/// Estimates of pixel values for the target `relative`: blurred means over all paths so far.
 class PixelEstimates {
  public:
-  /// Keeps estimates for the pixels of a window of the film. Paths that end outside of the window
-  /// count for its nearest pixel.
+  /// Keeps estimates for the pixels of a window of the film. A path that ends outside of the window
+  /// counts for the nearest pixel of the window.
   explicit PixelEstimates(const PixelRect& window);
 
   /// Adds a path that ends at a position of the film [pixels] with this value (mean of the
   /// channels).
   void add(Vec2 film, double value);
-  /// Updates the estimates with all paths up to now: means over (2 `radius` + 1)^2 pixels, at least
-  /// `least` times the mean of the whole image.
+  /// Updates the estimates with all paths so far. An estimate is the mean over (2 `radius` + 1)^2
+  /// pixels, at least `least` times the mean of the whole image.
   void update(int radius, double least);
-  /// Returns the estimate of the last update(); one everywhere until a path has brought light.
+  /// Returns the estimate of the last update(). It is one everywhere until a path has found light.
   double at(Vec2 film) const;
 
-  /// Loads what one of the same size saved. Throws InputError for anything else.
+  /// Saves or loads the estimates. Loading requires estimates of the same size and throws
+  /// InputError otherwise.
   void archive(Archive& archive);
 
  private:
@@ -38,8 +38,8 @@ class PixelEstimates {
   Pixel sum_around(int x, int y, int radius) const;
 
   PixelRect window_;
-  std::vector<Pixel> pixels_;  ///< up to the last update()
-  std::vector<Pixel> new_;     ///< since the last update()
+  std::vector<Pixel> pixels_;  ///< sums up to the last update()
+  std::vector<Pixel> new_;     ///< sums since the last update()
   std::vector<double> estimates_;
 };
 

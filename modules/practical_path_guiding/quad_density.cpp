@@ -8,8 +8,8 @@
 namespace pharos::practical_path_guiding {
 namespace {
 
-/// Whether u in [0, 1) falls to the upper part, `low` and `high` being what the parts weigh; u
-/// becomes its place within the part.
+/// Returns whether u in [0, 1) selects the upper of two parts with weights `low` and `high`, and
+/// rescales u to its position within the selected part.
 bool descend(double& u, double low, double high) {
   const double scaled = u * (low + high);
   const bool is_high = scaled >= low && high > 0;

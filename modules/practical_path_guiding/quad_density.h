@@ -12,8 +12,9 @@ namespace pharos::practical_path_guiding {
 /// The quarters of a square. In the number of a quarter, bit 0 is set in the upper half of x, and
 /// bit 1 in the upper half of y.
 struct QuadNode {
-  float density[4];        ///< mean over the quarter, relative to a uniform density [1]
-  std::uint32_t child[4];  ///< the node that divides it, always further on; 0: none does
+  float density[4];  ///< mean over the quarter, relative to a uniform density [1]
+  /// Index of the node that divides the quarter, greater than the index of this node; 0: none.
+  std::uint32_t child[4];
   void archive(Archive& archive) { archive(density, child); }
 };
 
@@ -37,7 +38,7 @@ class QuadDensity {
   std::span<const QuadNode> nodes_;
 };
 
-/// Whether these are the nodes of a density that integrates to one, or none at all.
+/// Returns whether `nodes` is empty or is the tree of a density that integrates to one.
 bool is_density(const std::vector<QuadNode>& nodes);
 
 }  // namespace pharos::practical_path_guiding

@@ -108,7 +108,7 @@ double QuadTree::total() const {
 
 std::vector<QuadTree::Node> QuadTree::with_masses(LeafMass kind) const {
   std::vector<Node> nodes = nodes_;
-  std::vector<double> areas(nodes.size(), 1);  // of the nodes' squares [1]
+  std::vector<double> areas(nodes.size(), 1);  // areas of the nodes' squares [1]
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     for (int q = 0; q < 4; ++q) {
       const double area = areas[i] / 4;
@@ -119,7 +119,7 @@ std::vector<QuadTree::Node> QuadTree::with_masses(LeafMass kind) const {
       }
     }
   }
-  for (std::size_t i = nodes.size(); i-- > 0;) {  // children stand after their parents
+  for (std::size_t i = nodes.size(); i-- > 0;) {  // children are stored after their parents
     for (int q = 0; q < 4; ++q) {
       if (nodes[i].child[q] != 0) nodes[i].mass[q] = sum_of(nodes[nodes[i].child[q]].mass);
     }

@@ -18,7 +18,7 @@ enum class LeafMass {
 /// The rule for dividing a quarter of a square (Mueller et al. 2017, section 3.2).
 struct QuadRefinement {
   double threshold = 0.01;  ///< rho: largest share of all mass in a leaf
-  int max_depth = 20;       ///< levels of quarters
+  int max_depth = 20;       ///< maximum number of levels
 };
 
 /// Accumulates a density over the unit square: sums in the leaves of a quadtree.
@@ -35,7 +35,7 @@ class QuadTree {
   void add(Vec2 p, double value);
   /// Spreads a value evenly over a box around the point that has the size of the leaf there.
   void spread(Vec2 p, double value);
-  /// Of all that was added.
+  /// Returns the sum of all added values.
   double total() const;
 
   /// Returns the density for the masses of the leaves, which must not all be zero.

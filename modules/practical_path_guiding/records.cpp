@@ -13,7 +13,8 @@ double value_of(const GuidableStep& step, GuidingTarget target, double pixel) {
   const double x = target == GuidingTarget::product
                        ? mean(step.reflected)
                        : mean(step.from.throughput * step.reflected) / pixel;
-  // The step's estimate is x; as an integrand it is x p, of which the second moment is wanted.
+  // x is an integrand divided by the density p. The record estimates the integral of the squared
+  // integrand: (x p)^2 / p = x^2 p.
   return x * x * step.pdf;
 }
 
@@ -24,7 +25,7 @@ void extract_records(const PathView& path, GuidingTarget target, const PixelEsti
   const double pixel = target == GuidingTarget::relative ? pixels.at(path.film) : 1;
   for_each_guidable_step(path, incident, [&](const GuidableStep& step) {
     const double value = value_of(step, target, pixel);
-    // One infinite value would stay in the sums for good.
+    // An infinite value would stay in the sums forever.
     if (!(value >= 0) || !(value < std::numeric_limits<float>::max())) return;
     records.push_back({.position = step.from.position,
                        .direction = warp::square_from_sphere(step.from.direction),

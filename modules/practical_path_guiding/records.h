@@ -13,26 +13,28 @@
 namespace pharos {
 namespace practical_path_guiding {
 
-/// What directions are to be sampled in proportion to.
+/// The quantity that the sampling density is proportional to.
 enum class GuidingTarget {
-  radiance,  ///< the radiance that comes from there (Mueller et al. 2017)
-  /// the root of the second moment of what is reflected of it (Rath et al. 2020, their `simple`)
+  radiance,  ///< incident radiance (Mueller et al. 2017)
+  /// the root of the second moment of reflected radiance (`simple` in Rath et al. 2020)
   product,
-  /// the root of the second moment of what it adds to the pixel, relative to the pixel's value
-  /// (Rath et al. 2020, their `full`)
+  /// the root of the second moment of the contribution to the pixel, relative to the pixel's value
+  /// (`full` in Rath et al. 2020)
   relative
 };
 
-/// A step of a path: where, whither, and what it counts in the leaf of its direction.
+/// A step of a path: its position, its direction, and its value in the leaf of this direction.
 struct Record {
   Point3 position;
-  Vec2 direction;   ///< on the square, as warp::square_from_sphere()
-  float value = 0;  ///< x / p for `radiance`, x^2 / p for the others, p [1/sr] being the density of
-                    ///< the direction; 0 where nothing came
+  Vec2 direction;  ///< point on the square by warp::square_from_sphere()
+  /// x / p for `radiance`, x^2 / p for the other targets, where p [1/sr] is the density of the
+  /// direction; 0 if no light arrived
+  float value = 0;
   void archive(Archive& archive);
 };
 
-/// Appends the guidable steps of a path. `pixels` is what `relative` needs.
+/// Appends the guidable steps of a path. The target `relative` uses `pixels`. `incident` is scratch
+/// memory.
 void extract_records(const PathView& path, GuidingTarget target, const PixelEstimates& pixels,
                      std::vector<Rgb>& incident, std::vector<Record>& records);
 
@@ -40,10 +42,10 @@ void extract_records(const PathView& path, GuidingTarget target, const PixelEsti
 
 template <>
 struct EnumNames<practical_path_guiding::GuidingTarget> {
-  static constexpr auto names =
-      std::to_array<EnumName<practical_path_guiding::GuidingTarget>>({{"radiance", practical_path_guiding::GuidingTarget::radiance},
-             {"product", practical_path_guiding::GuidingTarget::product},
-             {"relative", practical_path_guiding::GuidingTarget::relative}});
+  static constexpr auto names = std::to_array<EnumName<practical_path_guiding::GuidingTarget>>(
+      {{"radiance", practical_path_guiding::GuidingTarget::radiance},
+       {"product", practical_path_guiding::GuidingTarget::product},
+       {"relative", practical_path_guiding::GuidingTarget::relative}});
 };
 
 }  // namespace pharos

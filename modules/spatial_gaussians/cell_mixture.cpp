@@ -22,7 +22,8 @@ Vector<3> to_vector(Point3 p) {
   return {p.x, p.y, p.z};
 }
 
-/// The targets of samples that found something, from the pivot. Weights add up to their number.
+/// Returns the targets of the samples that found light, relative to the pivot. Their weights add up
+/// to their number.
 WeightedPoints<3> points_of(std::span<const Sample> samples, const Vector<3>& pivot) {
   double total = 0, count = 0;
   for (const Sample& s : samples) {
@@ -36,8 +37,9 @@ WeightedPoints<3> points_of(std::span<const Sample> samples, const Vector<3>& pi
   return points;
 }
 
-/// Centres among the points, each drawn with a probability in proportion to its weight times its
-/// squared distance from those before it (k-means++, Arthur and Vassilvitskii 2007).
+/// Chooses at most `count` centers among the points. The probability of a point is proportional to
+/// its weight times its squared distance from the nearest center so far (k-means++, Arthur and
+/// Vassilvitskii 2007).
 std::vector<Vector<3>> spread_centers(const WeightedPoints<3>& points, std::size_t count,
                                       RandomStream& random) {
   std::vector<double> chances(points.size());
@@ -46,7 +48,7 @@ std::vector<Vector<3>> spread_centers(const WeightedPoints<3>& points, std::size
   std::vector<Vector<3>> centers;
   while (centers.size() < count) {
     const double total = std::accumulate(chances.begin(), chances.end(), 0.0);
-    if (!(total > 0)) break;  // fewer different points than centres
+    if (!(total > 0)) break;  // fewer different points than centers
     double u = total * random.next_1d();
     std::size_t chosen = 0;
     while (chosen + 1 < points.size() && (u >= chances[chosen] || chances[chosen] == 0)) {
@@ -61,7 +63,7 @@ std::vector<Vector<3>> spread_centers(const WeightedPoints<3>& points, std::size
   return centers;
 }
 
-/// Moments of the points nearest to each center.
+/// Returns for each center the moments of the points to which it is nearest.
 std::vector<Moments3> moments_about(const std::vector<Vector<3>>& centers,
                                     const WeightedPoints<3>& points) {
   std::vector<Moments3> moments(centers.size());
@@ -78,7 +80,7 @@ std::vector<Moments3> moments_about(const std::vector<Vector<3>>& centers,
 
 }  // namespace
 
-/// One update of a cell, step by step.
+/// One update of a cell.
 class CellUpdate {
  public:
   CellUpdate(CellMixture& cell, std::span<const Sample> samples,
@@ -111,8 +113,9 @@ class CellUpdate {
             .tolerance = settings_.em_tolerance};
   }
 
-  /// Least eigenvalues, as the components lie now: what they look like from the middle of the
-  /// samples' origins is no smaller than the largest concentration allows.
+  /// Sets the lower bounds of the eigenvalues for the current positions of the components, and
+  /// applies them. As seen from the middle of the samples' origins, no component is then more
+  /// concentrated than the largest concentration allows.
   void set_floors() {
     floors_.clear();
     for (const Gaussian3& g : cell_.mixture_.components) {
@@ -125,14 +128,14 @@ class CellUpdate {
     }
   }
 
-  /// The mean of the samples' origins.
+  /// Returns the mean of the samples' origins.
   Vector<3> mean_origin() const {
     Vector<3> sum = Vector<3>::Zero();
     for (const Sample& s : samples_) sum += to_vector(s.origin);
     return sum / static_cast<double>(samples_.size());
   }
 
-  /// A first mixture.
+  /// Makes the first mixture of the cell.
   void begin(RandomStream& random) {
     cell_.pivot_ = mean_origin();
     const WeightedPoints<3> points = points_of(samples_, cell_.pivot_);
@@ -156,7 +159,7 @@ class CellUpdate {
     seen_ = statistics::fit_mixture(cell_.mixture_, points_, rules(changing)).seen;
   }
 
-  /// The mixture that follows from the moments, for these components.
+  /// Recomputes the components with the numbers `changing` from their moments.
   void maximize(std::span<const std::size_t> changing) {
     std::vector<Moments3> moments = seen_;
     for (std::size_t k = 0; k < moments.size(); ++k) moments[k] += frozen_[k];
@@ -254,11 +257,11 @@ class CellUpdate {
   std::span<const Sample> samples_;
   const SpatialGaussiansSettings& settings_;
   double least_size_;
-  Vector<3> middle_ = Vector<3>::Zero();  ///< of the samples' origins, from the pivot
+  Vector<3> middle_ = Vector<3>::Zero();  ///< mean of the samples' origins, relative to the pivot
   WeightedPoints<3> points_;
   std::vector<double> floors_;
-  std::vector<Moments3> frozen_;  ///< of earlier iterations
-  std::vector<Moments3> seen_;    ///< of this one
+  std::vector<Moments3> frozen_;  ///< moments of earlier iterations
+  std::vector<Moments3> seen_;    ///< moments of this iteration
 };
 
 void CellMixture::update(std::span<const Sample> samples, const SpatialGaussiansSettings& settings,

@@ -12,8 +12,8 @@
 
 namespace pharos::spatial_gaussians {
 
-/// What one cell learns: a mixture of Gaussians of the targets of its samples. What it remembers of
-/// them are the moments of each component, which add up over iterations.
+/// The learning of one cell: a mixture of Gaussians over the targets of the cell's samples. From
+/// one iteration to the next it keeps only the moments of each component, which add up.
 class CellMixture {
  public:
   /// Learns from the samples of one iteration, in their order. `scene_size` [scene units] is the
@@ -21,12 +21,12 @@ class CellMixture {
   void update(std::span<const Sample> samples, const SpatialGaussiansSettings& settings,
               double scene_size, RandomStream random);
   bool knows_something() const { return mixture_.size() > 0; }
-  /// What was learned so far counts `factor` times as much as it did.
+  /// Multiplies the weight of everything learned so far by `factor`.
   void forget(double factor);
 
-  /// The mixture in world space; empty while nothing is known.
+  /// Returns the mixture in world space. It is empty as long as nothing is known.
   std::vector<SpatialGaussian> components() const;
-  /// Samples that found something, faded ones in part.
+  /// Returns the number of samples that found light. forget() reduces it.
   double samples() const { return samples_; }
 
   void archive(Archive& archive);
@@ -34,14 +34,14 @@ class CellMixture {
  private:
   friend class CellUpdate;
 
-  statistics::Vector<3> pivot_ = statistics::Vector<3>::Zero();  ///< all positions are from here
-  double prior_variance_ = 0;                                    ///< [scene units^2]
+  statistics::Vector<3> pivot_ = statistics::Vector<3>::Zero();  ///< origin of all positions
+  double prior_variance_ = 0;  ///< variance of the first samples [scene units^2]
   double samples_ = 0;
-  double since_merge_ = 0;  ///< samples
+  double since_merge_ = 0;  ///< number of samples since the last merge
   Mixture mixture_;
   std::vector<Moments3> moments_;
-  std::vector<Sample> first_;         ///< that found something, kept until there are enough
-  std::vector<DirectionTest> tests_;  ///< of each component since it was made
+  std::vector<Sample> first_;         ///< samples with light, kept until they suffice for a mixture
+  std::vector<DirectionTest> tests_;  ///< one for each component, since it was made
 };
 
 }  // namespace pharos::spatial_gaussians

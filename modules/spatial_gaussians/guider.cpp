@@ -22,7 +22,8 @@ class SeenDistribution final : public GuidingDistribution {
   const SeenMixture& mixture_;
 };
 
-/// Media have no normal, and so no cosine.
+/// Returns the rule for the cosine at a vertex. In media there is no normal, so weights stay
+/// unchanged.
 CosineRule rule_at(const GuidingQuery& query, const SeenSettings& settings) {
   CosineRule rule{.least = settings.least_cosine};
   if (!settings.reweight || query.current.kind != VertexKind::surface) return rule;
@@ -36,9 +37,10 @@ CosineRule rule_at(const GuidingQuery& query, const SeenSettings& settings) {
 
 void SeenSettings::describe(Schema<SeenSettings>& s) {
   s.field("reweight", &SeenSettings::reweight,
-          "Multiply weights by the cosine between the normal and the direction to each mean");
+          "Multiply the weight of each component by the cosine between the normal and the "
+          "direction to its mean");
   s.field("least_cosine", &SeenSettings::least_cosine,
-          "Smaller cosines count as this one, so that components that are half visible stay")
+          "Lower bound of this cosine, so that components that are partly visible keep some weight")
       .at_least(1e-6)
       .at_most(1);
 }

@@ -10,14 +10,14 @@
 
 namespace pharos::spatial_gaussians {
 
-/// Settings of all three guiders.
+/// Settings of the three guiders.
 struct SeenSettings {
   bool reweight = true;
   float least_cosine = 0.01f;
   static void describe(Schema<SeenSettings>& schema);
 };
 
-/// Samples directions to the points of any mixture of spatial Gaussians.
+/// Samples directions to points of any model that is a SpatialMixture.
 class MixtureGuider : public GuiderOf<SpatialMixture> {
  public:
   using Settings = SeenSettings;
@@ -34,15 +34,15 @@ class MixtureGuider : public GuiderOf<SpatialMixture> {
   Technique technique_;
 };
 
-/// Directions to the points, exactly.
+/// Samples directions to the points, with the exact density.
 struct P0Guider final : MixtureGuider {
   explicit P0Guider(const Settings& s) : MixtureGuider(s, Technique::exact) {}
 };
-/// The same directions, but those that look away from the mean are turned around.
+/// Samples the same directions, but flips a direction that points away from the mean.
 struct P1Guider final : MixtureGuider {
   explicit P1Guider(const Settings& s) : MixtureGuider(s, Technique::flipped) {}
 };
-/// Directions to the projections of the points onto planes through the means.
+/// Samples directions to the projections of the points onto planes through the means.
 struct ProjectedGuider final : MixtureGuider {
   explicit ProjectedGuider(const Settings& s) : MixtureGuider(s, Technique::plane) {}
 };

@@ -9,22 +9,21 @@ void SpatialGaussiansSettings::describe(Schema<SpatialGaussiansSettings>& s) {
   using S = SpatialGaussiansSettings;
   describe_mixture_learning(s);
   s.field("prior_counts", &S::prior_counts,
-          "Samples that every component is believed to have (Dirichlet prior)")
+          "Prior number of samples per component (Dirichlet prior)")
       .above(0);
   s.field("prior_strength", &S::prior_strength,
-          "Samples that the belief in a round component counts for (inverse Wishart prior); its "
-          "variance is that of the cell's first samples")
+          "Prior number of samples that say that a component is round, with the variance of the "
+          "cell's first samples (inverse Wishart prior)")
       .above(0);
-  s.field(
-       "largest_concentration", &S::largest_concentration,
-       "Largest squared ratio of a component's distance from the middle of its cell to its least "
-       "standard deviation")
+  s.field("largest_concentration", &S::largest_concentration,
+          "Upper bound of the squared ratio of a component's distance to its smallest standard "
+          "deviation; the distance is from the middle of the cell")
       .above(0);
   s.field("least_size", &S::least_size,
-          "Least standard deviation, relative to the diagonal of the scene")
+          "Lower bound of standard deviations, relative to the diagonal of the scene")
       .above(0);
   s.field("environment_distance", &S::environment_distance,
-          "Assumed distance of the environment, relative to the diagonal of the scene")
+          "Distance at which the environment is placed, relative to the diagonal of the scene")
       .above(0);
 }
 

@@ -4,7 +4,8 @@
 
 namespace pharos::spatial_gaussians {
 
-/// Parameters of the method. The paper states none; docs and sources are in the README.
+/// Parameters of the method. The paper states none. The README documents them and states their
+/// sources.
 struct SpatialGaussiansSettings : MixtureLearningSettings {
   double prior_counts = 0.01, prior_strength = 0.2;
   double largest_concentration = 32768;
@@ -14,11 +15,12 @@ struct SpatialGaussiansSettings : MixtureLearningSettings {
   static void describe(Schema<SpatialGaussiansSettings>& schema);
 };
 
-/// Learns where the light that reaches a place comes from (Lelyakin et al. 2025).
+/// Learns mixtures of spatial Gaussians over the points from which light arrives (Lelyakin et al.
+/// 2025).
 class SpatialGaussiansLearner final : public Learner {
  public:
   using Settings = SpatialGaussiansSettings;
-  /// Throws InputError when there may be fewer components than there are at first.
+  /// Throws InputError if a mixture begins with more components than it may have.
   explicit SpatialGaussiansLearner(const Settings& settings);
 
   LearnerTraits traits() const override;

@@ -5,7 +5,7 @@
 namespace pharos::spatial_gaussians {
 namespace {
 
-/// A scene without extent is taken to be of size one.
+/// Returns the diagonal of the scene, or one if the scene has no extent.
 double size_of(const Bounds3& region) {
   return region.diagonal() > 0 ? region.diagonal() : 1;
 }

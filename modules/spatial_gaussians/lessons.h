@@ -11,7 +11,8 @@
 
 namespace pharos::spatial_gaussians {
 
-/// How Gaussians are learned during one render, for KdTreeLearning.
+/// The part of KdTreeLearning that is specific to spatial Gaussians: extracts samples from paths,
+/// teaches cells, and makes models.
 class SpatialGaussiansLessons {
  public:
   using Sample = spatial_gaussians::Sample;
@@ -34,7 +35,7 @@ class SpatialGaussiansLessons {
  private:
   SpatialGaussiansSettings settings_;
   SampleRule rule_;
-  double scene_size_;  ///< diagonal [scene units]
+  double scene_size_;  ///< diagonal of the scene [scene units]
   std::uint64_t seed_;
   std::vector<Rgb> incident_;  ///< scratch
 };

@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kMostComponents = 1u << 26;
 
 bool is_sound(const SpatialGaussian& g) {
-  // Beyond, factors of densities are no floats.
+  // Beyond these bounds, factors of densities overflow floats.
   constexpr float kMost = 1e12f, kFlattest = 1e-9f;
   const float* l = g.cholesky;
   const float least = std::min({l[0], l[2], l[5]});
@@ -23,7 +23,7 @@ bool is_sound(const SpatialGaussian& g) {
   return g.weight >= 0 && least > 0 && least >= kFlattest * largest && largest <= kMost;
 }
 
-/// Whether the components are sound and their weights sum to one, as sampling takes for granted.
+/// Returns whether the components are sound and their weights add up to one, as sampling assumes.
 bool is_sound(const std::vector<SpatialGaussian>& mixture) {
   constexpr double kRounding = 1e-4;
   double total = 0;
@@ -34,12 +34,12 @@ bool is_sound(const std::vector<SpatialGaussian>& mixture) {
   return mixture.empty() || std::abs(total - 1) <= kRounding;
 }
 
-/// N(point) [1/scene unit^3].
+/// Returns the density of a Gaussian at a point [1/scene unit^3].
 double density_at(const SpatialGaussian& g, Point3 point) {
   const Vec3 offset = point - g.mean;
   const std::array<double, 3> z = whitened(g, {offset.x, offset.y, offset.z});
   const double squared = z[0] * z[0] + z[1] * z[1] + z[2] * z[2];
-  constexpr double kFar = 100;  // e^-50 is nothing
+  constexpr double kFar = 100;  // e^-50 is negligible
   if (squared > kFar) return 0;
   return std::exp(-0.5 * squared) / (std::pow(2 * EIGEN_PI, 1.5) * root_determinant(g));
 }

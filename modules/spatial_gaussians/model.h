@@ -9,21 +9,21 @@
 
 namespace pharos::spatial_gaussians {
 
-/// A mixture of spatial Gaussians for each cell of a kd-tree: where the light that reaches the cell
-/// comes from. Regions are the cells. Cells that know nothing have no components.
+/// A mixture of spatial Gaussians for each cell of a kd-tree, over the points from which light
+/// arrives in the cell. The regions are the cells. A cell without data has no components.
 class SpatialGaussiansModel final : public GuidingModel, public SpatialMixture {
  public:
   static constexpr std::string_view kName = "spatial_gaussians";
 
-  /// What a cell knows.
+  /// The learned data of a cell.
   struct Cell {
     std::vector<SpatialGaussian> components;
-    float samples = 0;  ///< that found light: the cell's weight in density(point)
+    float samples = 0;  ///< number of samples that found light; the cell's weight in density(point)
     void archive(Archive& archive) { archive(components, samples); }
   };
 
   SpatialGaussiansModel() = default;
-  /// `cells` are in the order of their numbers in the tree.
+  /// `cells` is in the order of the cell numbers in the tree.
   SpatialGaussiansModel(KdTree tree, const std::vector<Cell>& cells);
 
   ModelInfo info() const override;
@@ -37,11 +37,11 @@ class SpatialGaussiansModel final : public GuidingModel, public SpatialMixture {
     return mixture(query.region);
   }
 
-  /// The mixture of a cell.
+  /// Returns the mixture of a cell.
   std::span<const SpatialGaussian> mixture(std::uint32_t cell) const {
     return {components_.data() + first_[cell], components_.data() + first_[cell + 1]};
   }
-  /// The mixture of the cell around a point.
+  /// Returns the mixture of the cell around a point.
   std::span<const SpatialGaussian> mixture_at(Point3 point) const {
     return mixture(tree_.cell_at(point));
   }
@@ -50,8 +50,8 @@ class SpatialGaussiansModel final : public GuidingModel, public SpatialMixture {
   void add(const Cell& cell);
 
   KdTree tree_;
-  std::vector<SpatialGaussian> components_;  ///< of all cells, one after another
-  std::vector<std::uint32_t> first_{0, 0};   ///< of each cell, and the end
+  std::vector<SpatialGaussian> components_;  ///< components of all cells, one cell after another
+  std::vector<std::uint32_t> first_{0, 0};   ///< index of each cell's first component, and the end
   std::vector<float> samples_{0};
 };
 

@@ -5,8 +5,8 @@
 
 PHAROS_MODULE(registry) {
   using namespace pharos::spatial_gaussians;
-  registry.add<SpatialGaussiansLearner>("spatial_gaussians",
-                                        "Mixtures of 3D Gaussians of the next path vertex");
+  registry.add<SpatialGaussiansLearner>(
+      "spatial_gaussians", "Mixtures of 3D Gaussians over the points from which light arrives");
   registry.add<P0Guider>(
       "p0", "Directions to points sampled from spatial Gaussians, with the exact density");
   registry.add<P1Guider>(
@@ -14,5 +14,5 @@ PHAROS_MODULE(registry) {
       "Directions to points sampled from spatial Gaussians, flipped to the side of each mean");
   registry.add<ProjectedGuider>(
       "projected",
-      "Directions to points of spatial Gaussians, projected on planes through their means");
+      "Directions to points sampled from spatial Gaussians, projected on planes through the means");
 }

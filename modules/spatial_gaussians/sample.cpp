@@ -17,7 +17,7 @@ void extract_samples(const PathView& path, const SampleRule& rule, std::vector<R
     const bool escapes = step.to.kind == VertexKind::environment;
     const Point3 target =
         escapes ? origin + rule.environment_distance * step.from.direction : step.to.position;
-    // So close that rounding leaves no direction.
+    // The points are so close that rounding leaves no direction.
     if (!(length_squared(target - origin) > 0)) return;
     samples.push_back({.origin = origin, .target = target, .weight = weight, .pdf = pdf});
   });

@@ -15,7 +15,7 @@
 namespace pharos::vertex_triplets {
 
 /// The prefix of a path, for which conditionals are asked. On paths from lights, `previous` is the
-/// vertex towards the light.
+/// vertex toward the light.
 struct PathPrefix {
   Point3 previous, current;  ///< environment vertices are at EnvironmentShell::at()
   VertexKind previous_kind = VertexKind::surface;
@@ -55,7 +55,7 @@ class ConditionalMixtures {
   void add_cell(Point3 center, std::span<const Run> runs);
 
   std::size_t cell_count() const { return cells_.size(); }
-  /// Whether a cell has any component.
+  /// Returns whether a cell has any component.
   bool knows_something(std::size_t cell) const { return cells_[cell].run_count > 0; }
   Point3 center(std::size_t cell) const { return cells_[cell].center; }
   /// Returns the mixture of a cell as it was added.

@@ -5,7 +5,8 @@
 namespace pharos::vertex_triplets {
 namespace {
 
-/// Events that something comes of: total reflection, for one, leaves nothing of transmission.
+/// Returns the events that can scatter light here. For example, total reflection excludes
+/// transmission.
 EventMask possible_events(const LocalScattering& scattering) {
   EventMask events = scattering.events() & EventMask::smooth;
   if (events == scattering.events()) return events;
@@ -19,14 +20,14 @@ EventMask possible_events(const LocalScattering& scattering) {
 
 void VertexTripletsGuiderSettings::describe(Schema<VertexTripletsGuiderSettings>& s) {
   s.field("surfaces", &VertexTripletsGuiderSettings::surfaces,
-          "How directions to surfaces and the environment are made from Gaussians: projected on a "
-          "plane (the paper), or to their points (p0, p1)");
+          "Directions to surfaces and the environment: Gaussians projected on a plane (the paper), "
+          "or directions to points of the Gaussians (`p0`, `p1`)");
   s.field("specular_roughness", &VertexTripletsGuiderSettings::specular_roughness,
-          "Below this square root of GGX alpha, or of 1 - |g|, directions are more and more left "
-          "to BSDF and phase function")
+          "Roughness (square root of GGX alpha, or of 1 - |g|) below which the BSDF or phase "
+          "function samples more and more of the directions")
       .above(0);
   s.field("guide_camera", &VertexTripletsGuiderSettings::guide_camera,
-          "Whether first vertices, and so pixels, are guided");
+          "Guide first vertices, and with them the choice of pixels");
 }
 
 GuiderTraits VertexTripletsGuider::traits() const {
@@ -45,7 +46,7 @@ const GuidingDistribution* VertexTripletsGuider::query(const VertexTripletsModel
   const std::span<const NextVertex> next =
       model.next_vertices(query, possible_events(*query.scattering), arena);
   if (next.empty()) return nullptr;
-  constexpr float kLeastDistance = 1e-6f;  // of the cell's edge
+  constexpr float kLeastDistance = 1e-6f;  // relative to the cell's edge
   return NextDistribution::make(next, *query.scattering, query.current.position,
                                 {settings_.surfaces, settings_.specular_roughness},
                                 kLeastDistance * model.cell_size(query.region), arena);

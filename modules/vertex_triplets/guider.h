@@ -16,7 +16,7 @@ struct VertexTripletsGuiderSettings {
   static void describe(Schema<VertexTripletsGuiderSettings>& schema);
 };
 
-/// Samples models of vertex triplets or pairs: next vertices on surfaces and in media, discrete
+/// Samples a model of vertex triplets or pairs: next vertices on surfaces and in media, discrete
 /// events, distances, and first vertices (Schuessler et al. 2022, section 5).
 class VertexTripletsGuider final : public GuiderOf<VertexTripletsModel> {
  public:

@@ -9,35 +9,41 @@ namespace pharos::vertex_triplets {
 
 void VertexTripletsSettings::describe(Schema<VertexTripletsSettings>& s) {
   using S = VertexTripletsSettings;
-  s.field("vertices", &S::vertices,
-          "What mixtures are over: a vertex and the next one, or the one before them too");
+  s.field(
+      "vertices", &S::vertices,
+      "Vertices that mixtures are over: the current and the next one, or also the previous one");
   s.field("light_paths", &S::light_paths,
-          "Learn from paths from lights, and guide them too, where the integrator makes any; for "
-          "triplets");
-  s.field("cells", &S::cells, "Cells of the octree, about").at_least(1).at_most(1u << 16);
-  s.field("components", &S::components, "Gaussians for each mode of a cell at most")
+          "Also learn from paths from lights and guide them, if the integrator traces such paths; "
+          "for `triplets` only");
+  s.field("cells", &S::cells, "Approximate number of cells of the octree")
+      .at_least(1)
+      .at_most(1u << 16);
+  s.field("components", &S::components,
+          "Maximum number of Gaussians for each light transport mode of a cell")
       .at_least(1)
       .at_most(1024);
-  s.field("reservoir", &S::reservoir, "Samples that a cell keeps").at_least(8).at_most(1u << 20);
+  s.field("reservoir", &S::reservoir, "Maximum number of samples that a cell keeps")
+      .at_least(8)
+      .at_most(1u << 20);
   s.field("jitter", &S::jitter,
-          "Edge of the box that the place where a sample is kept is drawn from, relative to its "
-          "cell's")
+          "Edge of the box in which a sample's position is jittered to choose its cell, relative "
+          "to the edge of the sample's own cell")
       .at_least(0)
       .at_most(2);
-  s.field(
-       "single_deviation", &S::single_deviation,
-       "Standard deviation that a single sample stands for, relative to the edge of its cell; in "
-       "radians for the environment")
+  s.field("single_deviation", &S::single_deviation,
+          "Standard deviation of a Gaussian that is fitted to a single sample, relative to the "
+          "edge of its cell; in radians for the environment")
       .above(0);
-  s.field("least_deviation", &S::least_deviation, "Least standard deviation, in the same units")
+  s.field("least_deviation", &S::least_deviation,
+          "Lower bound of standard deviations, in the same units")
       .above(0);
-  s.field("em_iterations", &S::em_iterations, "Steps of a fit at most").at_least(1);
+  s.field("em_iterations", &S::em_iterations, "Maximum number of steps of a fit").at_least(1);
   s.field("em_tolerance", &S::em_tolerance,
-          "A fit ends when a step changes the mean logarithm of the density by less, relative to "
-          "itself")
+          "A fit ends if a step changes the mean logarithm of the density by less than this share "
+          "of it")
       .at_least(0);
   s.field("environment_distance", &S::environment_distance,
-          "How far away the environment is taken to be, relative to the diagonal of the scene")
+          "Distance at which the environment is placed, relative to the diagonal of the scene")
       .above(0);
   s.example("{ vertices: pairs }");
 }

@@ -11,7 +11,7 @@
 
 namespace pharos::vertex_triplets {
 
-/// Parameters of the method; the README says where they come from.
+/// Parameters of the method. The README documents them and states their sources.
 struct VertexTripletsSettings {
   Prefix vertices = Prefix::triplet;
   bool light_paths = false;
@@ -28,11 +28,12 @@ struct VertexTripletsSettings {
   static void describe(Schema<VertexTripletsSettings>& schema);
 };
 
-/// Learns where whole paths go on to, given where they come from (Schuessler et al. 2022).
+/// Learns mixtures of the next path vertex given the prefix of the path (Schuessler et al. 2022).
 class VertexTripletsLearner final : public Learner {
  public:
   using Settings = VertexTripletsSettings;
-  /// Throws InputError for pairs of paths from lights, which would not know their way back.
+  /// Throws InputError if paths from lights are to be learned from as pairs, because pairs know one
+  /// direction of paths only.
   explicit VertexTripletsLearner(const Settings& settings);
 
   LearnerTraits traits() const override;
@@ -48,7 +49,7 @@ class VertexTripletsLearner final : public Learner {
 namespace pharos {
 template <>
 struct EnumNames<vertex_triplets::Prefix> {
-  static constexpr auto names =
-      std::to_array<EnumName<vertex_triplets::Prefix>>({{"pairs", vertex_triplets::Prefix::pair}, {"triplets", vertex_triplets::Prefix::triplet}});
+  static constexpr auto names = std::to_array<EnumName<vertex_triplets::Prefix>>(
+      {{"pairs", vertex_triplets::Prefix::pair}, {"triplets", vertex_triplets::Prefix::triplet}});
 };
 }  // namespace pharos

@@ -9,13 +9,13 @@
 namespace pharos::vertex_triplets {
 namespace {
 
-/// Samples that wait at most (44 bytes each).
+/// The number of waiting samples (44 bytes each) at which they are inserted into cells.
 constexpr std::size_t kBatch = 1u << 20;
 
-/// Random numbers of one lesson are keyed by what they are for.
+/// The purpose of a random number, which is a part of its key.
 enum class Draw : std::uint64_t { jitter = 1, insert, join };
 
-/// The cube around a region; around nothing one of size one.
+/// Returns the cube around a region. If the region is empty or has no extent, the edge is one.
 Cube cube_around(const Bounds3& region) {
   if (region.empty()) return {};
   const Vec3 e = region.extent();
@@ -126,7 +126,8 @@ void VertexTripletsLearningState::divide(double threshold) {
     const std::size_t first = divided.size();
     divided.resize(first + 8, Cell{Reservoir(settings_.reservoir), 0, cell.origin});
     const Point3 center = before.cube(from).center;
-    // Each takes what the other took not: none overflows, no number is drawn.
+    // The parts share the samples of one reservoir. Therefore none overflows, and no random number
+    // is drawn.
     RandomStream unused(0);
     cell.reservoir.for_each([&](const Triplet& triplet, double weight) {
       unsigned part = 0;

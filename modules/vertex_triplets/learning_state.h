@@ -8,7 +8,8 @@
 
 namespace pharos::vertex_triplets {
 
-/// Samples in the cells of an octree that follows them; fits begin anew with each update.
+/// The state of learning during one render: samples in the cells of an octree that adapts to them.
+/// Each update fits all mixtures from scratch.
 class VertexTripletsLearningState final : public LearningState {
  public:
   VertexTripletsLearningState(const VertexTripletsSettings& settings,
@@ -19,16 +20,17 @@ class VertexTripletsLearningState final : public LearningState {
   void archive(Archive& archive) override;
 
  private:
-  /// What is kept in a cell.
+  /// The samples of a cell.
   struct Cell {
     Reservoir reservoir;
-    double count = 0;          ///< of samples since the last update
-    std::uint32_t origin = 0;  ///< cell of the last model that it was, or the first of several
+    double count = 0;  ///< number of samples since the last update
+    /// Cell of the last model from which this cell comes; the first one if there are several.
+    std::uint32_t origin = 0;
 
     void archive(Archive& archive) { archive(reservoir, count, origin); }
   };
 
-  /// Puts the samples that wait into their cells' reservoirs.
+  /// Inserts the waiting samples into the reservoirs of their cells.
   void insert();
   std::uint32_t jittered_cell(const Sample& sample, std::uint64_t number) const;
   std::vector<double> counts() const;
@@ -42,8 +44,8 @@ class VertexTripletsLearningState final : public LearningState {
   std::uint64_t seed_;
   Octree tree_;
   std::vector<Cell> cells_;
-  std::uint64_t lessons_ = 0;    ///< calls of insert()
-  std::vector<Sample> samples_;  ///< that wait
+  std::uint64_t lessons_ = 0;    ///< number of calls of insert()
+  std::vector<Sample> samples_;  ///< samples that wait for insert()
   std::vector<Rgb> incident_;    ///< scratch
 };
 

@@ -12,10 +12,10 @@
 
 namespace pharos::vertex_triplets {
 
-/// What is learned in one cell.
+/// The learned data of one cell.
 struct CellKnowledge {
-  float share = 0;  ///< of all weight
-  // Of one prefix; the other is empty.
+  float share = 0;  ///< share of the cell in the total weight
+  // Only the mixtures of the model's prefix are used. The other vector is empty.
   std::vector<ConditionalMixtures<3>::Run> pairs;
   std::vector<ConditionalMixtures<6>::Run> triplets;
 
@@ -25,36 +25,38 @@ struct CellKnowledge {
   }
 };
 
-/// Which vertices a model is about.
+/// The kind of a model: the vertices that its mixtures are over.
 struct ModelKind {
   Prefix prefix = Prefix::triplet;
-  bool both_ways = false;  ///< paths from lights are guided too; triplets only
+  bool both_ways = false;  ///< the model also guides paths from lights; triplets only
   EnvironmentShell environment;
 
   void archive(Archive& archive);
 };
 
-/// A mixture of vertex triplets, or pairs, in each cell of an octree, and one of first vertices at
-/// the camera (Schuessler et al. 2022, sections 3 and 4).
+/// A mixture over vertex triplets, or pairs, in each cell of an octree, and a mixture over first
+/// vertices at the camera (Schuessler et al. 2022, sections 3 and 4).
 class VertexTripletsModel final : public GuidingModel, public SpatialMixture {
  public:
   static constexpr std::string_view kName = "vertex_triplets";
 
   VertexTripletsModel() : VertexTripletsModel({}, Octree{Cube{}}, {{}}, {}, 0) {}
-  /// `cells` are in the order of their numbers in the tree. `sample_bytes` is the memory of the
-  /// samples that the model was learned from.
+  /// `cells` is in the order of the cell numbers in the tree. `sample_bytes` is the memory of the
+  /// samples from which the model was learned.
   VertexTripletsModel(const ModelKind& kind, Octree tree, const std::vector<CellKnowledge>& cells,
                       CameraMixture camera, std::uint64_t sample_bytes);
 
   ModelInfo info() const override;
   void archive(Archive& archive) override;
-  /// Regions are the cells; first vertices, on the lens, belong to region 0.
+  /// The regions are the cells. Vertices on the lens, where first vertices are sampled, belong to
+  /// region 0.
   Place place(const GuidingVertex& vertex) const override;
   double density(Point3 point, const Vec3* direction) const override;
   std::span<const SpatialGaussian> mixture_at(const GuidingQuery& query,
                                               Arena& arena) const override;
 
-  /// Where paths go on to from a vertex, for events among `events`. Empty: nothing is known.
+  /// Returns the mixture over the next vertex, for events among `events`, allocated in `arena`. It
+  /// is empty if nothing is known.
   std::span<const NextVertex> next_vertices(const GuidingQuery& query, EventMask events,
                                             Arena& arena) const;
   const CameraMixture& camera() const { return camera_; }
@@ -62,12 +64,13 @@ class VertexTripletsModel final : public GuidingModel, public SpatialMixture {
   std::size_t component_count() const {
     return pairs_.component_count() + triplets_.component_count();
   }
-  /// Edge of a cell [scene units].
+  /// Returns the length of the edge of a cell [scene units].
   float cell_size(std::uint32_t cell) const { return tree_.cube(cell).size; }
 
  private:
-  /// Where paths from the sensor go on to from a vertex in its cell, for pictures: components of
-  /// (x_2, x_3), x_1 left out. `visit(share, mean, covariance)`, in scene units about the cell.
+  /// Calls `visit(share, mean, covariance)` for the components of a cell, reduced to the pair (x_2,
+  /// x_3) on paths from the sensor without x_1. Used for pictures. Means are relative to the center
+  /// of the cell [scene units].
   template <class Visit>
   void for_each_pair(std::uint32_t cell, Visit&& visit) const;
 
@@ -77,7 +80,7 @@ class VertexTripletsModel final : public GuidingModel, public SpatialMixture {
 
   ModelKind kind_;
   Octree tree_;
-  std::vector<float> shares_;  ///< of cells
+  std::vector<float> shares_;  ///< share of each cell in the total weight
   ConditionalMixtures<3> pairs_{ConditionalMixtures<3>::Direction::from_sensor};
   ConditionalMixtures<6> triplets_{ConditionalMixtures<6>::Direction::from_sensor};
   ConditionalMixtures<6> reversed_{ConditionalMixtures<6>::Direction::from_lights};

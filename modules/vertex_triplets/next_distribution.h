@@ -81,9 +81,9 @@ class NextDistribution final : public GuidingDistribution {
 namespace pharos {
 template <>
 struct EnumNames<vertex_triplets::SurfaceTechnique> {
-  static constexpr auto names =
-      std::to_array<EnumName<vertex_triplets::SurfaceTechnique>>({{"projected", vertex_triplets::SurfaceTechnique::projected},
-             {"p0", vertex_triplets::SurfaceTechnique::p0},
-             {"p1", vertex_triplets::SurfaceTechnique::p1}});
+  static constexpr auto names = std::to_array<EnumName<vertex_triplets::SurfaceTechnique>>(
+      {{"projected", vertex_triplets::SurfaceTechnique::projected},
+       {"p0", vertex_triplets::SurfaceTechnique::p0},
+       {"p1", vertex_triplets::SurfaceTechnique::p1}});
 };
 }  // namespace pharos

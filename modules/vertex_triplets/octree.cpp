@@ -108,8 +108,8 @@ Octree::Origins Octree::divide(std::span<const double> counts, double threshold)
 }
 
 void Octree::archive(Archive& archive) {
-  // Nodes stand in the order in which copy() makes them: depth first, parts side by side. So it is
-  // enough to know which of them are cells.
+  // copy() stores nodes depth first, with the eight parts of a node side by side. Therefore it is
+  // enough to save which nodes are cells.
   Cube cube = cubes_[0];
   std::vector<std::uint8_t> is_cell;
   for (const Node node : nodes_) is_cell.push_back(node.is_cell() ? 1 : 0);

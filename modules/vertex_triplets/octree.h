@@ -17,12 +17,13 @@ struct Cube {
 
   void archive(Archive& archive) { archive(center, size); }
 
-  /// The part `c` of its eight: bit d of `c` is set in the upper half along axis d.
+  /// Returns part `c` of the cube's eight parts. Bit d of `c` is set in the upper half along axis
+  /// d.
   Cube part(unsigned c) const;
   friend bool operator==(const Cube&, const Cube&) = default;
 };
 
-/// A cube divided into cubic cells; each node has eight parts or none. Points outside of the cube
+/// A cube divided into cubic cells. Each node has eight parts or none. Points outside of the cube
 /// belong to the cell that is nearest along the axes.
 class Octree {
  public:
@@ -55,11 +56,11 @@ class Octree {
   int depth() const;
   std::size_t size_bytes() const;
 
-  /// For each cell after a change, the cells before the change that it comes from: several if they
-  /// were joined, otherwise the one that it is, or is a part of.
+  /// For each cell after a change, the cells before the change from which it comes: several cells
+  /// if they were joined, otherwise the one cell that it equals or is a part of.
   using Origins = std::vector<std::vector<std::uint32_t>>;
 
-  /// Makes one cell of each cube whose cells' counts add up to less than `threshold`, the largest
+  /// Joins the cells of each cube in which the counts add up to less than `threshold`, the largest
   /// such cubes first. `counts` has one value for each cell.
   Origins collapse(std::span<const double> counts, double threshold);
   /// Divides each cell whose count is above `threshold`, once.
@@ -96,8 +97,8 @@ class Octree {
   void make_cell(std::uint32_t node);
 
   std::vector<Node> nodes_{Node::cell(0)};  ///< parts follow their parents
-  std::vector<Cube> cubes_;                 ///< of nodes
-  std::vector<std::uint32_t> cells_{0};     ///< the node of each cell
+  std::vector<Cube> cubes_;                 ///< cube of each node
+  std::vector<std::uint32_t> cells_{0};     ///< node of each cell
 };
 
 }  // namespace pharos::vertex_triplets

@@ -19,7 +19,7 @@ class Extraction {
   Extraction(const PathView& path, const SampleRule& rule, std::vector<Sample>& samples)
       : path_(path), rule_(rule), samples_(samples) {}
 
-  /// The step that was taken from vertex `i`.
+  /// Adds the step that was taken from vertex `i`.
   void add_step(std::uint32_t i, Rgb incident) {
     const RecordedVertex& here = path_.vertices[i];
     const Rgb value = here.throughput * here.local_weight * incident;
@@ -29,12 +29,13 @@ class Extraction {
     add(here, here.event, outer(here.position, here.direction, next.position, next.kind), value);
   }
 
-  /// Light, or the lens, as it was found from a vertex.
+  /// Adds a connection from a vertex to a light or to the lens.
   void add_connection(const RecordedLightSample& found) {
     const RecordedVertex& here = path_.vertices[found.vertex];
     if (here.parent == kNoVertex) return;
     Outer end = outer(here.position, found.direction, found.position, found.kind);
-    // Which no step can meet: of use to first vertices, and to paths from there.
+    // No step can hit such an end. The sample is still of use to first vertices, and to paths that
+    // start at this end.
     if (found.discrete) end.kind = VertexKind::light;
     add(here, found.event, end, here.throughput * contribution(found));
   }

@@ -8,9 +8,9 @@
 
 namespace pharos::vertex_triplets {
 
-/// A triplet of a recorded path with the sum of f/p of the path's completions through it: their
-/// luminance, part of the mean over all pixels, each way by its MIS weight among the ways that
-/// samples are taken of (Schuessler et al. 2022, eq. 32).
+/// A triplet of a recorded path with the sum of f/p over the path's completions through it
+/// (Schuessler et al. 2022, eq. 32). The weight is the luminance of their part of the mean over all
+/// pixels. Each completion has its MIS weight among the techniques from which samples are taken.
 struct Sample {
   Triplet triplet;
   float weight = 0;  ///< > 0
@@ -18,13 +18,13 @@ struct Sample {
   void archive(Archive& archive);
 };
 
-/// Which samples are taken.
+/// Parameters of extract_samples().
 struct SampleRule {
   EnvironmentShell environment;
-  bool light_paths = false;  ///< of paths from lights too
+  bool light_paths = false;  ///< also takes samples of paths from lights
 };
 
-/// Appends the samples of a path. `incident` is scratch memory, kept from call to call.
+/// Appends the samples of a path. `incident` is scratch memory.
 void extract_samples(const PathView& path, const SampleRule& rule, std::vector<Rgb>& incident,
                      std::vector<Sample>& samples);
 

@@ -17,8 +17,8 @@ enum class FacetDistribution {
 };
 template <>
 struct EnumNames<FacetDistribution> {
-  static constexpr auto names =
-      std::to_array<EnumName<FacetDistribution>>({{"ggx", FacetDistribution::ggx}, {"beckmann", FacetDistribution::beckmann}});
+  static constexpr auto names = std::to_array<EnumName<FacetDistribution>>(
+      {{"ggx", FacetDistribution::ggx}, {"beckmann", FacetDistribution::beckmann}});
 };
 
 /// Microfacets whose distribution the user chooses. Directions have the same conventions as in

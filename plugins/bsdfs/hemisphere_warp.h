@@ -18,8 +18,8 @@ enum class HemisphereWarp {
 
 template <>
 struct EnumNames<HemisphereWarp> {
-  static constexpr auto names =
-      std::to_array<EnumName<HemisphereWarp>>({{"concentric", HemisphereWarp::concentric}, {"octahedral", HemisphereWarp::octahedral}});
+  static constexpr auto names = std::to_array<EnumName<HemisphereWarp>>(
+      {{"concentric", HemisphereWarp::concentric}, {"octahedral", HemisphereWarp::octahedral}});
 };
 
 /// Declares the parameter `warp` for settings with a member of this name.

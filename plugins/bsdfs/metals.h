@@ -14,16 +14,15 @@ namespace pharos {
 enum class Metal { Ag, Al, Au, Cr, Cu, Fe, Ni, Ti, ideal };
 template <>
 struct EnumNames<Metal> {
-  static constexpr auto names =
-      std::to_array<EnumName<Metal>>({{"Ag", Metal::Ag},
-       {"Al", Metal::Al},
-       {"Au", Metal::Au},
-       {"Cr", Metal::Cr},
-       {"Cu", Metal::Cu},
-       {"Fe", Metal::Fe},
-       {"Ni", Metal::Ni},
-       {"Ti", Metal::Ti},
-       {"ideal", Metal::ideal}});
+  static constexpr auto names = std::to_array<EnumName<Metal>>({{"Ag", Metal::Ag},
+                                                                {"Al", Metal::Al},
+                                                                {"Au", Metal::Au},
+                                                                {"Cr", Metal::Cr},
+                                                                {"Cu", Metal::Cu},
+                                                                {"Fe", Metal::Fe},
+                                                                {"Ni", Metal::Ni},
+                                                                {"Ti", Metal::Ti},
+                                                                {"ideal", Metal::ideal}});
 };
 
 /// A complex index of refraction eta - i k relative to vacuum, in linear Rec.709 channels.

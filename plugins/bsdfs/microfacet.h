@@ -17,8 +17,8 @@ enum class Masking {
 };
 template <>
 struct EnumNames<Masking> {
-  static constexpr auto names =
-      std::to_array<EnumName<Masking>>({{"height_correlated", Masking::height_correlated}, {"separable", Masking::separable}});
+  static constexpr auto names = std::to_array<EnumName<Masking>>(
+      {{"height_correlated", Masking::height_correlated}, {"separable", Masking::separable}});
 };
 
 /// Returns the unit vector halfway between two directions with z > 0. Empty if both are so nearly

@@ -16,8 +16,8 @@ template <>
 struct EnumNames<WardVariant> {
   static constexpr auto names =
       std::to_array<EnumName<WardVariant>>({{"ward", WardVariant::ward},
-       {"ward_duer", WardVariant::ward_duer},
-       {"balanced", WardVariant::balanced}});
+                                            {"ward_duer", WardVariant::ward_duer},
+                                            {"balanced", WardVariant::balanced}});
 };
 
 /// See ward.cpp.

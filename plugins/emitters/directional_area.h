@@ -16,7 +16,7 @@ template <>
 struct EnumNames<EmissionLobe> {
   static constexpr auto names =
       std::to_array<EnumName<EmissionLobe>>({{"cosine_power", EmissionLobe::cosine_power},
-       {"von_mises_fisher", EmissionLobe::von_mises_fisher}});
+                                             {"von_mises_fisher", EmissionLobe::von_mises_fisher}});
 };
 
 /// See directional_area.cpp.

@@ -15,8 +15,8 @@ enum class SpotFalloff {
 
 template <>
 struct EnumNames<SpotFalloff> {
-  static constexpr auto names =
-      std::to_array<EnumName<SpotFalloff>>({{"linear", SpotFalloff::linear}, {"smooth", SpotFalloff::smooth}});
+  static constexpr auto names = std::to_array<EnumName<SpotFalloff>>(
+      {{"linear", SpotFalloff::linear}, {"smooth", SpotFalloff::smooth}});
 };
 
 /// See spot.cpp.

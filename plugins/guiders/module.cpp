@@ -4,6 +4,8 @@
 #include "uniform_learner.h"
 
 PHAROS_MODULE(registry) {
-  registry.add<pharos::UniformLearner>("uniform", "How bright the scene is: one number");
-  registry.add<pharos::UniformGuider>("uniform", "All directions alike, whatever was learned");
+  registry.add<pharos::UniformLearner>("uniform",
+                                       "Learns a single number: the mean incident radiance");
+  registry.add<pharos::UniformGuider>("uniform",
+                                      "Samples all directions uniformly, whatever was learned");
 }

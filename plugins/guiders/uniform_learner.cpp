@@ -1,6 +1,6 @@
-// uniform (learner): the mean radiance that the steps of the last iteration's paths met. The guider
-// ignores it; pictures of the model show it. The pair `uniform` is there to be compared with, and
-// to be copied.
+// uniform (learner): learns the mean radiance that arrived along the steps of the last iteration's
+// paths. The guider ignores this number, but pictures of the model show it. The pair `uniform`
+// serves as a reference for comparisons and as a template for new plugins.
 //
 //     guiding: { learner: uniform, guider: uniform }
 #include "uniform_learner.h"
@@ -12,8 +12,8 @@
 namespace pharos {
 namespace {
 
-/// Sums over the steps recorded since the last update, in the order of calls. So they are the same
-/// for any number of threads.
+/// Sums over the steps that were recorded since the last update. The calls come in a fixed order,
+/// so the sums are the same for any number of threads.
 class UniformState final : public LearningState {
  public:
   void absorb(const PathLog& log) override {
@@ -22,8 +22,8 @@ class UniformState final : public LearningState {
       if (path.transport != Transport::radiance) continue;
       estimate_incident_radiance(path, incident_);
       for (std::size_t k = 0; k < path.vertices.size(); ++k) {
-        // There is nothing to learn where no guide will ever be asked. Steps that met no light
-        // count: they say that it is dark there.
+        // Vertices at which no guide will ever be asked teach nothing. Steps that found no light
+        // count, because they show that it is dark there.
         if (!path.vertices[k].guidable) continue;
         radiance_ += path.vertices[k].continuation * mean(incident_[k]);
         ++steps_;
@@ -37,7 +37,8 @@ class UniformState final : public LearningState {
     return {std::make_shared<UniformModel>(steps > 0 ? radiance / steps : 0.0)};
   }
 
-  /// Saves and loads. The heading names what follows; its version must be raised with every change.
+  /// Saves or loads the state. The heading names what follows; its version must be raised with
+  /// every change.
   void archive(Archive& archive) override {
     archive.heading("uniform state", 2);
     archive(radiance_, steps_);
@@ -46,13 +47,13 @@ class UniformState final : public LearningState {
  private:
   double radiance_ = 0;
   std::uint64_t steps_ = 0;
-  std::vector<Rgb> incident_;  ///< of one path; a member to keep its memory
+  std::vector<Rgb> incident_;  ///< of one path; a member, so that it keeps its memory
 };
 
 }  // namespace
 
 LearnerTraits UniformLearner::traits() const {
-  // Light samples at the end of a step are part of the radiance that the step meets.
+  // Light samples at the end of a step are part of the radiance that arrives along the step.
   return {.records = {.light_samples = true}};
 }
 

@@ -5,8 +5,8 @@
 
 namespace pharos {
 
-/// One number: the mean radiance that paths met. It serves as an estimate of incident radiance,
-/// too.
+/// A single number: the mean radiance that arrived along the steps of paths. It also serves as an
+/// estimate of incident radiance.
 class UniformModel final : public GuidingModel, public RadianceEstimate {
  public:
   static constexpr std::string_view kName = "uniform";
@@ -23,7 +23,7 @@ class UniformModel final : public GuidingModel, public RadianceEstimate {
     archive(radiance_);
     archive.expect(radiance_ >= 0, "the radiance");
   }
-  /// Nothing is known while no path has met any light.
+  /// Returns evidence 0 as long as no path has found light.
   Place place(const GuidingVertex&) const override {
     return {.evidence = radiance_ > 0 ? 1.0f : 0.0f};
   }

@@ -1,19 +1,20 @@
-// bidirectional: path tracing and light tracing together. For each sample of a pixel one path
-// starts at the lens and one at a light. Light is found in three ways: paths from the lens run into
-// it or sample it, and whatever paths from lights meet is seen from the lens. Each way counts by
-// the balance heuristic over all that can make the same path (Veach 1997, section 10.2), so that
-// caustics come from the lights and what only the lens can see from there; subpaths are not
-// connected in between.
+// bidirectional: combines path tracing and light tracing. For each sample of a pixel, one path
+// starts at the lens and one at a light. Light is found in three ways: paths from the lens hit a
+// light, vertices of paths from the lens sample a light, and vertices of paths from lights are
+// connected to the lens. The balance heuristic weights each technique against all that can produce
+// the same path (Veach 1997, section 10.2). Caustics therefore come from the paths that start at
+// lights, and light that only paths from the lens can find comes from these. Inner vertices of the
+// two subpaths are not connected to each other.
 //
-// One model guides both kinds of path, if its guider can: the densities of either, guides included,
-// count in the weights of the other. Guides learn from the paths that start at the lens, as in
-// `path`, or from both if they ask for light paths. There is no Russian roulette: its probabilities
-// would have to be known from the other end.
+// One model guides both kinds of path if its guider supports it. The densities of either kind,
+// including guides, enter the weights of the other kind. Guides learn from the paths that start at
+// the lens, as in `path`, or from both kinds if their learner needs light paths. There is no
+// Russian roulette, because its probabilities would have to be known from the other end.
 //
 //     integrator:
 //       type: bidirectional
 //       max_depth: 12
-//       light_paths: always    # always | training: the final image then is that of `path`
+//       light_paths: always    # always | training: the final image is then that of `path`
 
 #include "bidirectional.h"
 
@@ -22,16 +23,16 @@
 namespace pharos {
 
 void BidirectionalIntegrator::Settings::describe(Schema<Settings>& s) {
-  s.field("max_depth", &Settings::max_depth, "Longest path: 1 sees emitters only")
+  s.field("max_depth", &Settings::max_depth, "Length of the longest path: 1 shows only emitters")
       .unit("segments")
       .at_least(1)
       .at_most(PreparedBidirectional<>::kFirstLightBounce - 1);
   s.field("light_selection", &Settings::light_selection,
-          "Which lights a vertex samples: one in proportion to power, or all");
+          "Lights that are sampled at each vertex: one, chosen in proportion to power, or all");
   s.field("light_paths", &Settings::light_paths,
-          "Whether paths start at lights always, or for the training of guides alone: the final "
-          "image then is that of path tracing");
-  s.field("guiding", &Settings::guiding, "What is learned and how it is used");
+          "Whether paths start at lights always, or only to train guides, in which case the final "
+          "image is that of path tracing");
+  s.field("guiding", &Settings::guiding, "Path guiding: what is learned and how it is used");
 }
 
 PathSettings BidirectionalIntegrator::Settings::path_settings() const {

@@ -10,12 +10,12 @@
 
 namespace pharos {
 
-/// When paths start at lights.
+/// The iterations in which paths start at lights.
 enum class LightPaths { always, training };
 template <>
 struct EnumNames<LightPaths> {
-  static constexpr auto names =
-      std::to_array<EnumName<LightPaths>>({{"always", LightPaths::always}, {"training", LightPaths::training}});
+  static constexpr auto names = std::to_array<EnumName<LightPaths>>(
+      {{"always", LightPaths::always}, {"training", LightPaths::training}});
 };
 
 /// The plugin `bidirectional`; see bidirectional.cpp.

@@ -1,10 +1,12 @@
-// light: light tracing. Paths start at the lights, each chosen by its power, and whatever they meet
-// is seen from the lens, as a splat: caustics that no path from the sensor finds are found, what is
-// behind mirrors, glass, masks and the like is not. The first vertex on the light is seen as well;
-// environments are seen by sensors that see more than one direction.
+// light: light tracing. Paths start at the lights, which are chosen in proportion to power. Every
+// vertex is connected to the lens, and its contribution is a splat on the film. Light tracing finds
+// caustics that no path from the sensor finds. It does not find what is visible behind mirrors,
+// glass, masks and the like. The first vertex, on the light, is connected as well. Environments are
+// visible to sensors that see more than one direction.
 //
-// One path starts for each sample of a pixel, whatever pixels it then lands in. There are no layers
-// of first hits (albedo, normal, depth), and no paths through the middles of pixels alone.
+// One path starts for each sample of a pixel, whichever pixel it then contributes to. There are no
+// layers of first hits (albedo, normal, depth), and paths cannot be restricted to the centers of
+// pixels.
 //
 //     integrator: { type: light, max_depth: 12 }
 
@@ -16,7 +18,8 @@
 namespace pharos {
 
 void LightIntegrator::Settings::describe(Schema<Settings>& s) {
-  s.field("max_depth", &Settings::max_depth, "Longest path, from the light to the lens")
+  s.field("max_depth", &Settings::max_depth,
+          "Length of the longest path from the light to the lens")
       .unit("segments")
       .at_least(1);
 }

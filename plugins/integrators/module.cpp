@@ -7,8 +7,9 @@
 PHAROS_MODULE(registry) {
   registry.add<pharos::PathIntegrator>(
       "path", "Unidirectional path tracing with next event estimation, MIS and guiding");
-  registry.add<pharos::LightIntegrator>("light", "Paths from the lights, seen through the lens");
+  registry.add<pharos::LightIntegrator>(
+      "light", "Light tracing: paths from the lights, connected to the lens");
   registry.add<pharos::BidirectionalIntegrator>(
-      "bidirectional", "Paths from the lens and from the lights, weighted together");
+      "bidirectional", "Path tracing and light tracing combined by multiple importance sampling");
   registry.set_default<pharos::Integrator>("path");
 }

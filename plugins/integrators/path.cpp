@@ -1,14 +1,14 @@
 // path: unidirectional path tracing.
 //
-// Paths start at the sensor. At every vertex that scatters smoothly the light is sampled (next
-// event estimation), then the path goes on by the BSDF or phase function, or by the guide if there
-// is one; what both ways can find is weighted by multiple importance sampling over the full density
-// of the mixture (Veach 1997, ch. 9). Media are sampled by distance. Guides may choose the first
-// vertex.
+// Paths start at the sensor. At every vertex that scatters smoothly, lights are sampled (next event
+// estimation). The path then continues by the BSDF or phase function, or by the guide if there is
+// one. Light that both ways can find is weighted by multiple importance sampling over the full
+// density of the mixture (Veach 1997, ch. 9). In media, distances are sampled. Guides may choose
+// the first vertex.
 //
 //     integrator:
 //       type: path
-//       max_depth: 12            # segments: 1 sees emitters only, 2 adds direct light
+//       max_depth: 12            # segments: 1 shows only emitters, 2 adds direct light
 //       light_selection: all     # one | all
 //       guiding: { learner: …, guider: … }
 

@@ -7,8 +7,8 @@ namespace pharos {
 
 void Finds::add(double u, double weight) {
   ++steps_;
-  // Equal steps of asin sqrt u, so that bins are narrow where a share near 0 or 1 makes 1 / q
-  // steep.
+  // Bins have equal widths in asin sqrt u. They are thus narrow near 0 and 1, where a share near 0
+  // or 1 makes 1 / q steep.
   const double place = std::asin(std::sqrt(u)) * (2 / M_PI) * static_cast<double>(bins_.size());
   Bin& bin = bins_[std::min(static_cast<std::size_t>(place), bins_.size() - 1)];
   bin.weight += weight;

@@ -1,5 +1,5 @@
-// fixed: the same share of samples is unguided everywhere and always. A share of 1 turns guiding
-// off.
+// fixed: the share of unguided samples is the same everywhere and always. A share of 1 turns
+// guiding off.
 //
 //     { type: fixed, unguided_fraction: 0.5 }
 #include "fixed.h"

@@ -1,26 +1,27 @@
-// learned: a share of unguided samples for each region of the guide, learned by gradient descent
+// learned: learns a share of unguided samples for each region of the guide by gradient descent
 // (Mueller 2019, "Practical Path Guiding in Production", in the SIGGRAPH course "Path Guiding in
 // Production").
 //
-// The share is a = 1 / (1 + exp(-theta)). With what a step finds, x = f / p (f: BSDF times
-// estimated incident radiance), drawn with density p, of which B and G are the unguided and the
-// guided part, theta descends the slope
+// The share is a = 1 / (1 + exp(-theta)). A step is drawn with density p; B and G are the unguided
+// and the guided part of p. The estimate of the step is x = f / p (f: BSDF times estimated incident
+// radiance). theta descends the slope
 //
 //     a (1 - a) E[ -x   (B - G) / q   ] / E[x]     objective kl,
 //     a (1 - a) E[ -x^2 (B - G) / q^2 ] / E[x^2]   objective variance,       q = a B + (1 - a) G,
 //
-// (B, G and q relative to p) plus `regularization` times theta's distance from its start, by Adam.
-// An iteration's steps are summed up (finds.h); its end takes the steps of descent. Regions that a
-// region is refined into begin with its theta and its moments.
+// (B, G and q relative to p) plus `regularization` times the distance of theta from its start. The
+// descent uses Adam. The steps of an iteration are summed up (finds.h), and theta moves at the end
+// of the iteration. If a region is refined, the new regions begin with its theta and its moments.
 //
-// Where this is not what was published: there, each second sample moves theta at once by its own
-// gradient, in the order of threads. Here fractions are frozen within an iteration, the result
-// is the same for any number of threads, and what several states absorbed adds up; each second
-// sample (`batch`) still earns a step, up to `steps` an iteration, but along the slope of all
-// samples. The slope is divided by E[x] or E[x^2], so that the unit of radiance does not matter
-// beside `regularization`. Theta is drawn back to `initial` rather than to one half, and held where
-// the share and its complement are at least `least` (published: |theta| < 20), so that no sample
-// weighs more than 1 / least times what unguided sampling alone would make of it.
+// This differs from the published method. There, each second sample moves theta at once by its own
+// gradient, in the order of threads. Here, shares are frozen within an iteration. The result is
+// therefore the same for any number of threads, and what several states absorbed adds up. Each
+// second sample (`batch`) still earns one step of descent, up to `steps` an iteration, but along
+// the slope of all samples. The slope is divided by E[x] or E[x^2], so that the unit of radiance
+// does not change the relative effect of `regularization`. Theta is drawn back to `initial` rather
+// than to one half. It is limited so that the share and its complement are at least `least`
+// (published: |theta| < 20). A sample therefore weighs at most 1 / least times as much as it would
+// under unguided sampling alone.
 //
 //     mixing: { type: learned, objective: variance }
 #include "learned.h"
@@ -45,13 +46,13 @@ double share_of(double theta) {
   return 1 / (1 + std::exp(-theta));
 }
 
-/// The region of the first method that knows something at the vertex decides.
+/// Takes the share of the region of the first method that knows something at the vertex.
 class RegionShares final : public MixingShares {
  public:
   RegionShares(std::vector<float> unguided, std::vector<float> weights)
       : unguided_(std::move(unguided)), weights_(std::move(weights)) {}
 
-  /// Returns the region.
+  /// Returns the region as the key.
   std::uint32_t at(const MixingQuery& query, std::span<float> shares) const override {
     std::uint32_t region = 0;
     for (std::size_t i = query.places.size(); i-- > 0;) {
@@ -62,11 +63,11 @@ class RegionShares final : public MixingShares {
   }
 
  private:
-  std::vector<float> unguided_;  ///< of each region
-  std::vector<float> weights_;   ///< of each method
+  std::vector<float> unguided_;  ///< unguided share of each region
+  std::vector<float> weights_;   ///< weight of each method
 };
 
-/// What is known of one region.
+/// The learned state of one region.
 struct Region {
   double theta;  ///< log-odds of the share of unguided samples
   Adam adam;
@@ -123,7 +124,7 @@ class LearnedState final : public MixingState {
     return {region.theta, region.adam, Finds(settings_.bins)};
   }
 
-  /// The largest theta.
+  /// Returns the largest value of theta.
   double limit() const { return logit(1 - settings_.least); }
   float fraction(const Region& region) const {
     return static_cast<float>(
@@ -138,9 +139,9 @@ class LearnedState final : public MixingState {
     for (std::size_t i = 0; i < techniques.size(); ++i) {
       (i == 0 ? unguided : guided) += double{techniques[i].share} * techniques[i].density;
     }
-    // A step that found nothing may have no density at all: it was a zero sample.
+    // A zero sample may have no density at all.
     const double u = weight > 0 ? unguided / (unguided + guided) : 0;
-    // One infinite find would stay in the sums for good.
+    // A single infinite value would stay in the sums forever.
     if (std::isfinite(weight) && std::isfinite(u)) regions_[vertex.mixing_key].finds.add(u, weight);
   }
 
@@ -163,30 +164,38 @@ class LearnedState final : public MixingState {
   const Settings settings_;
   std::vector<float> weights_;
   std::vector<Region> regions_;
-  std::vector<Rgb> incident_;  ///< of one path; a member to keep its memory
+  std::vector<Rgb> incident_;  ///< of one path; a member, so that it keeps its memory
 };
 
 }  // namespace
 
 void LearnedMixing::Settings::describe(Schema<Settings>& s) {
   s.field("objective", &Settings::objective,
-          "What is minimized: divergence from what is sought, or variance of what is found");
-  s.field("initial", &Settings::initial, "Share of unguided samples to start from")
-      .above(0)
-      .below(1);
-  s.field("least", &Settings::least, "Smallest share of either kind").at_least(1e-4).at_most(0.5);
-  s.field("learning_rate", &Settings::learning_rate, "Length of a step of Adam")
+          "Minimized quantity: divergence from the target distribution, or variance of the "
+          "estimate of a step");
+  s.field("initial", &Settings::initial, "Initial share of unguided samples").above(0).below(1);
+  s.field("least", &Settings::least, "Lower bound of the shares of unguided and of guided samples")
+      .at_least(1e-4)
+      .at_most(0.5);
+  s.field("learning_rate", &Settings::learning_rate, "Step size of Adam")
       .unit("log-odds")
       .above(0)
       .at_most(10);
   s.field("mean_decay", &Settings::mean_decay, "beta_1 of Adam").at_least(0).below(1);
   s.field("square_decay", &Settings::square_decay, "beta_2 of Adam").at_least(0).below(1);
-  s.field("epsilon", &Settings::epsilon, "Of Adam: smaller gradients move nothing").above(0);
-  s.field("regularization", &Settings::regularization, "Pull towards the initial share")
+  s.field("epsilon", &Settings::epsilon,
+          "epsilon of Adam; much smaller gradients have almost no effect")
+      .above(0);
+  s.field("regularization", &Settings::regularization,
+          "Strength of the pull towards the initial share")
       .at_least(0);
-  s.field("batch", &Settings::batch, "Samples that earn a region one step").at_least(1);
-  s.field("steps", &Settings::steps, "Most steps an iteration").at_least(1).at_most(100'000);
-  s.field("bins", &Settings::bins, "In which a region's samples are summed up by their densities")
+  s.field("batch", &Settings::batch, "Number of samples that earn a region one step of descent")
+      .at_least(1);
+  s.field("steps", &Settings::steps, "Largest number of steps of descent in an iteration")
+      .at_least(1)
+      .at_most(100'000);
+  s.field("bins", &Settings::bins,
+          "Number of bins in which a region's samples are summed up by their densities")
       .at_least(2)
       .at_most(1024);
 }

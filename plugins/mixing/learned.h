@@ -13,8 +13,8 @@ namespace pharos {
 
 template <>
 struct EnumNames<MixingObjective> {
-  static constexpr auto names =
-      std::to_array<EnumName<MixingObjective>>({{"kl", MixingObjective::kl}, {"variance", MixingObjective::variance}});
+  static constexpr auto names = std::to_array<EnumName<MixingObjective>>(
+      {{"kl", MixingObjective::kl}, {"variance", MixingObjective::variance}});
 };
 
 /// See learned.cpp.
@@ -34,7 +34,7 @@ class LearnedMixing final : public MixingPolicy {
     std::uint32_t bins = 32;
     static void describe(Schema<Settings>& s);
   };
-  /// Throws InputError when `initial` is not in [least, 1 - least].
+  /// Throws InputError if `initial` is not in [least, 1 - least].
   explicit LearnedMixing(const Settings& settings);
 
   std::unique_ptr<MixingState> begin(std::span<const float> weights) const override;

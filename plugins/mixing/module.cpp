@@ -5,7 +5,7 @@
 
 PHAROS_MODULE(registry) {
   registry.add<pharos::FixedMixing>("fixed", "The same share of unguided samples everywhere");
-  registry.add<pharos::LearnedMixing>("learned",
-                                      "A share for each region, learned from what samples find");
+  registry.add<pharos::LearnedMixing>(
+      "learned", "A share of unguided samples for each region, learned by gradient descent");
   registry.set_default<pharos::MixingPolicy>("fixed");
 }

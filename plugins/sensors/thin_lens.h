@@ -14,8 +14,8 @@ enum class ApertureShape { round, square };
 
 template <>
 struct EnumNames<ApertureShape> {
-  static constexpr auto names =
-      std::to_array<EnumName<ApertureShape>>({{"round", ApertureShape::round}, {"square", ApertureShape::square}});
+  static constexpr auto names = std::to_array<EnumName<ApertureShape>>(
+      {{"round", ApertureShape::round}, {"square", ApertureShape::square}});
 };
 
 /// See thin_lens.cpp.

@@ -12,8 +12,8 @@ namespace pharos {
 enum class ProfileInterpolation { linear, catmull_rom };
 template <>
 struct EnumNames<ProfileInterpolation> {
-  static constexpr auto names =
-      std::to_array<EnumName<ProfileInterpolation>>({{"linear", ProfileInterpolation::linear},
+  static constexpr auto names = std::to_array<EnumName<ProfileInterpolation>>(
+      {{"linear", ProfileInterpolation::linear},
        {"catmull_rom", ProfileInterpolation::catmull_rom}});
 };
 

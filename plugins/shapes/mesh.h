@@ -16,8 +16,8 @@ template <>
 struct EnumNames<MeshNormals> {
   static constexpr auto names =
       std::to_array<EnumName<MeshNormals>>({{"file_or_flat", MeshNormals::file_or_flat},
-       {"file_or_smooth", MeshNormals::file_or_smooth},
-       {"flat", MeshNormals::flat}});
+                                            {"file_or_smooth", MeshNormals::file_or_smooth},
+                                            {"flat", MeshNormals::flat}});
 };
 
 /// See mesh.cpp.

@@ -11,8 +11,8 @@ namespace pharos {
 enum class BitmapFilter { bilinear, nearest };
 template <>
 struct EnumNames<BitmapFilter> {
-  static constexpr auto names =
-      std::to_array<EnumName<BitmapFilter>>({{"bilinear", BitmapFilter::bilinear}, {"nearest", BitmapFilter::nearest}});
+  static constexpr auto names = std::to_array<EnumName<BitmapFilter>>(
+      {{"bilinear", BitmapFilter::bilinear}, {"nearest", BitmapFilter::nearest}});
 };
 
 /// How the image continues outside the unit square of texture coordinates.
@@ -21,14 +21,14 @@ template <>
 struct EnumNames<BitmapWrap> {
   static constexpr auto names =
       std::to_array<EnumName<BitmapWrap>>({{"repeat", BitmapWrap::repeat},
-       {"clamp", BitmapWrap::clamp},
-       {"mirror", BitmapWrap::mirror}});
+                                           {"clamp", BitmapWrap::clamp},
+                                           {"mirror", BitmapWrap::mirror}});
 };
 
 template <>
 struct EnumNames<ColorSpace> {
-  static constexpr auto names =
-      std::to_array<EnumName<ColorSpace>>({{"srgb", ColorSpace::srgb}, {"linear", ColorSpace::linear}});
+  static constexpr auto names = std::to_array<EnumName<ColorSpace>>(
+      {{"srgb", ColorSpace::srgb}, {"linear", ColorSpace::linear}});
 };
 
 class Bitmap final : public Texture {

@@ -14,9 +14,9 @@ namespace fs = std::filesystem;
 
 /// The framework's folders from bottom to top. Each folder may include itself and the folders
 /// before it.
-const std::vector<std::string> kLayers{
-    "core",      "statistics", "config",      "scene",      "sampling",    "guiding",
-    "rendering", "transport",  "experiments", "laboratory", "conformance", "app"};
+const std::vector<std::string> kLayers{"core",        "statistics", "config",      "scene",
+                                       "sampling",    "guiding",    "rendering",   "transport",
+                                       "experiments", "laboratory", "conformance", "app"};
 
 std::size_t layer(const std::string& folder) {
   return static_cast<std::size_t>(std::find(kLayers.begin(), kLayers.end(), folder) -

@@ -6,7 +6,7 @@
 
 namespace pharos::stubs {
 
-/// Distances at which a ray is inside a box, clamped to its start; empty when end <= begin.
+/// The distances at which a ray is inside a box, clamped to its start. Empty if end <= begin.
 struct Interval {
   double begin = 0, end = 0;
 };
@@ -24,8 +24,8 @@ inline Interval box_interval(const Bounds3& box, Point3 origin, Vec3 direction) 
   return t;
 }
 
-/// Density [1/sr] of the direction from `origin` to a point drawn uniformly from the box: the
-/// integral of t^2 / volume along the ray.
+/// Returns the density [1/sr] of the direction from `origin` to a point drawn uniformly from the
+/// box. It is the integral of t^2 / volume along the ray.
 inline double box_direction_pdf(const Bounds3& box, Point3 origin, Vec3 direction) {
   const Interval t = box_interval(box, origin, direction);
   if (!(t.end > t.begin)) return 0;

@@ -9,8 +9,8 @@
 
 namespace pharos::testing {
 
-/// A closed furnace: every surface emits 1 and reflects 0.5, so that paths of k segments carry
-/// 0.5^(k-1) whatever the geometry, and a render of depth 4 shows 1 + 1/2 + 1/4 + 1/8 everywhere.
+/// A closed furnace, in which every surface emits 1 and reflects 0.5. Paths of k segments carry
+/// 0.5^(k-1) for any geometry. A render of depth 4 therefore shows 1 + 1/2 + 1/4 + 1/8 everywhere.
 inline constexpr double kDiffuseFurnace = 1.875;
 inline const std::string kDiffuseScene = R"(
 scene:
@@ -23,8 +23,8 @@ scene:
 film: { width: 32, height: 32, filter: box }
 )";
 
-/// A black wall that emits 1 around a glass ball and a medium that only scatters: paths gain and
-/// lose nothing on the way, and every pixel shows 1.
+/// A black wall that emits 1, around a glass ball and a medium that only scatters. Paths gain and
+/// lose nothing on the way, so every pixel shows 1.
 inline constexpr double kGlassInFogFurnace = 1;
 inline const std::string kGlassInFogScene = R"(
 scene:
@@ -46,8 +46,8 @@ inline std::string path_config(const std::string& scene, int depth, const std::s
                      depth, guiding.empty() ? "" : "  guiding: " + guiding, sampler, spp);
 }
 
-/// Student's t of the mean over `runs` seeds against the furnace's answer. Fails the test when the
-/// furnace could not see a bias of 1 %.
+/// Returns Student's t of the mean over `runs` seeds against the answer of the furnace. Fails the
+/// test if the furnace could not detect a bias of 1 %.
 inline double furnace_t(const std::string& config, double expected, int runs = 12) {
   const Estimate found = mean_over_seeds(config, runs);
   CHECK(4 * found.standard_error < 0.01 * expected);
@@ -56,7 +56,7 @@ inline double furnace_t(const std::string& config, double expected, int runs = 1
   return t;
 }
 
-/// |t| beyond this happens by chance in fewer than 1 of 500 tests of 12 runs.
+/// The limit of |t|. With 12 runs, fewer than 1 of 500 tests exceed it by chance.
 inline constexpr double kLimit = 4;
 
 }  // namespace pharos::testing

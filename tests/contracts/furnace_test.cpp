@@ -1,4 +1,4 @@
-// Every kind of guide, driven through the integrator in furnaces that must stay exact.
+// Furnace tests of every kind of guide. With any guide, the integrator must give the exact answer.
 
 #include "furnace.h"
 
@@ -26,7 +26,7 @@ TEST_CASE("furnace: unguided") {
   CHECK(std::abs(fog_t("")) < kLimit);
 }
 
-/// The same by paths from both ends.
+/// Returns the same config with bidirectional path tracing.
 std::string from_both_ends(std::string config) {
   const std::string path = "type: path\n";
   return config.replace(config.find(path), path.size(), "type: bidirectional\n");

@@ -8,10 +8,11 @@
 
 #include "furnace.h"
 
-/// Guides that are asked, and taught, without a render.
+/// Helpers that train and query guides without a render.
 namespace pharos::testing {
 
-/// What a render of the diffuse furnace with this `guiding` learns. Its states live no longer.
+/// Learning as in a render of the diffuse furnace with this `guiding`. It must outlive the states
+/// that it begins.
 class MadeUpLearning {
  public:
   explicit MadeUpLearning(const std::string& guiding)
@@ -25,8 +26,8 @@ class MadeUpLearning {
   LoadedConfig loaded_;
 };
 
-/// A path whose light all came along one guidable step, which begins at x = -0.9. The guide would
-/// hardly have drawn the step. The share of unguided samples was decided by region 0.
+/// Returns a path on which all light arrives along one guidable step, which begins at x = -0.9. The
+/// guide has a low density for this step. Region 0 decided the share of unguided samples.
 inline PathLog lit_path() {
   constexpr std::array<Technique, 2> techniques{
       {{.share = 0.5f, .density = 1}, {.share = 0.5f, .density = 0.01f}}};
@@ -47,7 +48,7 @@ inline PathLog lit_path() {
   return log;
 }
 
-/// A matt wall that faces +z, at which guides are asked.
+/// A matte wall that faces +z, for queries of guides.
 class Wall {
  public:
   Wall() : scattering_(point_, *bsdf_, kUp, Transport::radiance) {}

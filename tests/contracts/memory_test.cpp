@@ -1,11 +1,11 @@
-// What guides remember along a path goes with the path, and with every copy of it.
+// Tests of the memory of guides along a path. Every copy of the path has its own memory.
 
 #include "made_up.h"
 
 namespace pharos::testing {
 namespace {
 
-/// Guides that have learned of some light, and what their paths need.
+/// Trained guides, and everything that their paths need.
 struct Trained {
   explicit Trained(const std::string& guiding) : learning(guiding), state(learning.begin()) {
     state.absorb(lit_path());
@@ -20,25 +20,27 @@ struct Trained {
 
 constexpr const char* kOneMethod = "{ learner: uniform, guider: stub_memory }";
 
-/// A path whose vertices are asked about one by one. A copy is a path that goes on by itself.
+/// A path that queries the guides at one vertex after another. A copy continues as a path of its
+/// own.
 struct Path {
   const Trained& guides;
-  Arena& arena;  ///< of what lives as long as the path
+  Arena& arena;  ///< memory that lives as long as the path
   PathMemories memories{};
   std::uint16_t bounce = 0;
 
-  /// Goes to the next vertex. Returns how many vertices the guide remembers there.
+  /// Goes to the next vertex. Returns the number of vertices that the guide remembers there.
   float next() {
     ++bounce;
     GuidingQuery query = guides.wall.query({0.1f * static_cast<float>(bounce), 0, 0}, bounce);
-    Arena own;  // is gone at the next vertex
+    Arena own;  // lives only at this vertex
     const Guidance guidance = guides.frame().query(query, own, &memories, &arena);
     REQUIRE(guidance.is_guided());
     CHECK(query.memory == nullptr);
     return remembered(guidance);
   }
 
-  /// With n vertices remembered, the axis of the guide's lobe has the density (n + 1) / (2 pi).
+  /// Returns the number n of remembered vertices. The density on the axis of the guide's lobe is (n
+  /// + 1) / (2 pi).
   static float remembered(const Guidance& guidance) {
     return 2 * kPi * guidance.density({.direction = {0, 0, 1}}) - 1;
   }

@@ -1,5 +1,5 @@
-// How policies and guides are asked: policies first, with what every model knows of the vertex.
-// Learned mixing follows a guide that refines its regions.
+// Tests of the queries to mixing policies and guides. Policies are asked first, with the knowledge
+// of every model about the vertex. Learned mixing follows a guide that refines its regions.
 
 #include <sstream>
 
@@ -8,10 +8,10 @@
 namespace pharos::testing {
 namespace {
 
-/// What was asked, in order.
+/// The queries in their order.
 using Calls = std::vector<std::string>;
 
-/// A model of three regions that says the same of every vertex.
+/// A model of three regions that returns the same place for every vertex.
 class FixedModel final : public GuidingModel {
  public:
   static constexpr std::string_view kName = "fixed";
@@ -25,14 +25,14 @@ class FixedModel final : public GuidingModel {
   Place place_;
 };
 
-/// What a guide answers. Nothing is drawn from it here.
+/// The distribution that guides return. These tests do not sample it.
 class EvenDistribution final : public GuidingDistribution {
  public:
   std::optional<Proposal> propose(const VertexStream&) const override { return std::nullopt; }
   float density(const ResolvedVertex&) const override { return 0.25f; }
 };
 
-/// A guider that notes which region it is asked about, and may know nothing.
+/// A guider that logs the region of each query. It may know nothing.
 class SpyGuider final : public GuiderOf<FixedModel> {
  public:
   SpyGuider(std::string name, Calls& calls, bool knows_something = true)
@@ -50,7 +50,7 @@ class SpyGuider final : public GuiderOf<FixedModel> {
   bool knows_something_;
 };
 
-/// A policy that notes what it is told and divides the samples as stated.
+/// A policy that logs its queries and returns fixed shares.
 class SpyShares final : public MixingShares {
  public:
   SpyShares(std::vector<float> shares, Calls& calls) : shares_(std::move(shares)), calls_(calls) {}
@@ -71,14 +71,14 @@ class SpyShares final : public MixingShares {
   Calls& calls_;
 };
 
-/// A method whose regions are numbered from `first_region` on.
+/// Returns a method whose regions are numbered from `first_region` on.
 GuidingFrame::Method method(const SpyGuider& guider, Place place, std::uint32_t first_region) {
   return {.guider = BoundGuider(guider, std::make_shared<const FixedModel>(place)),
           .traits = guider.traits(),
           .first_region = first_region};
 }
 
-/// The guidance at a vertex that is nothing out of the ordinary.
+/// Returns the guidance at an ordinary vertex.
 Guidance asked(const GuidingFrame& frame, Arena& arena) {
   static const Wall wall;
   GuidingQuery query = wall.query({0.25f, 0.5f, 2}, 3);
@@ -97,7 +97,8 @@ TEST_CASE("a policy is asked before the guides, with what all models know of the
       std::make_shared<const SpyShares>(std::vector{0.25f, 0.5f, 0.25f, 0.0f, 0.0f}, calls));
   Arena arena;
   const Guidance guidance = asked(frame, arena);
-  // The policy sees the regions of all models numbered through, a guide the number of its model.
+  // The policy sees regions that are numbered through all models. A guide sees the number within
+  // its model.
   CHECK(calls == Calls{"mixing at (0.25, 0.5, 2), roughness 0.125, bounce 3: 1/5 5/7 6/0 9/0",
                        "a in region 1", "b in region 2"});
   CHECK(guidance.mixing_key == 42);
@@ -147,7 +148,7 @@ TEST_CASE("if no guide knows anything, the vertex is unguided, whatever the poli
   Arena arena;
   const Guidance declined = asked(GuidingFrame({method(a, {}, 0)}, shares), arena);
   CHECK(calls.size() == 2);
-  // Where no model knows anything, the policy is not asked either.
+  // If no model knows anything, the policy is not asked either.
   const Guidance unknown = asked(GuidingFrame({method(a, {.evidence = 0}, 0)}, shares), arena);
   CHECK(calls.size() == 2);
   for (const Guidance& guidance : {declined, unknown}) {
@@ -188,7 +189,7 @@ constexpr const char* kRefined =
     "{ learner: { type: stub_direction, refine: true }, guider: stub_direction, "
     "mixing: stub_learned }";
 
-/// The share of unguided samples at a point.
+/// Returns the share of unguided samples at a point.
 float unguided_share(const GuidingState& state, float x) {
   const Wall wall;
   GuidingQuery query = wall.query({x, 0, 0});
@@ -222,7 +223,7 @@ TEST_CASE("regions double and keep what was learned for them") {
     state.update(iteration, false);
     CHECK(state.model(0)->info().regions == regions);
   }
-  // The one region's share went to the top. It is now the share everywhere.
+  // The share of the single region rose to its maximum. All refined regions inherit it.
   for (const float x : {-0.9f, -0.1f, 0.3f, 0.9f}) {
     CHECK(unguided_share(state, x) == doctest::Approx(0.9f));
   }

@@ -1,4 +1,4 @@
-// Train once, render many: a method with a model file guides from the start and learns nothing.
+// Tests of model files. A method with a model file guides from the start and learns nothing.
 
 #include <cmath>
 #include <filesystem>
@@ -12,7 +12,7 @@
 namespace pharos::testing {
 namespace {
 
-/// A model that a render of the furnace has learned, as a file.
+/// The file of a model that a render of the furnace has learned.
 class LearnedFile {
  public:
   LearnedFile(const std::string& learner, const std::string& guider)
@@ -33,7 +33,7 @@ class LearnedFile {
   std::filesystem::path path_;
 };
 
-/// `guiding` that takes the model from a file, with training that must not take place.
+/// Returns `guiding` settings that load the model from a file. Their training must not take place.
 std::string fixed(const std::string& name, const std::string& file, const std::string& more = "") {
   return fmt::format("{{ learner: {}, guider: {}, model: '{}', {}training: {{ iterations: 3 }} }}",
                      name, name, file, more);
@@ -70,7 +70,7 @@ TEST_CASE("a render with a model file: its model, no training, the whole budget"
   CHECK(result.samples_per_pixel == 24);
   CHECK(result.learner == "stub_direction");
   CHECK(bits(*result.model) == bits(*guiding.model));
-  // Guided, not merely informed: the same paths would have the same bits.
+  // The model guides paths. Without guiding, the same paths would give the same bits.
   const RenderResult unguided = render(path_config(kDiffuseScene, 4, "", 24));
   CHECK(bits(unguided.image) != bits(result.image));
 }
@@ -107,7 +107,7 @@ TEST_CASE("furnace: a method with a model file beside one that learns") {
   CHECK(loaded.config.integrator->guiding()->learns());
   const RenderResult result = RenderJob(loaded.config).run();
   CHECK(result.times.training > 0);
-  // Training has not touched it.
+  // Training has not changed the model.
   CHECK(bits(*result.model) == bits(*loaded.config.integrator->guiding()->methods[0].model));
 }
 

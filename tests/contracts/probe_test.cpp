@@ -1,4 +1,4 @@
-// The integrand probe speaks of the same primary numbers that a sampler delivers.
+// Tests of the integrand probe. It uses the same primary random numbers as a sampler.
 
 #include <pharos/sampling/integrand_probe.h>
 #include <pharos/sampling/keyed_numbers.h>
@@ -10,7 +10,7 @@ namespace {
 
 constexpr Dimension kLight{Purpose::light_position, 1, 0};
 
-/// The numbers that a probe holds fixed, with one of our own.
+/// The numbers that a probe holds fixed, with a given value in one dimension.
 class Pinned final : public PreparedSampler {
  public:
   Pinned(Dimension pinned, Vec2 value) : pinned_(pinned), value_(value) {}
@@ -27,7 +27,7 @@ class Pinned final : public PreparedSampler {
   Vec2 value_;
 };
 
-/// A floor under a square light, seen from the side; black but for direct light.
+/// A floor under a square light, seen from the side. All light is direct.
 const std::string kFloorAndLight = R"(
 scene:
   shapes:
@@ -60,8 +60,8 @@ TEST_CASE("a probed value is what the integrator finds with those numbers") {
     PathKey key{.seed = 3, .index = static_cast<std::uint64_t>(y) * 16 + x};
     std::vector<Rgb> values(points.size());
     probe->evaluate({.x = x, .y = y, .dimension = kLight, .others = key}, points, values);
-    // A whole path may also hit the light by its BSDF sample, the same one for every point: the
-    // differences between points are the light sample's alone.
+    // A whole path may also hit the light by its BSDF sample, which is the same for every point.
+    // Differences between points therefore come from the light sample only.
     const auto whole = [&](Vec2 light) {
       return mean(p.integrator->replay(key, {Pinned(kLight, light)}).radiance);
     };
@@ -108,7 +108,7 @@ TEST_CASE("whole paths are the image's, however long") {
   }
 }
 
-/// The radiance of the first pixel, and of the next, of `spp` samples.
+/// Returns the radiance of the first pixel and of the next one, with `spp` samples per pixel.
 std::pair<float, float> first_pixels(const std::string& guiding, float left_over, int spp) {
   const std::string sampler = fmt::format("{{ type: stub_probing, left_over: {} }}", left_over);
   const Image image = render(path_config(kFloorAndLight, 2, guiding, spp, sampler)).image;
@@ -116,13 +116,14 @@ std::pair<float, float> first_pixels(const std::string& guiding, float left_over
 }
 
 TEST_CASE("what a sampler has left over counts as one path of its pixel") {
-  // The first pixels see nothing.
+  // No light reaches the first pixels.
   CHECK(first_pixels("", 0, 4) == std::pair{0.0f, 0.0f});
   CHECK(first_pixels("", 10, 4) == std::pair{2.0f, 0.0f});
   const std::string trained =
       "{ learner: stub_direction, guider: stub_direction, training: { iterations: 2 } }";
   CHECK(first_pixels(trained, 10, 8) == std::pair{2.0f, 0.0f});
-  // Paths of a guided camera are splats, which have no mean to count in.
+  // Paths of a guided camera are splats. Their pixels have no mean over samples to which a
+  // left-over sample could be added.
   CHECK(first_pixels("{ learner: stub_camera, guider: stub_camera }", 10, 8).first < 1);
 }
 
@@ -146,7 +147,7 @@ TEST_CASE("paths longer than is asked for do not count") {
         points, values);
     return mean(values[0]);
   };
-  // The floor does not emit: it takes a second segment to find light.
+  // The floor does not emit, so a path needs a second segment to find light.
   for (const Dimension dimension : {kLight, Dimension{Purpose::bsdf_direction, 1}}) {
     CHECK(value(dimension, 1) == 0);
     CHECK(value(dimension, 2) > 0);
@@ -158,7 +159,8 @@ TEST_CASE("first hits know depth and normal") {
   const Prepared p(path_config(kFloorAndLight, 2, "", 1));
   const auto probe = p.integrator->probe();
   const FirstHit floor = probe->first_hit(8, 8);
-  // The pixel's center lies half a pixel beside and below the view axis, which falls 1 over 5.
+  // The pixel's center is half a pixel beside and below the view axis, which descends by 1 over a
+  // distance of 5.
   const double half_pixel = std::tan(15 * double{kPi} / 180) / 16;
   const double fall = (1 + 5 * half_pixel) / std::sqrt(26.0);
   CHECK(floor.depth == doctest::Approx(std::sqrt(1 + 2 * half_pixel * half_pixel) / fall));

@@ -1,4 +1,4 @@
-// What paths record must add up to what they contribute.
+// Tests of recorded paths. The records must add up to the contributions of the paths.
 
 #include <pharos/rendering/integrator.h>
 
@@ -7,7 +7,7 @@
 namespace pharos::testing {
 namespace {
 
-/// One work unit of the config's whole film, recorded or not.
+/// One work unit that covers the whole film of a config, with or without recording.
 struct Unit {
   explicit Unit(const std::string& yaml)
       : loaded(config_from(yaml)),
@@ -35,8 +35,8 @@ struct Unit {
   Film film;
 };
 
-/// The density that a step was drawn with is what its techniques add up to. Returns the number of
-/// steps in which guides took part.
+/// Checks that the density of a step is the sum of its techniques' densities times their shares.
+/// Returns the number of steps in which guides took part.
 int check_techniques(const PathView& path) {
   int guided = 0;
   for (const RecordedVertex& vertex : path.vertices) {
@@ -82,7 +82,7 @@ void check_record(const std::string& yaml, const GuidingFrame* guides = nullptr)
       CHECK(light.mis_weight > 0);
       CHECK(light.mis_weight <= 1);
     }
-    // Everything that a camera path finds comes through its first segment.
+    // All light that a camera path finds arrives through its first segment.
     const Rgb through_first = vertices[0].local_weight * incident[0];
     CHECK(mean(through_first) == doctest::Approx(mean(direct)).epsilon(1e-4));
     sum += mean(direct);
@@ -94,7 +94,7 @@ void check_record(const std::string& yaml, const GuidingFrame* guides = nullptr)
   CHECK(image_mean(unit.film.layers()) == doctest::Approx(sum / (2.0 * 32 * 32)).epsilon(1e-4));
 }
 
-/// The mean over all pixels of the config's image, and the paths recorded on the way.
+/// The mean over all pixels of the config's image, and the recorded paths.
 struct Rendered {
   explicit Rendered(const std::string& yaml) : unit(yaml), result(unit.render(true)) {
     unit.film.merge(result.film);
@@ -106,13 +106,14 @@ struct Rendered {
   double mean = 0;
 };
 
-/// The same config with another integrator.
+/// Returns the same config with another integrator.
 std::string with_integrator(std::string config, const std::string& integrator) {
   const std::string path = "type: path\n";
   return config.replace(config.find(path), path.size(), "type: " + integrator + "\n");
 }
 
-/// What the vertices of a path add to the image from number `first` on, light samples included.
+/// Returns the contribution to the image of a path's vertices from number `first` on, and of its
+/// light samples.
 double value_of(const PathView& path, std::size_t first, WeightedAmong among) {
   const bool jointly = among == WeightedAmong::both_ends;
   Rgb sum;
@@ -127,8 +128,8 @@ double value_of(const PathView& path, std::size_t first, WeightedAmong among) {
   return mean(sum);
 }
 
-/// Paths from both ends together: those of more than one segment, as lights that are seen directly
-/// are not recorded from their side.
+/// Checks that paths from both ends add up to the image. Lights that are seen directly are not
+/// recorded from the light's side, so only paths of more than one segment count.
 void check_joint_record(const std::string& scene, int depth) {
   const std::string guiding =
       "{ learner: { type: vertex_triplets, light_paths: true }, guider: { type: vertex_triplets, "
@@ -202,7 +203,7 @@ TEST_CASE("incident radiance follows branches") {
   PathLog log;
   log.begin_path({}, Transport::radiance);
   log.add(RecordedVertex{.kind = VertexKind::sensor, .local_weight = Rgb(1)});
-  // One vertex from which two steps were taken stands there twice.
+  // A vertex from which two steps were taken is recorded twice.
   log.add(RecordedVertex{.parent = 0, .local_weight = Rgb(0.25f)});
   log.add(RecordedVertex{.parent = 0, .local_weight = Rgb(0.75f)});
   log.add(RecordedVertex{.parent = 1, .emission = Rgb(4)});

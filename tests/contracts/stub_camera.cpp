@@ -1,5 +1,6 @@
-// Stub (d): a method that guides the first vertex only, and so the pixel: directions uniform in a
-// cone about the view direction. Everything it touches ends in the film's splat layer.
+// Stub (d): a method that guides only the first vertex, and thereby the pixel. It samples
+// directions uniformly in a cone about the view direction. All of its contributions go to the
+// film's splat layer.
 
 #include <pharos/config/registry.h>
 #include <pharos/core/warp.h>
@@ -11,7 +12,7 @@
 namespace pharos::stubs {
 namespace {
 
-/// The region, which nobody asks for.
+/// A model that stores only the region. The guider does not use it.
 class CameraModel final : public TableModel {
  public:
   static constexpr std::string_view kName = "stub_camera";

@@ -1,6 +1,6 @@
-// Stub (a): a direction-only method. Its model is a histogram of incident radiance over direction
-// in each of a row of cells along x; the cells double in number with every iteration, which is what
-// the learned mixing policy (e) must follow.
+// Stub (a): a method that guides directions only. Its model has a row of cells along x, each with a
+// histogram of incident radiance over directions. With `refine`, the number of cells doubles in
+// every iteration, and the learned mixing policy (e) must follow.
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +25,7 @@ std::uint32_t bin_of(Vec3 direction) {
   return row * kColumns + column;
 }
 
-/// Cells of equal width along x.
+/// Returns the cell of a point, among `count` cells of equal width along x.
 std::uint32_t cell_of(Point3 p, const Bounds3& region, std::uint32_t count) {
   const float x = (p.x - region.low.x) / std::max(region.extent().x, 1e-20f);
   return static_cast<std::uint32_t>(
@@ -52,7 +52,7 @@ class DirectionModel final : public TableModel {
     return direction == nullptr ? 1 : histogram(cell(p))[bin_of(*direction)];
   }
 
-  /// Probabilities of the bins of a cell; they sum to one.
+  /// Returns the probabilities of the bins of a cell, which add up to one.
   const double* histogram(std::uint32_t cell) const { return table().data() + cell * kBins; }
 
  private:
@@ -96,7 +96,7 @@ class DirectionState final : public TableState {
   }
 
  private:
-  /// Nine parts learned, one part uniform.
+  /// Normalizes the bins of a cell: nine parts learned, one part uniform.
   static void normalize(double* bins) {
     double total = 0;
     for (std::uint32_t b = 0; b < kBins; ++b) total += bins[b];
@@ -138,7 +138,7 @@ struct DirectionGuiderSettings {
 
   static void describe(Schema<DirectionGuiderSettings>& s) {
     s.field("adversarial", &DirectionGuiderSettings::adversarial,
-            "Prefer what the model thinks unlikely: bad, yet correct");
+            "Prefer directions that the model considers unlikely: inefficient, but unbiased");
     s.field("pdf_scale", &DirectionGuiderSettings::pdf_scale,
             "Planted fault: factor on the density");
   }

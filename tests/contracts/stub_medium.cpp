@@ -1,4 +1,4 @@
-// A gray homogeneous medium with isotropic scattering: what stub (c) steers distances in.
+// A gray homogeneous medium with isotropic scattering. Stub (c) samples distances in it.
 
 #include <cmath>
 

@@ -1,6 +1,7 @@
-// Stub (h): a method that remembers its path. It counts the vertices at which it was asked, and its
-// directions lie in a lobe about the way back that gets narrower with every vertex. It samples any
-// model that estimates radiance, such as that of the learner `uniform`, and ignores the estimate.
+// Stub (h): a method that remembers its path. It counts the vertices at which it was queried. Its
+// directions lie in a lobe about the direction to the previous vertex, which gets narrower with
+// every vertex. It samples any model that estimates radiance, such as the model of the learner
+// `uniform`, and ignores the estimate.
 
 #include <algorithm>
 #include <cmath>
@@ -15,12 +16,12 @@
 namespace pharos::stubs {
 namespace {
 
-/// What is left for the next vertex.
+/// The memory that is left for the next vertex.
 struct Memory {
-  std::uint32_t vertices = 0;  ///< at which the guide was asked
+  std::uint32_t vertices = 0;  ///< number of vertices at which the guide was queried
 };
 
-/// Directions with the density (n + 1) / (2 pi) cos^n about an axis.
+/// Samples directions with the density (n + 1) / (2 pi) cos^n about an axis.
 class LobeDistribution final : public GuidingDistribution {
  public:
   LobeDistribution(Vec3 axis, std::uint32_t exponent)
@@ -53,7 +54,7 @@ class MemoryGuider final : public GuiderOf<RadianceEstimate> {
   }
 
  private:
-  /// Number of vertices of the path before this one, as far as the guide remembers. Paths that are
+  /// Returns the number of earlier vertices of the path that the guide remembers. Paths that are
   /// made from both ends (bounce 0) must have the same densities with and without memory.
   static std::uint32_t vertices_before(const GuidingQuery& query) {
     if (query.memory == nullptr || query.bounce == 0) return 0;

@@ -1,5 +1,5 @@
 // Stub (e): a mixing policy that learns a share of unguided samples for each region by one EM step
-// an iteration, and carries what it learned over when the guide's regions are refined.
+// per iteration. If the guide refines its regions, new regions inherit the share of the old ones.
 
 #include <algorithm>
 #include <vector>
@@ -13,7 +13,8 @@
 namespace pharos::stubs {
 namespace {
 
-/// The region of the first method that knows something at a vertex decides. It is the key.
+/// Shares that depend on the region of the first method that knows something at a vertex. This
+/// region is the mixing key.
 class RegionShares final : public MixingShares {
  public:
   RegionShares(std::vector<float> unguided, std::vector<float> weights)
@@ -27,16 +28,16 @@ class RegionShares final : public MixingShares {
   }
 
  private:
-  std::vector<float> unguided_;  ///< of each region
-  std::vector<float> weights_;   ///< of each method
+  std::vector<float> unguided_;  ///< share of unguided samples in each region
+  std::vector<float> weights_;   ///< weight of each method
 };
 
 constexpr double kLeast = 0.1, kMost = 0.9;
 
-/// What is known of one region.
+/// The learned data of one region.
 struct Region {
-  double total = 0, unguided = 0;  ///< since the last update
-  double share = 0.5;              ///< of unguided samples
+  double total = 0, unguided = 0;  ///< sums since the last update
+  double share = 0.5;              ///< share of unguided samples
   void archive(Archive& archive) {
     archive(total, unguided, share);
     archive.expect(share >= kLeast && share <= kMost, "a region's share");

@@ -1,5 +1,5 @@
-// Stub (g), the model: one isotropic Gaussian of target vertices in each octant of the region,
-// offered through the neutral SpatialMixture contract. The guiders live in another module.
+// Stub (g), the model: one isotropic Gaussian over target vertices in each octant of the region,
+// available through the neutral contract SpatialMixture. The guiders are in another module.
 
 #include <algorithm>
 #include <array>
@@ -15,9 +15,9 @@ namespace pharos::stubs {
 namespace {
 
 constexpr std::size_t kOctants = 8;
-/// Sums kept of each octant: weight, weighted position and squared position.
+/// The number of sums for each octant: weight, weighted position and squared position.
 constexpr std::size_t kSums = 5;
-/// Numbers saved of each component: weight, mean, standard deviation.
+/// The number of saved values for each component: weight, mean, standard deviation.
 constexpr std::size_t kNumbers = 5;
 
 class MixtureModel final : public TableModel, public SpatialMixture {

@@ -1,7 +1,7 @@
-// Stub (g), the guiders: two ways to sample any model that offers SpatialMixture. `stub_exact`
-// draws a point from a Gaussian and keeps its direction, with the exact density of such directions;
-// `stub_projected` draws in the plane through the mean and projects (Schuessler et al. 2022,
-// sec. 5.2).
+// Stub (g), the guiders: two ways to sample any model that is a SpatialMixture. `stub_exact`
+// samples a point from a Gaussian and takes its direction, with the exact density of such
+// directions. `stub_projected` projects points on the plane through the mean (Schuessler et al.
+// 2022, sec. 5.2).
 
 #include <cmath>
 
@@ -34,8 +34,8 @@ Vec3 normal_3d(const VertexStream& stream) {
   return {gauss(u.x), gauss(u.y), gauss(w)};
 }
 
-/// Directions to points of a 3D Gaussian about `mean` (relative to the origin): the density p0 of
-/// Lelyakin et al. 2025 in whitened coordinates.
+/// Directions to points of a 3D Gaussian about `mean` (relative to the origin). The density is p0
+/// of Lelyakin et al. 2025 in whitened coordinates.
 struct Exact {
   static std::optional<Vec3> sample(const SpatialGaussian& g, Vec3 mean,
                                     const VertexStream& stream) {
@@ -56,8 +56,8 @@ struct Exact {
   }
 };
 
-/// Points of a 3D Gaussian, moved along the direction to its mean into the plane through the mean
-/// that is perpendicular to it.
+/// Directions to points of a 3D Gaussian that are projected on a plane. The plane contains the mean
+/// and is perpendicular to the direction to the mean.
 struct Projected {
   static std::optional<Vec3> sample(const SpatialGaussian& g, Vec3 mean,
                                     const VertexStream& stream) {
@@ -70,8 +70,8 @@ struct Projected {
     if (d == 0) return 0;
     const float cosine = dot(mean / d, direction);
     if (cosine <= 0) return 0;
-    // The covariance in the plane is what is perpendicular to the line of sight once that is
-    // whitened.
+    // In whitened space, only the offset perpendicular to the whitened line of sight counts in the
+    // plane.
     const Vec3 white = lower_solve(g.cholesky, d / cosine * direction - mean);
     const Vec3 line = lower_solve(g.cholesky, mean);
     const double squared = length_squared(cross(white, line)) / length_squared(line);

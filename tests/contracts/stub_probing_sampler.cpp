@@ -1,7 +1,7 @@
-// Stub (f): a sampler that looks at the light-position integrand of pixel blocks before rendering
-// and shifts each block's numbers, on the torus, by where the integrand is brightest. Uniform
-// numbers stay uniform under a shift, so nothing may change but noise. On request it leaves a
-// sample over, for the middle of the first pixel.
+// Stub (f): a sampler that probes the light-position integrand of pixel blocks before rendering. It
+// shifts the numbers of each block, on the torus, to the brightest point of the integrand. Uniform
+// numbers stay uniform under a shift, so only noise may change. On request it adds a left-over
+// sample at the center of the first pixel.
 
 #include <cmath>
 #include <vector>
@@ -55,7 +55,8 @@ struct ProbingSettings {
   float left_over = 0;
 
   static void describe(Schema<ProbingSettings>& s) {
-    s.field("left_over", &ProbingSettings::left_over, "Radiance of a sample that is left over");
+    s.field("left_over", &ProbingSettings::left_over,
+            "Radiance of a sample that is left over from the probe");
   }
 };
 

@@ -1,6 +1,6 @@
-// Stub (b): a method that splats contributions along whole path segments, those that leave the
-// scene included, into a grid over the region, and sends rays towards the grid's mass. The density
-// of a direction is an integral along the ray through every voxel.
+// Stub (b): a method that splats contributions along whole path segments into a grid over the
+// region, including segments that leave the scene. It samples directions toward the grid's mass.
+// The density of a direction is an integral along the ray through every voxel.
 
 #include <algorithm>
 #include <cmath>
@@ -43,7 +43,7 @@ class SegmentModel final : public TableModel {
     return direction == nullptr ? at(p) : along(p, *direction);
   }
 
-  /// Density [1/sr] of a direction from a point.
+  /// Returns the density [1/sr] of a direction from a point.
   double along(Point3 p, Vec3 direction) const {
     double sum = 0;
     for (std::uint32_t v = 0; v < kVoxels; ++v) {
@@ -157,7 +157,7 @@ class SegmentGuider final : public GuiderOf<SegmentModel> {
 
 void register_segments(Registry& registry) {
   registry.add<SegmentLearner>("stub_segments", "Splats along segments into a grid");
-  registry.add<SegmentGuider>("stub_segments", "Directions towards the grid's mass");
+  registry.add<SegmentGuider>("stub_segments", "Directions toward the grid's mass");
 }
 
 }  // namespace pharos::stubs

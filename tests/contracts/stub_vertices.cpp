@@ -1,6 +1,6 @@
-// Stub (c): a method that proposes whole vertices. It looks at the previous vertex, proposes
-// positions in space (in a medium) and on the surface behind them, distances, and discrete events;
-// and it declines by the path's prefix. Its model is the region's box.
+// Stub (c): a method that proposes whole vertices. It depends on the previous vertex. It proposes
+// positions in space (in a medium) and on the surface behind them, distances, and discrete events.
+// For some prefixes of the path it declines to guide. Its model is the region's box.
 
 #include <algorithm>
 #include <cmath>
@@ -52,9 +52,10 @@ class VertexLearner final : public Learner {
   }
 };
 
-/// Shares of the branches at smooth vertices; the rest is a direction with the medium's distances.
+/// Shares of the branches at smooth vertices. The remaining branch samples a direction and leaves
+/// the distance to the medium.
 constexpr float kVolumeShare = 0.4f, kSurfaceShare = 0.3f;
-/// Share of reflection among discrete events.
+/// The share of reflection among discrete events.
 constexpr float kReflectShare = 0.7f;
 
 class VertexDistribution final : public GuidingDistribution {
@@ -114,7 +115,7 @@ class VertexGuider final : public GuiderOf<BoxModel> {
   }
   const GuidingDistribution* query(const BoxModel& model, const GuidingQuery& query,
                                    Arena& arena) const override {
-    // It declines by prefix: it knows only paths that came from the upper half.
+    // The guide declines by prefix: it knows only paths whose previous vertex is in the upper half.
     if (query.previous == nullptr || query.previous->position.y < model.region().center().y) {
       return nullptr;
     }

@@ -8,16 +8,16 @@
 
 namespace pharos::stubs {
 
-/// A table of numbers and the region it is about.
+/// A table of numbers and the region to which it belongs.
 struct Table {
   std::vector<double> values;
   Bounds3 region;
 };
 
-/// A model that is one table of numbers over a region.
+/// A model that consists of one table of numbers over a region.
 class TableModel : public GuidingModel {
  public:
-  /// Knows nothing.
+  /// Makes a model that knows nothing.
   TableModel() = default;
   explicit TableModel(Table table) : table_(std::move(table)) {}
 
@@ -32,7 +32,7 @@ class TableModel : public GuidingModel {
     return {.name = std::string(name), .bytes = table_.values.size() * sizeof(double)};
   }
 
-  /// Saves or loads the table. It must have `expected` numbers, or up to `most_times` that many.
+  /// Saves or loads the table. It must have `expected` numbers, or up to `most_times` as many.
   void archive_table(Archive& archive, std::size_t expected, std::size_t most_times = 1) {
     archive(table_.region, table_.values);
     const std::size_t size = table_.values.size();
@@ -45,7 +45,7 @@ class TableModel : public GuidingModel {
   Table table_;
 };
 
-/// Learning that is a table of sums.
+/// A learning state that consists of a table of sums.
 class TableState : public LearningState {
  public:
   explicit TableState(std::size_t size) : sums_(size) {}
@@ -60,8 +60,8 @@ class TableState : public LearningState {
   std::vector<double> sums_;
 };
 
-/// Calls `use(path, i, weight)` for every guidable step of every path, where `weight` is the
-/// radiance that the step from vertex i found over the density it was sampled with.
+/// Calls `use(path, i, weight)` for every guidable step of every path. `weight` is the radiance
+/// that the step from vertex i found, divided by the density with which it was sampled.
 template <class Use>
 void for_each_step(const PathLog& log, Use&& use) {
   std::vector<Rgb> incident;

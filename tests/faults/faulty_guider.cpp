@@ -1,5 +1,5 @@
-// A guider that folds another one's directions into the hemisphere of the normal, rightly or with a
-// planted fault:
+// A guider that folds the directions of another guider into the hemisphere of the normal, correctly
+// or with a planted fault:
 //
 //     guider: { type: folding, fault: mirrored_branch_missing, guider: stub_direction }
 
@@ -47,8 +47,8 @@ class FoldedDistribution final : public GuidingDistribution {
 }  // namespace
 
 void FoldingSettings::describe(Schema<FoldingSettings>& s) {
-  s.field("fault", &FoldingSettings::fault, "What to do wrong");
-  s.field("guider", &FoldingSettings::guider, "Whose directions are folded")
+  s.field("fault", &FoldingSettings::fault, "The planted fault");
+  s.field("guider", &FoldingSettings::guider, "Guider whose directions are folded")
       .otherwise("stub_direction");
 }
 

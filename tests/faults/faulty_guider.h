@@ -8,8 +8,8 @@ namespace pharos::testing {
 enum class GuideFault {
   none,
   scaled,                   ///< the density is 3 % too large
-  mirrored_branch_missing,  ///< the density leaves out what was folded over
-  proposal_not_folded,      ///< proposals stay below, the density folds them
+  mirrored_branch_missing,  ///< the density omits directions that were folded
+  proposal_not_folded,      ///< proposals stay below the surface, but the density folds them
 };
 
 struct FoldingSettings {
@@ -41,8 +41,8 @@ class FoldingGuider final : public Guider {
 namespace pharos {
 template <>
 struct EnumNames<testing::GuideFault> {
-  static constexpr auto names =
-      std::to_array<EnumName<testing::GuideFault>>({{"none", testing::GuideFault::none},
+  static constexpr auto names = std::to_array<EnumName<testing::GuideFault>>(
+      {{"none", testing::GuideFault::none},
        {"scaled", testing::GuideFault::scaled},
        {"mirrored_branch_missing", testing::GuideFault::mirrored_branch_missing},
        {"proposal_not_folded", testing::GuideFault::proposal_not_folded}});

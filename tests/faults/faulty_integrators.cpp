@@ -30,7 +30,7 @@ std::unique_ptr<const PreparedIntegrator> prepare_faulty(
                                                               settings.light_path_rules(), target);
 }
 
-/// The integrator `Right`, whose settings stand under `settings`, with a fault.
+/// The integrator `Right` with a fault. Its own settings are under `settings`.
 template <class Right>
 class Faulty final : public Integrator {
  public:
@@ -38,7 +38,7 @@ class Faulty final : public Integrator {
     PlantedFault fault = PlantedFault::none;
     typename Right::Settings right;
     static void describe(Schema<Settings>& s) {
-      s.field("fault", &Settings::fault, "What to do wrong");
+      s.field("fault", &Settings::fault, "The planted fault");
       s.field("settings", &Settings::right, "Settings of the integrator");
     }
   };
@@ -64,6 +64,6 @@ PHAROS_MODULE(registry) {
   registry.add<Faulty<PathIntegrator>>("faulty_path", "Path tracing with a planted fault");
   registry.add<Faulty<LightIntegrator>>("faulty_light", "Light tracing with a planted fault");
   registry.add<Faulty<BidirectionalIntegrator>>("faulty_bidirectional",
-                                                "Both with a planted fault");
+                                                "Bidirectional path tracing with a planted fault");
   registry.add<pharos::testing::FoldingGuider>("folding", "Directions of another guider, folded");
 }

@@ -1,4 +1,4 @@
-// Faults planted into a guide, against its conformance suite and a guided furnace.
+// Faults planted into a guide. Its conformance suite and a guided furnace must notice them.
 
 #include <cmath>
 #include <set>
@@ -17,7 +17,7 @@ namespace {
 
 using Names = std::set<std::string>;
 
-/// The checks of the guiders' suite that fail for the guider `folding` with a fault.
+/// Returns the checks of the guiders' suite that fail for the guider `folding` with a fault.
 Names red_checks(const std::string& fault) {
   Names red;
   for (const conformance::Finding& f :

@@ -1,5 +1,5 @@
-// The table of faults against furnaces: each fault planted into the integrator turns the tests red
-// that look where it acts, and no others.
+// A table of faults against furnaces. Each fault planted into an integrator must fail exactly those
+// furnaces that exercise the faulty formula.
 
 #include <cmath>
 #include <string>
@@ -13,7 +13,7 @@
 namespace pharos::testing {
 namespace {
 
-/// A furnace with an exact answer: the mean of all pixels.
+/// A furnace with an exact answer for the mean of all pixels.
 struct Furnace {
   std::string name, scene, settings;
   double answer;
@@ -21,7 +21,7 @@ struct Furnace {
   int spp = 32;
 };
 
-/// A shining square that covers half the height and half the width of what is seen.
+/// An emitting square that covers half the height and half the width of the view.
 const std::string kCoveredScene = R"(
 scene:
   shapes:
@@ -31,7 +31,7 @@ scene:
 film: { width: 33, height: 33, filter: box }
 )";
 
-/// Walls that reflect 0.8 and emit 1 show 1 / (1 - 0.8).
+/// Walls that reflect 0.8 and emit 1, so every pixel shows 1 / (1 - 0.8).
 const std::string kRouletteScene = R"(
 scene:
   materials:
@@ -42,7 +42,7 @@ scene:
 film: { width: 32, height: 32, filter: box }
 )";
 
-/// A ball of fog that only scatters, under a white sky, cannot be seen.
+/// A ball of fog that only scatters, under a white sky. It is invisible.
 const std::string kFogBallScene = R"(
 scene:
   media:
@@ -71,7 +71,7 @@ std::vector<Furnace> furnaces() {
       {"both, ball of fog", kFogBallScene, "max_depth: 100", 1, "bidirectional"}};
 }
 
-/// Whether a furnace's test is red under a fault.
+/// Returns whether the test of a furnace fails under a fault.
 bool turns_red(const Furnace& furnace, const std::string& fault) {
   const std::string config =
       furnace.scene + fmt::format(
@@ -96,9 +96,10 @@ constexpr bool green = false;
 
 }  // namespace
 
-// The first furnaces of, or all, in their order: by path tracing unguided, guided, half covered,
-// roulette, glass in fog, ball of fog; by light tracing; by both in a diffuse furnace, with glass
-// in fog, a ball of fog.
+// A row lists the expected results for the first furnaces, or for all of them, in the order of
+// furnaces(). Path tracing: unguided, guided, half covered, roulette, glass in fog, ball of fog.
+// Light tracing: the diffuse furnace. Bidirectional path tracing: the diffuse furnace, glass in
+// fog, ball of fog.
 
 TEST_CASE("no fault") {
   check_row("none", {green, green, green, green, green, green, green, green, green, green});

@@ -9,24 +9,24 @@
 
 namespace pharos {
 
-/// Faults that tests plant into the integrators, to see which tests notice.
+/// Faults that are planted into the integrators, to see which tests notice them.
 enum class PlantedFault {
   none,
   mis_without_guide,            ///< emission is weighted with the unguided density alone
   zero_samples_dropped,         ///< paths of value zero do not count in the average
   light_choice_forgotten,       ///< next event estimation omits the probability of its light
-  roulette_unweighted,          ///< survivors of roulette do not stand for the others
+  roulette_unweighted,          ///< survivors of roulette do not represent the terminated paths
   distance_density_forgotten,   ///< steps in media omit the density of their distance
   boundaries_cast_shadows,      ///< neither light samples nor views get through boundaries of media
-  boundaries_count_as_origins,  ///< steps that meet light count as if they began at the last
-                                ///< boundary, and all of them as in empty space
-  camera_cosine_forgotten,      ///< shining surfaces seen from the lens are not foreshortened
-  reverse_density_forgotten,    ///< paths from the lens count as if light paths could not make them
+  boundaries_count_as_origins,  ///< MIS weights take the last boundary as the origin of steps that
+                                ///< reach light, and omit the density of distances
+  camera_cosine_forgotten,      ///< emitting surfaces seen from the lens are not foreshortened
+  reverse_density_forgotten,    ///< MIS weights of paths from the lens ignore light paths
 };
 template <>
 struct EnumNames<PlantedFault> {
-  static constexpr auto names =
-      std::to_array<EnumName<PlantedFault>>({{"none", PlantedFault::none},
+  static constexpr auto names = std::to_array<EnumName<PlantedFault>>(
+      {{"none", PlantedFault::none},
        {"mis_without_guide", PlantedFault::mis_without_guide},
        {"zero_samples_dropped", PlantedFault::zero_samples_dropped},
        {"light_choice_forgotten", PlantedFault::light_choice_forgotten},
@@ -38,13 +38,14 @@ struct EnumNames<PlantedFault> {
        {"reverse_density_forgotten", PlantedFault::reverse_density_forgotten}});
 };
 
-/// The fault in force, set before a render.
+/// The current fault, set before a render.
 inline PlantedFault planted_fault = PlantedFault::none;
 inline bool planted(PlantedFault fault) {
   return planted_fault == fault;
 }
 
-/// Where the boundary lies that a step from `from` to `to` passes last; `from` if there is none.
+/// Returns the position of the last boundary that a step from `from` to `to` passes, or `from` if
+/// there is none.
 inline Point3 last_boundary(const Scene& scene, Point3 from, const SurfacePoint& to) {
   Point3 last = from;
   for (;;) {
@@ -56,7 +57,7 @@ inline Point3 last_boundary(const Scene& scene, Point3 from, const SurfacePoint&
   }
 }
 
-/// Traces segments with the planted fault.
+/// A tracer of segments with the planted fault.
 class FaultyTracer {
  public:
   FaultyTracer(const Scene& scene, RenderCounters& counters)
@@ -78,7 +79,7 @@ class FaultyTracer {
   SegmentTracer right_;
 };
 
-/// The formulas of the estimators, of which the planted fault replaces one.
+/// The formulas of the estimators. The planted fault replaces one of them.
 struct FaultyRules : EstimatorRules {
   using Tracer = FaultyTracer;
 

@@ -1,5 +1,5 @@
-// Faults of the statistics protocol's list planted into plugins, against the conformance suites:
-// a missing flip to the other hemisphere, exchanged directions, wrong Jacobians.
+// Faults from the list of the statistics protocol, planted into plugins: a missing flip to the
+// other hemisphere, exchanged directions, wrong Jacobians. The conformance suites must notice them.
 
 #include <cmath>
 #include <set>
@@ -17,7 +17,7 @@ namespace {
 
 using Names = std::set<std::string>;
 
-/// The checks that fail for a plugin that is registered alone.
+/// Returns the checks that fail for a plugin that is registered alone.
 template <class Plugin>
 Names red_checks() {
   Registry registry;
@@ -25,11 +25,11 @@ Names red_checks() {
   return conformance::failed_checks(conformance::check_plugins(registry));
 }
 
-// --- a thin matt sheet ---------------------------------------------------------------------------
+// --- a thin matte sheet --------------------------------------------------------------------------
 
 enum class SheetFault { none, flip_missing, directions_exchanged, pdf_scaled };
 
-/// Reflects one half and transmits three tenths, both by the cosine law.
+/// A sheet that reflects one half and transmits three tenths, both by the cosine law.
 template <SheetFault fault>
 class Sheet final : public Bsdf {
  public:
@@ -79,7 +79,7 @@ class Sheet final : public Bsdf {
 
 enum class SquareFault { none, distance_forgotten, cosine_forgotten };
 
-/// [-1,1]^2 in the plane z = 0.
+/// The square [-1,1]^2 in the plane z = 0.
 template <SquareFault fault>
 class Square final : public Shape {
  public:
@@ -94,7 +94,7 @@ class Square final : public Shape {
   float area() const override { return 4; }
   const TriangleMesh* mesh() const override { return &mesh_; }
   ShapeSample sample(Vec2 u) const override {
-    const bool lower = u.x >= u.y;  // the square's diagonal parts both triangles
+    const bool lower = u.x >= u.y;  // the diagonal of the square separates the two triangles
     const Vec2 b = lower ? Vec2{u.x - u.y, u.y} : Vec2{u.x, u.y - u.x};
     return {mesh_.surface_point(lower ? 0 : 1, b.x, b.y), 0.25f};
   }

@@ -36,7 +36,7 @@ if(EXISTS ${SOURCE}/check.cmake)
   include(${SOURCE}/check.cmake)
 endif()
 
-# Without the module the same config must be refused, naming the plugin.
+# Without the module, the program must refuse the same config with an error that names the plugin.
 execute_process(COMMAND ${WORK}/prefix/bin/pharos render ${SOURCE}/example.yaml
                 WORKING_DIRECTORY ${WORK}/render RESULT_VARIABLE code ERROR_VARIABLE out)
 if(NOT code EQUAL 2 OR NOT out MATCHES "${MODULE}")

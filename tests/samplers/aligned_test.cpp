@@ -1,5 +1,6 @@
-// Renders with the sampler `aligned`: they have the same mean as renders with independent random
-// numbers, the same bits for any number of threads, and less variance if the integrand has edges.
+// Tests of renders with the sampler `aligned`. They have the same mean as renders with independent
+// random numbers, the same bits for any number of threads, and less variance if the integrand has
+// edges.
 
 #include <cstdint>
 #include <string>
@@ -29,7 +30,7 @@ integrator: { type: path, max_depth: 3, light_selection: all }
 )";
 
 /// A floor in the penumbra of a slanted edge. The light is so small that BSDF samples seldom find
-/// it, so that the light's edge causes the noise.
+/// it. The edge of the light therefore causes the noise.
 constexpr const char* kPenumbra = R"(
 scene:
   shapes:

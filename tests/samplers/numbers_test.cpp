@@ -1,4 +1,4 @@
-// What holds for the numbers of every registered sampler.
+// Tests of the random numbers of every registered sampler.
 
 #include <array>
 #include <cmath>

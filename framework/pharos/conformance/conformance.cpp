@@ -199,13 +199,13 @@ class Plan {
     }
   }
 
-  /// Whether the guider can sample what the learner learns.
+  /// Returns whether the guider can sample what the learner learns.
   static bool suit(const Subject& guider, const Subject& learner) {
     const auto model = static_cast<const Learner&>(*learner.component).empty_model();
     return static_cast<const Guider&>(*guider.component).find(*model) != nullptr;
   }
 
-  /// The cases of all plugins of a contract whose first subject is a partner.
+  /// Returns the cases of all plugins of a contract whose first subject is a partner.
   template <class IsPartner>
   std::vector<const Cases*> partners(std::string_view contract, IsPartner&& is_partner) const {
     std::vector<const Cases*> all;

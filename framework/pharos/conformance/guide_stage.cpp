@@ -19,7 +19,7 @@ SceneObject object_of(TriangleMesh mesh, Ref<Bsdf> bsdf, Ref<Emitter> emitter) {
           nullptr, nullptr};
 }
 
-/// The integrator's settings with the pair as its guiding.
+/// Returns the integrator's settings with the pair as its guiding.
 ConfigNode guided_node(const std::string& integrator, const GuidedPair& pair) {
   ConfigNode training = ConfigNode::mapping();
   training.set("iterations", ConfigNode::scalar("3"));
@@ -47,25 +47,25 @@ LocalScattering scattering_at(const Scene& scene, const SurfacePoint& point, con
           transport};
 }
 
-/// Names of integrators, the default one first.
+/// Returns the names of all integrators, the default one first.
 std::vector<std::string> integrator_names(const Registry& registry) {
   std::vector<std::string> names = registry.names(Integrator::contract_name);
   try {
     const auto first = build<Integrator>(registry, ConfigNode::scalar("default"))->plugin_name();
     std::stable_partition(names.begin(), names.end(),
                           [&](const std::string& name) { return name == first; });
-  } catch (const InputError&) {  // there is none
+  } catch (const InputError&) {  // there is no default
   }
   return names;
 }
 
-/// One path through a scene, as far as two vertices.
+/// Traces one path through a scene, vertex by vertex.
 class Walk {
  public:
   Walk(const Scene& scene, std::uint64_t seed, std::uint64_t path, Transport transport)
       : scene_(scene), random_(seed, path), transport_(transport), medium_(scene.sensor_medium()) {}
 
-  /// The next vertex; null where the path ends.
+  /// Returns the next vertex; null if the path ends.
   std::unique_ptr<const StageVertex> next() {
     const bool first = last_ == nullptr;
     Ray ray{kSensor, normalize({random_.next_1d() - 0.5f, random_.next_1d() - 0.5f, 1})};
@@ -91,7 +91,7 @@ class Walk {
     }
     point_ = hit;
     last_on_surface_ = !in_medium;
-    // Where paths are made from both ends, nobody knows the number.
+    // If paths are made from both ends, the number of the vertex is unknown.
     const std::uint16_t bounce = transport_ == Transport::radiance ? ++bounce_ : 0;
     auto vertex = std::make_unique<const StageVertex>(scene_, previous, hit, medium_, in_medium,
                                                       -ray.direction, bounce, transport_);
@@ -219,7 +219,7 @@ std::vector<std::unique_ptr<const StageVertex>> stage_vertices(const Scene& scen
                                                                std::uint64_t seed,
                                                                Transport transport) {
   constexpr int kOfEachKind = 2;
-  int found[2][3] = {};  // by bounce and by what they lie on
+  int found[2][3] = {};  // by bounce and by kind: fog, mirror, matte
   std::vector<std::unique_ptr<const StageVertex>> all;
   for (std::uint64_t path = 0; path < 400; ++path) {
     Walk walk(scene, seed, path, transport);

@@ -8,19 +8,19 @@
 #include <pharos/guiding/pipeline/guiding_frame.h>
 #include <pharos/rendering/render_job.h>
 
-/// Where guides are tested: small rooms that a learner has seen.
+/// The stage for tests of guides: small rooms that a learner has seen.
 namespace pharos::conformance {
 
-/// The rooms: what they hold is the same, what shines differs.
+/// The rooms. They contain the same objects and differ in what emits light.
 enum class Room {
   lamp,    ///< one small lamp
-  furnace  ///< every surface that is not a mirror shines
+  furnace  ///< every surface except the mirror emits light
 };
 
-/// A room of matt walls with a ball and a half mirror, with or without fog.
+/// Returns a room of matte walls with a ball and a half mirror, with or without fog.
 SceneParts room_parts(Room room, bool foggy);
 
-/// How a pair of learner and guider is rendered.
+/// A pair of learner and guider that is tested.
 struct GuidedPair {
   const Registry& registry;
   const Subject& guider;
@@ -30,17 +30,17 @@ struct GuidedPair {
   const Learner& the_learner() const { return static_cast<const Learner&>(*learner.component); }
 };
 
-/// The integrators of the registry that ask this pair, the default one first; none, with the reason
-/// in `why_not`, when there is none.
+/// Returns the integrators of the registry that can ask this pair, the default one first. If there
+/// are none, the list is empty and `why_not` is set to the reason.
 std::vector<Ref<Integrator>> integrators_for(const GuidedPair& pair, std::string& why_not);
-/// The same integrator without guiding.
+/// Returns the same integrator without guiding.
 Ref<Integrator> unguided(const GuidedPair& pair, const Integrator& guided);
 
-/// A small render of a room.
+/// Renders a small image of a room.
 RenderResult render_room(const GuidedPair& pair, const Ref<Integrator>& integrator, Room room,
                          bool foggy, std::uint32_t samples, std::uint64_t seed);
 
-/// A vertex of a path through a room, with what a guide is asked there.
+/// A vertex of a path through a room, with the query that a guide gets there.
 class StageVertex {
  public:
   StageVertex(const Scene& scene, const GuidingVertex& previous, const SurfacePoint& point,
@@ -51,11 +51,11 @@ class StageVertex {
 
   const GuidingQuery& query() const { return query_; }
   const LocalScattering& scattering() const { return scattering_; }
-  /// What is met along `direction` when nothing stops the ray on the way: a surface.
+  /// Returns the surface or environment that a ray along `direction` reaches if no medium stops it.
   ResolvedVertex surface_along(Vec3 direction, Event event) const;
-  /// The medium that a ray leaving here is in; null: empty space.
+  /// Returns the medium of a ray that leaves here; null: empty space.
   const Medium* medium() const { return medium_; }
-  /// "bounce 2 in fog at (x, y, z)".
+  /// Returns a description such as "bounce 2 in fog at (x, y, z)".
   std::string text() const;
 
  private:
@@ -69,8 +69,8 @@ class StageVertex {
   GuidingQuery query_;
 };
 
-/// The first and second vertices of a few paths, some of them on the half mirror, and in fog.
-/// Guides are asked there as they are for paths of this transport.
+/// Returns the first and second vertices of a few paths, some of them on the half mirror, and in
+/// fog. Guides are asked there as they are for paths of this transport.
 std::vector<std::unique_ptr<const StageVertex>> stage_vertices(
     const Scene& scene, std::uint64_t seed, Transport transport = Transport::radiance);
 

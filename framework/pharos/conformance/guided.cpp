@@ -51,7 +51,8 @@ ResolvedVertex Guided::stopped(ResolvedVertex v, float distance) const {
   return v;
 }
 
-/// What the scattering makes of a proposal.
+/// Returns the direction and the event of a proposed step. The event is none if the step has value
+/// zero.
 std::pair<Vec3, Event> Guided::step(const Proposal& proposal) const {
   if (is_empty(proposal.events & EventMask::smooth)) {
     for (const DiscreteOutcome& o : vertex_.scattering().discrete()) {

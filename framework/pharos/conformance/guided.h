@@ -7,10 +7,10 @@
 #include <pharos/conformance/guide_stage.h>
 #include <pharos/sampling/keyed_numbers.h>
 
-/// Guides as renders ask them, with what becomes of their proposals.
+/// Asks guides as renders do, and follows their proposals.
 namespace pharos::conformance {
 
-/// Independent numbers, each path named by its index.
+/// A sampler of independent random numbers. Each path is named by its index.
 class KeyedSampler final : public PreparedSampler {
  public:
   std::uint64_t begin(const PathKey& key) const override { return hash_key(key); }
@@ -22,10 +22,11 @@ class KeyedSampler final : public PreparedSampler {
   }
 };
 
-/// A guider bound to a model, as a render would ask it: densities are complete.
+/// Returns a frame of one guider that is bound to a model, as in a render. Its densities are
+/// complete.
 GuidingFrame frame_of(const Guider& guider, const std::shared_ptr<const GuidingModel>& model);
 
-/// What a guide knows at one vertex.
+/// The answer of a guide at one vertex.
 class Guided {
  public:
   Guided(const GuidingFrame& frame, const StageVertex& vertex)
@@ -33,16 +34,17 @@ class Guided {
 
   bool declines() const { return !guidance_.is_guided(); }
   const StageVertex& vertex() const { return vertex_; }
-  /// All the following need an answer: !declines().
+  /// The following functions may be called only if declines() is false.
   double density(const ResolvedVertex& vertex) const { return guidance_.density(vertex); }
   std::optional<Proposal> propose(std::uint64_t path) const;
-  /// The vertex that a draw leads to; empty for a sample of value zero.
+  /// Draws a proposal and returns the vertex that it leads to; empty for a sample of value zero.
   std::optional<ResolvedVertex> draw(RandomStream& random) const;
-  /// Whether steps into a direction carry anything; a guide's density elsewhere is its own affair.
+  /// Returns whether the vertex scatters light into a direction. A guide's density elsewhere is not
+  /// tested.
   bool scatters_into(Vec3 direction) const;
-  /// The end of the segment along a direction, at its surface.
+  /// Returns the end of the segment along a direction, where the ray hits a surface.
   ResolvedVertex end_along(Vec3 direction) const;
-  /// The same segment, ended in the medium at `distance`.
+  /// Returns the volume vertex at `distance` along the segment to `v`.
   ResolvedVertex stopped(ResolvedVertex v, float distance) const;
 
  private:

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint32_t kTrainingSamples = 48;
 
-/// Directions that end on a surface, against their density [1/sr].
+/// Tests directions that end on a surface against their density [1/sr].
 void test_surfaces(const Guided& guide, std::uint64_t seed, Check& chi_square, Check& integral) {
   const auto draw = [&](RandomStream& random) -> std::optional<Vec3> {
     const auto v = guide.draw(random);
@@ -30,8 +30,9 @@ void test_surfaces(const Guided& guide, std::uint64_t seed, Check& chi_square, C
                   integral);
 }
 
-/// Vertices in a medium, against their density [1/(sr m)]: shares of draws in eight octants of
-/// directions and two halves of distances, against the density's mean over uniform vertices there.
+/// Tests vertices in a medium against their density [1/(sr m)]. Draws are counted in eight octants
+/// of directions and two halves of distances. Their shares must match the mean of the density over
+/// uniform vertices in the same cells.
 void test_volumes(const Guided& guide, std::uint64_t seed, Check& chi_square, Check& integral) {
   constexpr std::size_t kCells = 16, kDraws = 30'000;
   const auto cell_of = [&](const ResolvedVertex& v, float whole) {
@@ -55,7 +56,7 @@ void test_volumes(const Guided& guide, std::uint64_t seed, Check& chi_square, Ch
   for (std::size_t cell = 0; cell <= kCells; ++cell) {
     auto a = statistics::estimate(statistics::moments(drawn[cell]));
     const auto b = statistics::estimate(statistics::moments(claimed[cell]));
-    // Rare draws say too little of their own variance, none at all that there is none.
+    // The variance of rare draws is estimated too low. Without any draw it would be zero.
     constexpr double kFew = 5;
     a.squared_error = std::max(a.squared_error, std::max(b.mean, kFew / kDraws) / kDraws);
     (cell == kCells ? integral : chi_square)
@@ -68,7 +69,7 @@ void test_volumes(const Guided& guide, std::uint64_t seed, Check& chi_square, Ch
   }
 }
 
-/// Frequencies of discrete events that end on a surface, against their probabilities [1].
+/// Tests the frequencies of discrete events that end on a surface against their probabilities [1].
 void test_outcomes(const Guided& guide, std::uint64_t seed, Check& chi_square, Check& integral) {
   constexpr int kDraws = 20'000;
   const DiscreteOutcomes outcomes = guide.vertex().scattering().discrete();
@@ -100,7 +101,8 @@ void test_outcomes(const Guided& guide, std::uint64_t seed, Check& chi_square, C
                          guide.vertex().text() + ": frequencies of discrete events");
 }
 
-/// Returns at how many vertices the guide has an answer.
+/// Tests the densities at all vertices of the stage. Returns at how many of them the guide has an
+/// answer.
 int check_densities(const GuidingFrame& frame, const Scene& scene, std::uint64_t seed,
                     Transport transport, Check& chi_square, Check& integral) {
   int answers = 0;
@@ -118,7 +120,7 @@ int check_densities(const GuidingFrame& frame, const Scene& scene, std::uint64_t
   return answers;
 }
 
-/// The first vertex as the guide proposes it: directions from the lens that lie on the film.
+/// Tests the guide's proposals for the first vertex: directions from the lens that lie on the film.
 /// Returns whether the guide has an answer.
 bool check_camera(const GuidingFrame& frame, const Scene& scene, std::uint64_t seed,
                   Check& chi_square, Check& integral) {
@@ -160,7 +162,7 @@ bool check_camera(const GuidingFrame& frame, const Scene& scene, std::uint64_t s
   return true;
 }
 
-/// What a model says of vertices before its guider is asked.
+/// Tests what a model reports about vertices before its guider is asked.
 void check_places(const GuidingModel& model, const Scene& scene, std::uint64_t seed, Check& check) {
   const std::uint32_t regions = model.info().regions;
   for (const auto& vertex : stage_vertices(scene, seed)) {
@@ -180,7 +182,7 @@ bool same(const std::optional<Proposal>& a, const std::optional<Proposal>& b) {
          (a->within == nullptr) == (b->within == nullptr);
 }
 
-/// Two guides that must be alike: the same answers at every vertex of a scene.
+/// Tests that two guides give the same answers at every vertex of a scene.
 void expect_alike(const GuidingFrame& a, const GuidingFrame& b, const Scene& scene,
                   std::uint64_t seed, const char* difference, Check& check) {
   for (const auto& vertex : stage_vertices(scene, seed)) {
@@ -232,11 +234,12 @@ double image_mean(const Image& image) {
   return sum / (static_cast<double>(image.width()) * image.height());
 }
 
-/// Guided and unguided renders of a furnace have the same mean.
+/// Tests that guided and unguided renders of a furnace have the same mean.
 void check_furnace(const GuidedPair& pair, const Ref<Integrator>& guided, bool foggy,
                    std::uint64_t seed, Check& check) {
   constexpr std::uint64_t kRuns = 8;
-  constexpr double kSlack = 3e-4;  // of single precision and of what guiding leaves unexplored
+  // Allows for single precision and for what guiding leaves unexplored.
+  constexpr double kSlack = 3e-4;
   const auto mean_of = [&](const Ref<Integrator>& integrator, std::uint64_t first_seed) {
     std::vector<double> means;
     for (std::uint64_t run = 0; run < kRuns; ++run) {

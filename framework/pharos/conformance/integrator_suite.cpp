@@ -15,7 +15,8 @@ constexpr int kEdge = 16;
 constexpr std::uint32_t kSamples = 8;
 constexpr PixelRect kWhole{0, 0, kEdge, kEdge};
 
-/// Each sample counts in its own pixel alone, so that sums over the film are sums over paths.
+/// A filter by which each sample counts only in its own pixel, so that sums over the film are sums
+/// over paths.
 class OnePixel final : public Filter {
  public:
   float radius() const override { return 0.5f; }
@@ -23,7 +24,7 @@ class OnePixel final : public Filter {
   float integral() const override { return 1; }
 };
 
-/// A room, and an integrator that is ready to render it.
+/// A room and an integrator that is prepared to render it.
 class Setup {
  public:
   Setup(const Integrator& integrator, bool foggy, std::uint64_t seed)
@@ -55,7 +56,7 @@ class Setup {
   std::uint64_t seed_;
 };
 
-/// The image of work units that cover all samples of all pixels.
+/// Returns the image of work units that cover all samples of all pixels.
 Image image_of(Film film, const std::vector<WorkResult>& units) {
   for (const WorkResult& unit : units) film.merge(unit.film);
   film.end_pass(kSamples);
@@ -70,7 +71,7 @@ double total(const Image& image) {
   return sum;
 }
 
-/// Whether two images are alike, up to a tolerance relative to their mean.
+/// Returns whether two images are equal up to a tolerance relative to the mean of the first.
 bool alike(const Image& a, const Image& b, double tolerance) {
   const double scale = tolerance * total(a) / (kEdge * kEdge);
   for (int y = 0; y < kEdge; ++y) {
@@ -119,6 +120,7 @@ void check_room(const Integrator& integrator, bool foggy, Suite& suite, Check& f
       replayed += mean(setup.replay(pixel, sample).radiance) / kSamples;
     }
   }
+  // Paths from lights may land outside the film. replay() counts only contributions to the film.
   replay.expect(close(replayed, total(image), 1e-3), [&] {
     return fmt::format("{}: all paths replayed add up to {:.5f}, the image to {:.5f}", where,
                        replayed, total(image));

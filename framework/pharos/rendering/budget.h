@@ -7,7 +7,7 @@
 
 namespace pharos {
 
-/// How much work a render may do: samples a pixel, or wall-clock seconds; exactly one is set.
+/// The budget of a render: samples per pixel or wall-clock seconds. Exactly one of them is set.
 struct Budget {
   std::optional<std::uint32_t> spp;
   std::optional<double> seconds;

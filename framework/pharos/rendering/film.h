@@ -159,12 +159,11 @@ enum class Layer { albedo, normal, depth, variance, samples };
 
 template <>
 struct EnumNames<Layer> {
-  static constexpr auto names =
-      std::to_array<EnumName<Layer>>({{"albedo", Layer::albedo},
-       {"normal", Layer::normal},
-       {"depth", Layer::depth},
-       {"variance", Layer::variance},
-       {"samples", Layer::samples}});
+  static constexpr auto names = std::to_array<EnumName<Layer>>({{"albedo", Layer::albedo},
+                                                                {"normal", Layer::normal},
+                                                                {"depth", Layer::depth},
+                                                                {"variance", Layer::variance},
+                                                                {"samples", Layer::samples}});
 };
 
 /// Returns the color and the given layers of an image from Film::layers().

@@ -38,7 +38,7 @@ void check_camera(const IntegratorTraits& offered, const Sensor& sensor, bool ji
   }
 }
 
-/// `model` is of the kind that the guider is to sample.
+/// Throws InputError if the guider cannot sample `model`, which the learner named `learner` learns.
 void check_model(const GuidingMethod& method, const GuidingModel& model,
                  const std::string& learner) {
   if (method.guider->find(model) != nullptr) return;

@@ -16,7 +16,7 @@
 
 namespace pharos {
 
-/// A fixed part of a render: the same tile, samples and keys whoever runs it and when.
+/// A fixed part of a render. Its tile, samples and keys do not depend on who renders it and when.
 struct WorkUnit {
   PixelRect pixels;
   std::uint32_t iteration = 0;
@@ -24,25 +24,25 @@ struct WorkUnit {
   std::uint32_t sample_count = 0;
 };
 
-/// Counts of what a work unit did.
+/// Statistics of a work unit.
 struct RenderCounters {
   std::uint64_t paths = 0;
   std::uint64_t rays = 0;           ///< radiance and shadow rays
-  std::uint64_t invalid_paths = 0;  ///< of NaN or infinite value; left out of the image
+  std::uint64_t invalid_paths = 0;  ///< paths of NaN or infinite value; they count as black
 
   RenderCounters& operator+=(const RenderCounters& other);
 };
 
-/// What a work unit produces; merged in order of work units.
+/// The result of a work unit. Results are merged in the order of work units.
 struct WorkResult {
   FilmTile film;
   PathLog log;  ///< empty unless paths were recorded
   RenderCounters counters;
-  /// Key of the first invalid path, if any; a message names how to replay it.
+  /// The key of the first invalid path, if any. A message tells how to replay it.
   std::optional<PathKey> first_invalid;
 };
 
-/// What is frozen while an iteration runs.
+/// The data that is frozen during one iteration.
 struct IterationContext {
   const PreparedSampler& sampler;
   std::uint64_t seed = 0;
@@ -50,61 +50,64 @@ struct IterationContext {
   bool record = false;                    ///< fill WorkResult::log
 };
 
-/// What an integrator is made ready for. All referenced objects outlive it.
+/// The scene, sensor and film for which an integrator is prepared. All referenced objects outlive
+/// the prepared integrator.
 struct RenderTarget {
   const Scene& scene;
   const PreparedSensor& sensor;
-  int width = 0, height = 0;  ///< of the whole film, by whose pixels paths are keyed
-  /// The part of the film that is rendered; paths start at its pixels alone, as many at each.
+  int width = 0, height = 0;  ///< size of the whole film [pixels]; paths are keyed by its pixels
+  /// The part of the film that is rendered. The same number of paths starts at each of its pixels,
+  /// and no path starts elsewhere.
   PixelRect window{0, 0, width, height};
-  /// Whether paths pass anywhere through their pixels, or all through the middles.
+  /// Whether paths pass through random points of their pixels. If false, all pass through the
+  /// centers.
   bool jitter = true;
 };
 
-/// One path, step by step, as text; made by replaying its key.
+/// A path, described step by step as text. It is made by replaying the key of the path.
 struct PathTrace {
   Rgb radiance;  ///< what the path adds to the image: the sum over all pixels for one sample each
   std::string text;
 };
 
-/// An integrator made ready for a scene and a film: constant, thread-safe.
+/// An integrator that is prepared for a scene and a film: constant and thread-safe.
 class PreparedIntegrator {
  public:
   virtual ~PreparedIntegrator() = default;
 
-  /// Renders one work unit. Its result is a function of the unit and the context alone.
+  /// Renders one work unit. The result depends on the unit and the context alone.
   virtual void render(const WorkUnit& unit, const IterationContext& context,
                       WorkResult& result) const = 0;
 
-  /// Runs the path of `key` again, by itself, and tells of every vertex.
+  /// Traces the path of `key` again, by itself, and describes every vertex.
   virtual PathTrace replay(const PathKey& key, const IterationContext& context) const = 0;
 
-  /// Lays the integrand open to samplers; null when the integrator cannot.
+  /// Returns a probe that evaluates the integrand for samplers; null if the integrator has none.
   virtual std::unique_ptr<const IntegrandProbe> probe() const { return nullptr; }
 };
 
-/// What an integrator offers; checked against what learners and guiders need.
+/// The capabilities of an integrator. They are checked against the needs of learners and guiders.
 struct IntegratorTraits {
-  RecordNeeds records;         ///< what it can record
+  RecordNeeds records;         ///< records that it can make
   bool guided = false;         ///< asks guiders at vertices
   bool guided_camera = false;  ///< lets guiders propose first vertices
   /// Training iterations make other paths than the final image does.
   bool trains_with_other_paths = false;
 };
 
-/// Contract: how light transport is estimated. Knows no guiding method by name.
+/// Contract: how light transport is estimated. An integrator knows no guiding method by name.
 class Integrator : public Component {
  public:
   static constexpr std::string_view contract_name = "integrator";
 
   virtual IntegratorTraits traits() const = 0;
-  /// The guiding part of its settings; null: unguided.
+  /// Returns the guiding part of the settings; null: unguided.
   virtual const GuidingSettings* guiding() const { return nullptr; }
   virtual std::unique_ptr<const PreparedIntegrator> prepare(const RenderTarget& target) const = 0;
 };
 
-/// Throws InputError, naming both sides, when a learner or guider needs what the integrator, the
-/// sensor or a film without jitter does not offer.
+/// Throws InputError if a learner or guider needs something that the integrator, the sensor or a
+/// film without jitter does not offer. The message names both sides.
 void check_compatible(const Integrator& integrator, const Sensor& sensor, bool jitter = true);
 
 }  // namespace pharos

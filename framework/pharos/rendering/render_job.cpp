@@ -15,23 +15,24 @@
 namespace pharos {
 namespace {
 
-/// Passes an iteration is divided into at least: enough for an estimate of variance.
+/// Smallest number of passes of an iteration: enough for an estimate of variance.
 constexpr std::uint32_t kPasses = 8;
-/// Most samples a pixel in a work unit: bounds how long it takes, and so how soon a render stops.
+/// Largest number of samples per pixel in a work unit. It limits how long a unit takes, and so how
+/// soon a render stops.
 constexpr std::uint32_t kUnitSamples = 64;
-/// The same for units whose paths are recorded: bounds the memory of logs.
+/// The same for units whose paths are recorded. It limits the memory of logs.
 constexpr std::uint32_t kRecordedUnitSamples = 4;
 
 std::uint32_t unit_samples(const Iteration& iteration) {
   return iteration.training ? kRecordedUnitSamples : kUnitSamples;
 }
 
-/// Wall-clock time, but for pauses.
+/// Measures wall-clock time without pauses.
 class Stopwatch {
  public:
   double seconds() const { return std::chrono::duration<double>(elapsed()).count(); }
 
-  /// Runs `work` while the watch stands.
+  /// Runs `work` without counting its time.
   template <class Work>
   void pause(Work&& work) {
     const Clock::duration before = elapsed();
@@ -50,7 +51,7 @@ std::uint32_t round_up(std::uint32_t value, std::uint32_t granule) {
   return (value + granule - 1) / granule * granule;
 }
 
-/// The tiles of the whole film, as far as they lie in `window`.
+/// Returns the parts of the whole film's tiles that lie in `window`.
 std::vector<PixelRect> tiles_of(const PixelRect& window, int edge) {
   std::vector<PixelRect> tiles;
   for (int y = window.y0 / edge * edge; y < window.y1; y += edge) {
@@ -83,17 +84,19 @@ std::uint32_t longest(const std::vector<Iteration>& iterations) {
   return samples;
 }
 
-/// How many samples a pixel the passes of an iteration take. They start small and double what is
-/// done, so that there is soon something to show and the sums are powers of two, up to a limit.
+/// Chooses the number of samples per pixel of each pass of an iteration. Passes start small, and
+/// each pass doubles the number of samples done, up to a limit. There is thus soon an image to
+/// show, and the sums are powers of two.
 class PassSizes {
  public:
   PassSizes(const Iteration& iteration, std::uint32_t granule)
       : iteration_(iteration), limit_(largest(iteration, granule)), size_(granule) {}
 
-  /// The next pass after `done` samples in `seconds_spent`, with `seconds_left`; 0: the iteration
-  /// is over. Timed iterations double only while a pass takes less than 1/128 of the time, and end
-  /// where that is nearer to the deadline than another pass. What a pass takes is told by all so
-  /// far: a single one may have been held up.
+  /// Returns the size of the next pass after `done` samples in `seconds_spent`, if `seconds_left`
+  /// remain; 0 if the iteration is over. Passes of timed iterations double only while a pass takes
+  /// less than 1/128 of the iteration's time. A timed iteration ends if it misses the deadline by
+  /// less now than after another pass. The time of a pass is estimated from all passes so far,
+  /// because a single one may have been delayed.
   std::uint32_t next(std::uint32_t done, double seconds_spent, double seconds_left) {
     const bool timed = iteration_.samples == 0;
     const double pass = done > 0 ? seconds_spent * size_ / done : 0;
@@ -135,7 +138,8 @@ class RenderJob::Implementation {
     const auto probe = config.sampler->needs_probe() ? integrator_->probe() : nullptr;
     sampler_ = config.sampler->prepare({config.film.width, config.film.height},
                                        {config.seed, longest(iterations_)}, probe.get());
-    // Where samples reach over to other pixels, more in one would pull these towards its side.
+    // A wide filter spreads samples over neighboring pixels. If one pixel had more samples than its
+    // neighbors, the neighbors would be biased towards it.
     if (!sampler_->film_samples().empty() && config.film.filter->radius() > 0.5f) {
       throw InputError("samples that the sampler has left over need a film with `filter: box`");
     }
@@ -147,7 +151,7 @@ class RenderJob::Implementation {
     result_.times.preparation = preparation_seconds_;
     result_.times.sampler = sampler_seconds_;
     for (std::uint32_t i = 0; i < iterations_.size() && !stopped(); ++i) run_iteration(i);
-    // A render that was stopped while training has only training images to show.
+    // A render that was stopped during training has only training images to show.
     result_.image = combiner_.empty() ? last_image_ : combiner_.combine();
     result_.stopped = stopped();
     if (guiding_ != nullptr) {
@@ -208,7 +212,7 @@ class RenderJob::Implementation {
     const double start = watch_.seconds();
     Film film = make_film();
     if (index + 1 == iterations_.size()) add_left_over_samples(film);
-    // Training has no time to wait for whole sets.
+    // Training iterations do not wait for whole sets.
     PassSizes sizes(iteration, iteration.training ? 1 : set_size_);
     std::uint32_t done = 0;
     const double deadline = work_up_to(index + 1) - sampler_seconds_;
@@ -222,7 +226,8 @@ class RenderJob::Implementation {
     (iteration.training ? result_.times.training : result_.times.rendering) +=
         watch_.seconds() - start;
     result_.samples_per_pixel += film.samples_per_pixel();
-    // A film that was stopped within its first pass has holes: it serves only if there is no other.
+    // A film that was stopped during its first pass has holes. It is used only if there is no
+    // other.
     if (film.complete_passes() > 0 || !has_image_) last_image_ = film.layers();
     has_image_ |= film.complete_passes() > 0;
     if (iteration.keeps_image && film.complete_passes() > 0) combiner_.add(film);
@@ -251,7 +256,8 @@ class RenderJob::Implementation {
     return {film.window(), film.filter, film.least_weight};
   }
 
-  /// Not where a guide of the camera makes all paths splats: there is nothing to average with.
+  /// Adds the samples that the sampler has left over. If a guide of the camera makes all paths
+  /// splats, nothing is added, because there are no samples to average with.
   void add_left_over_samples(Film& film) {
     const bool has_splats = frame_ != nullptr && frame_->guides_camera();
     if (sampler_->film_samples().empty() || has_splats) return;
@@ -268,10 +274,11 @@ class RenderJob::Implementation {
     film.merge(tile);
   }
 
-  /// Renders `size` samples of every pixel; false when it was cut short.
+  /// Renders `size` samples of every pixel. Returns false if the pass was stopped early.
   bool run_pass(std::uint32_t index, std::uint32_t first_sample, std::uint32_t size, Film& film) {
     const IterationContext shared = context(iterations_[index].training);
-    // Large passes are cut into chunks: chunk by chunk, each over all tiles.
+    // Large passes are divided into chunks. The units of a chunk cover all tiles before the units
+    // of the next chunk.
     const std::uint32_t chunk = unit_samples(iterations_[index]);
     const std::size_t chunks = (size + chunk - 1) / chunk;
     const auto unit = [&](std::size_t i) {
@@ -306,9 +313,9 @@ class RenderJob::Implementation {
 
   double film_area() const { return static_cast<double>(config_.film.window().area()); }
 
-  /// The budget of the iterations before `end`: samples a pixel, or seconds, which count from when
-  /// the sampler began to prepare itself. What that and updates take is taken off the iterations
-  /// that follow.
+  /// Returns the budget of the iterations before `end`: samples per pixel, or seconds since the
+  /// sampler began to prepare itself. The time that the sampler's preparation and updates take is
+  /// subtracted from the iterations that follow.
   double work_up_to(std::size_t end) const {
     double work = 0;
     for (std::size_t i = 0; i < end; ++i) {
@@ -317,7 +324,7 @@ class RenderJob::Implementation {
     return work;
   }
 
-  /// How far it is after `samples` a pixel of iteration `index`.
+  /// Returns the progress after `samples` samples per pixel of iteration `index`.
   Progress progress(std::uint32_t index, double samples) const {
     const double done = iterations_[index].samples > 0 ? work_up_to(index) + samples
                                                        : sampler_seconds_ + watch_.seconds();
@@ -336,12 +343,12 @@ class RenderJob::Implementation {
   std::unique_ptr<const PreparedSensor> sensor_;
   std::unique_ptr<const PreparedIntegrator> integrator_;
   std::vector<PixelRect> tiles_;
-  std::uint32_t set_size_ = 1;  ///< that passes of the final image fill
+  std::uint32_t set_size_ = 1;  ///< samples in a set, which passes of the final image fill
   std::vector<Iteration> iterations_;
   std::unique_ptr<const PreparedSampler> sampler_;
   double preparation_seconds_ = 0, sampler_seconds_ = 0;
 
-  // Of the run in progress.
+  // State of the run in progress.
   RenderControl control_;
   RenderResult result_;
   ImageCombiner combiner_;

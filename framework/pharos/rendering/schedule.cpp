@@ -6,7 +6,8 @@
 namespace pharos {
 namespace {
 
-/// Samples of the training iterations: as many iterations as asked for, or as the total allows.
+/// Returns the number of samples of each training iteration. There are as many iterations as
+/// requested, or as many as `total` allows.
 std::vector<std::uint32_t> training_samples(ScheduleKind kind, std::uint32_t iterations,
                                             std::uint32_t total) {
   if (kind == ScheduleKind::uniform) {
@@ -22,7 +23,8 @@ std::vector<std::uint32_t> training_samples(ScheduleKind kind, std::uint32_t ite
   return sizes;
 }
 
-/// Of training images only so many of the last ones count that they and the final one are `latest`.
+/// Drops the first training images, so that the remaining ones and the final image are at most
+/// `latest` images.
 void keep_latest(std::vector<Iteration>& iterations, std::uint32_t latest) {
   for (std::size_t i = 0; i + latest < iterations.size(); ++i) iterations[i].keeps_image = false;
 }
@@ -63,7 +65,9 @@ std::vector<Iteration> divide(const Budget& budget, const TrainingSettings& sett
 }
 
 void Budget::describe(Schema<Budget>& s) {
-  s.field("spp", &Budget::spp, "Samples a pixel, training included").at_least(1).at_most(1 << 30);
+  s.field("spp", &Budget::spp, "Samples per pixel, including training")
+      .at_least(1)
+      .at_most(1 << 30);
   s.field("seconds", &Budget::seconds, "Wall-clock time of rendering and training")
       .unit("s")
       .above(0);

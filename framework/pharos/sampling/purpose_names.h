@@ -15,10 +15,10 @@ template <>
 struct EnumNames<Purpose> {
   static constexpr auto names =
       std::to_array<EnumName<Purpose>>({{"pixel", Purpose::pixel},
-       {"lens", Purpose::lens},
-       {"light_position", Purpose::light_position},
-       {"bsdf_direction", Purpose::bsdf_direction},
-       {"guide_direction", Purpose::guide_direction}});
+                                        {"lens", Purpose::lens},
+                                        {"light_position", Purpose::light_position},
+                                        {"bsdf_direction", Purpose::bsdf_direction},
+                                        {"guide_direction", Purpose::guide_direction}});
 };
 
 }  // namespace pharos

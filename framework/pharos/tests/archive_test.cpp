@@ -12,7 +12,7 @@ namespace {
 
 enum class Kind : std::uint8_t { one = 1, two = 2 };
 
-/// A value of every kind that archives know.
+/// A value of every kind that archives support.
 struct Thing {
   bool flag = false;
   std::uint64_t count = 0;
@@ -103,7 +103,7 @@ TEST_CASE("NaN, infinity and failed expectations are refused when loading") {
     thing.number = value;
     CHECK_THROWS_AS(loaded(saved(thing)), InputError);
   }
-  thing.number = 7;  // saving checks nothing
+  thing.number = 7;  // saving does not check values
   CHECK_THROWS_WITH_AS(loaded(saved(thing)), "the thing is damaged", InputError);
 }
 

@@ -1,4 +1,5 @@
-// The learning side of a render: it is saved and goes on as if it had never stopped.
+// Tests of the learning side of a render. A saved and loaded state continues as if learning had
+// never stopped.
 
 #include <sstream>
 #include <string>
@@ -11,7 +12,7 @@
 namespace pharos {
 namespace {
 
-/// One number for each region.
+/// A model with one number for each region.
 class TinyModel final : public GuidingModel {
  public:
   static constexpr std::string_view kName = "tiny";
@@ -31,8 +32,8 @@ class TinyModel final : public GuidingModel {
   std::vector<double> numbers_;
 };
 
-/// Learns the light that the paths of all iterations found; that of an iteration counts half as
-/// much in the next. Every iteration divides the model's first region.
+/// Learns the sum of the light that paths found, halved at each new iteration. Every iteration
+/// divides the model's first region.
 class TinyState final : public LearningState {
  public:
   void absorb(const PathLog& log) override {
@@ -68,7 +69,7 @@ class TinyLearner final : public Learner {
   }
 };
 
-/// Directions uniform over the sphere.
+/// Samples directions uniformly over the sphere.
 class TinyGuider final : public GuiderOf<TinyModel> {
  public:
   GuiderTraits traits() const override { return {.guides_camera = true}; }
@@ -88,7 +89,7 @@ class TinyGuider final : public GuiderOf<TinyModel> {
   };
 };
 
-/// The unguided share of each region, and equal shares for all methods.
+/// A share of unguided samples for each region. The methods divide the rest by their weights.
 class TinyShares final : public MixingShares {
  public:
   TinyShares(std::vector<double> paths, std::vector<float> weights)
@@ -138,7 +139,7 @@ class TinyMixing final : public MixingPolicy {
   }
 };
 
-/// Two learners; two guiders sample the model of the first one.
+/// Returns settings with two learners, where two guiders sample the model of the first learner.
 GuidingSettings settings() {
   const auto learner = std::make_shared<const TinyLearner>();
   const auto guider = std::make_shared<const TinyGuider>();
@@ -150,7 +151,7 @@ GuidingSettings settings() {
   return settings;
 }
 
-/// A path that finds so much light.
+/// Returns a path that finds this much light.
 PathLog path_to_light(float light) {
   PathLog log;
   log.begin_path({}, Transport::radiance);
@@ -171,7 +172,7 @@ void load_from(const std::string& bytes, GuidingState& state) {
   load(in, state);
 }
 
-/// The unguided share at the lens.
+/// Returns the share of unguided samples at the lens.
 float unguided_share(const GuidingState& state) {
   Arena arena;
   GuidingQuery query{.current = {.kind = VertexKind::sensor}, .bounce = 0};
@@ -206,7 +207,7 @@ TEST_CASE("guiding state: saved in the middle of an iteration, it ends with the 
   for (GuidingState* s : {&state, &resumed, &forgetful}) finish(*s);
   for (const std::size_t i : {0u, 1u, 2u}) {
     CHECK(saved(*resumed.model(i)) == saved(*state.model(i)));
-    // What was absorbed before saving makes a difference.
+    // Paths that were absorbed before saving make a difference.
     CHECK(saved(*forgetful.model(i)) != saved(*state.model(i)));
   }
   CHECK(resumed.model(0)->density({}) == (0.5 * 1 + 2 + 3) * 0.5 + 5);

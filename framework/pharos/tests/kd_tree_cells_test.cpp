@@ -18,8 +18,8 @@ TEST_CASE("items are sorted by their keys and keep their order within") {
   CHECK(first == std::vector<std::size_t>{0, 0, 3, 4, 6, 6});
 }
 
-/// Returns a tree of four cells. It is divided at x = 0, its upper part at y = 1, and the upper
-/// part of the upper part at z = 2.
+/// Returns a tree of four cells. The root is divided at x = 0, its upper part at y = 1, and the
+/// upper part of this part at z = 2.
 KdTree small_tree() {
   KdTree tree;
   auto halves = tree.divide(0, 0, 0);

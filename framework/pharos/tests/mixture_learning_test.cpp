@@ -1,4 +1,4 @@
-// The steps by which a mixture follows its data, with plain numbers as components.
+// Tests of the steps that adapt a mixture to its data, with plain numbers as components.
 
 #include <algorithm>
 #include <cmath>
@@ -16,14 +16,14 @@
 namespace pharos {
 namespace {
 
-/// A sample of so much light.
+/// A sample with a weight.
 struct Find {
   double weight = 0;
 };
 
-/// What learn_when_enough() made of some samples.
+/// The result of learn_when_enough() for some samples.
 struct Lesson {
-  std::vector<double> learned;  ///< weights of the samples that were learned from
+  std::vector<double> learned;  ///< weights of the samples passed to `learn`
   std::vector<double> waiting;  ///< weights of the samples that wait for more
   int lessons = 0;
 };
@@ -40,7 +40,7 @@ std::vector<Find> finds_of(const std::vector<double>& weights) {
   return samples;
 }
 
-/// Offers samples to a cell that needs four finds for its first mixture.
+/// Offers samples to a cell that needs four samples with light for its first mixture.
 Lesson offered(const std::vector<double>& samples, bool is_known,
                const std::vector<double>& waiting = {}) {
   const std::vector<Find> finds = finds_of(samples);
@@ -58,12 +58,12 @@ Lesson offered(const std::vector<double>& samples, bool is_known,
 using Numbers = std::vector<double>;
 using Indices = std::vector<std::size_t>;
 
-/// Merges numbers to their means. The cost of a merge is their difference.
+/// Merges pairs of numbers into their means. The cost of a merge is the difference of the numbers.
 class MergedNumbers {
  public:
   explicit MergedNumbers(Numbers numbers) : numbers_(std::move(numbers)) {}
 
-  /// `stops_at_bound`: costs are computed no further than their bound.
+  /// `stops_at_bound` limits costs to their bound.
   void merge(double threshold, bool stops_at_bound = false) {
     merge_cheapest_pairs(
         threshold, [&] { return numbers_.size(); },
@@ -76,9 +76,9 @@ class MergedNumbers {
   }
 
   const Numbers& numbers() const { return numbers_; }
-  /// The pairs that were merged, in this order.
+  /// Returns the merged pairs, in the order of the merges.
   const std::vector<Indices>& pairs() const { return pairs_; }
-  /// The bounds of all costs that were asked for.
+  /// Returns the bounds of all requested costs.
   const Numbers& bounds() const { return bounds_; }
 
  private:
@@ -98,7 +98,7 @@ Numbers merged(Numbers numbers, double threshold) {
   return merging.numbers();
 }
 
-/// Halves numbers. Their divergences are what they were before.
+/// Halves numbers. The divergence of a number is its value before halving.
 struct HalvedNumbers {
   Numbers numbers;
   Indices changed = {};
@@ -117,8 +117,8 @@ struct HalvedNumbers {
   }
 };
 
-/// Splits numbers above 1 until none is left. The divergence of a number is the number itself, but
-/// only once it was assessed.
+/// Splits numbers above 1 until none is left. An assessment sets the divergence of a number to the
+/// number itself.
 class SettledNumbers {
  public:
   SettledNumbers(Numbers numbers, Numbers divergences)
@@ -132,9 +132,9 @@ class SettledNumbers {
 
   const Numbers& numbers() const { return numbers_; }
   const Numbers& divergences() const { return divergences_; }
-  /// The halves that were fitted, of each fit.
+  /// Returns the halves of each fit.
   const std::vector<Indices>& fitted() const { return fitted_; }
-  /// The steps in their order.
+  /// Returns the names of the steps in their order.
   const std::string& steps() const { return steps_; }
 
  private:
@@ -225,7 +225,7 @@ TEST_CASE("mixture learning: costs may stop at their bound, the least cost so fa
   CHECK(whole.pairs().size() > 2);
   CHECK(bounded.pairs() == whole.pairs());
   CHECK(bounded.numbers() == whole.numbers());
-  // The second pair lowers the bound of the third one. After its merge one pair is left.
+  // The second pair lowers the bound of the third pair. After the merge, one pair is left.
   MergedNumbers three({0, 5, 1});
   three.merge(2);
   CHECK(three.bounds() == Numbers{2, 2, 1, 2});
@@ -274,7 +274,7 @@ TEST_CASE("mixture learning: halves are fitted, assessed and split again until a
 }
 
 TEST_CASE("mixture learning: an assessment renews what is known of halves alone") {
-  // The second number is too large, too, but what is known of it says otherwise.
+  // The second number is too large as well, but its old divergence is below the threshold.
   SettledNumbers settling({2, 50}, {2, 0.5});
   settling.settle(100);
   CHECK(settling.numbers() == Numbers{1, 50, 1});

@@ -1,4 +1,4 @@
-// Recorded paths: links between vertices, techniques, and logs that are saved and loaded.
+// Tests of recorded paths: links between vertices, techniques, and logs that are saved and loaded.
 
 #include <array>
 #include <sstream>
@@ -17,7 +17,7 @@ namespace {
 
 using Indices = std::vector<std::uint32_t>;
 
-/// The vertices that a step from vertex `i` led to, found by following links.
+/// Returns the vertices that a step from vertex `i` led to, by following links.
 Indices linked_children(const PathView& path, std::uint32_t i) {
   Indices children;
   for (std::uint32_t k = path.vertices[i].next; k != kNoVertex; k = path.vertices[k].twin) {
@@ -26,7 +26,7 @@ Indices linked_children(const PathView& path, std::uint32_t i) {
   return children;
 }
 
-/// The same, found by looking at every vertex.
+/// Returns the same vertices by checking the parent of every vertex.
 Indices scanned_children(const PathView& path, std::uint32_t i) {
   Indices children;
   for (std::uint32_t k = 0; k < path.vertices.size(); ++k) {
@@ -41,7 +41,7 @@ void add_tree(PathLog& log, const Indices& parents) {
   for (const std::uint32_t parent : parents) log.add(RecordedVertex{.parent = parent});
 }
 
-/// Parents of a random tree of `count` vertices.
+/// Returns the parents of a random tree of `count` vertices.
 Indices random_parents(std::uint32_t count, RandomStream& random) {
   Indices parents{kNoVertex};
   while (parents.size() < count) {
@@ -50,7 +50,7 @@ Indices random_parents(std::uint32_t count, RandomStream& random) {
   return parents;
 }
 
-/// Different numbers, one after the other.
+/// A sequence of different numbers.
 class Numbers {
  public:
   float next() { return 0.25f * static_cast<float>(++count_); }
@@ -61,7 +61,7 @@ class Numbers {
   int count_ = 0;
 };
 
-/// A vertex all of whose fields have values of their own.
+/// Returns a vertex in which all fields have different values.
 RecordedVertex full_vertex(Numbers& numbers, std::uint32_t parent) {
   return {.position = numbers.vector(),
           .normal = numbers.vector(),
@@ -121,7 +121,7 @@ void add_light_path(PathLog& log, Numbers& numbers) {
   log.add(full_light_sample(numbers, wall));
 }
 
-/// A branching path, a path that ends on the lens, and a path from a light.
+/// Returns a branching path, a path that ends on the lens, and a path from a light.
 PathLog example() {
   Numbers numbers;
   PathLog log;
@@ -211,7 +211,7 @@ void check_within(const PathView& path) {
     REQUIRE((vertex.parent == kNoVertex || vertex.parent < i));
     for (std::uint32_t at = i, k = vertex.next; k != kNoVertex; k = path.vertices[k].twin) {
       REQUIRE(k < count);
-      REQUIRE(k > at);  // links lead on, so following them ends
+      REQUIRE(k > at);  // links lead to later vertices, so following them ends
       at = k;
     }
     const std::span<const Technique> techniques = path.techniques(vertex);
@@ -222,7 +222,7 @@ void check_within(const PathView& path) {
   for (const RecordedLightSample& sample : path.light_samples) REQUIRE(sample.vertex < count);
 }
 
-/// Uses a path in the ways in which learners do.
+/// Uses a path as learners do.
 void learn_from(const PathView& path) {
   std::vector<Rgb> incident;
   estimate_incident_radiance(path, incident);
@@ -232,8 +232,8 @@ void learn_from(const PathView& path) {
   });
 }
 
-/// Walks everything in a log that was loaded from so many bytes. A path's records must follow those
-/// of the path before it, and there cannot be more of them than bytes.
+/// Visits everything in a log that was loaded from `bytes` bytes. The records of a path must follow
+/// the records of the previous path, and there cannot be more records than bytes.
 void walk(const PathLog& log, std::size_t bytes) {
   const RecordedVertex* vertex = log.size() > 0 ? log[0].vertices.data() : nullptr;
   const RecordedLightSample* light = log.size() > 0 ? log[0].light_samples.data() : nullptr;
@@ -249,7 +249,7 @@ void walk(const PathLog& log, std::size_t bytes) {
   }
 }
 
-/// Guides with the same density everywhere.
+/// A guiding distribution with the same density everywhere.
 class ConstantDistribution final : public GuidingDistribution {
  public:
   explicit ConstantDistribution(float density) : density_(density) {}
@@ -265,7 +265,7 @@ class ConstantDistribution final : public GuidingDistribution {
 TEST_CASE("a branching path is followed by its links") {
   PathLog log;
   add_tree(log, {kNoVertex, 0, 1});
-  // Vertex 1 is recorded three times, as 1, 3 and 6. The third step from it met nothing.
+  // Vertex 1 is recorded three times, as 1, 3 and 6. The third step from it hit nothing.
   add_tree(log, {kNoVertex, 0, 1, 0, 3, 4, 0});
   const PathView path = log[1];
   CHECK(linked_children(path, 0) == Indices{1, 3, 6});
@@ -274,7 +274,7 @@ TEST_CASE("a branching path is followed by its links") {
   CHECK(linked_children(path, 4) == Indices{5});
   for (const std::uint32_t end : {2u, 5u, 6u}) CHECK(path.vertices[end].next == kNoVertex);
   for (const std::uint32_t only : {0u, 2u, 4u, 5u}) CHECK(path.vertices[only].twin == kNoVertex);
-  // The path before it has links of its own.
+  // The previous path has its own links.
   CHECK(linked_children(log[0], 0) == Indices{1});
   CHECK(linked_children(log[0], 1) == Indices{2});
 }
@@ -352,7 +352,7 @@ TEST_CASE("path logs: what is loaded is what was saved, field by field") {
 
 TEST_CASE("path logs: a loaded log goes on") {
   PathLog original = example(), copy;
-  copy.begin_path({}, Transport::radiance);  // what a log holds before is replaced
+  copy.begin_path({}, Transport::radiance);  // loading replaces the previous content of a log
   std::istringstream in(saved(original));
   load(in, copy);
   for (PathLog* log : {&original, &copy}) {
@@ -413,7 +413,7 @@ TEST_CASE("path logs: whatever byte is damaged, the log is refused or leads nowh
       }
     }
   }
-  // Most bytes belong to floating-point numbers, which may have other values.
+  // Most bytes belong to floating-point numbers, and a changed number is usually valid.
   CHECK(sound > 1000);
   CHECK(refused > 500);
 }

@@ -1,4 +1,4 @@
-// Paths in flight are values: copies and batches of them continue to the same bits.
+// Tests of paths in flight. They are values: copies and batches of them continue to the same bits.
 
 #include <vector>
 
@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kEdge = 8;
 
-/// Everything that walks through a foggy room need.
+/// Everything that a walk through a foggy room needs.
 struct Stage {
   Scene scene{conformance::room_parts(conformance::Room::lamp, true)};
   std::unique_ptr<const PreparedSensor> sensor = scene.sensor().prepare(kEdge, kEdge);
@@ -80,7 +80,7 @@ TEST_CASE("a copy of a path continues as the path does, and apart from it") {
     if (!walk.begin(flight) || !walk.proceed(flight, 12)) continue;
     Flight copy = flight;
     Flight other = flight;
-    other.path.first_bounce = 100;  // draws other numbers
+    other.path.first_bounce = 100;  // selects other random numbers
     while (walk.proceed(other, 12)) continue;
     while (walk.proceed(flight, 12)) continue;
     while (walk.proceed(copy, 12)) continue;
@@ -103,8 +103,9 @@ TEST_CASE("a path with what is known of its counterparts can be copied, too") {
   for (int i = 0; i < kEdge * kEdge; ++i) {
     const SampleStream stream = stage.stream(i);
     BidirectionalWalk::InFlight flight{
-        Path(stream), {}, Counterparts(stage.target, choices, nullptr,
-                                       stream.get_2d({Purpose::lens}), backward)};
+        Path(stream),
+        {},
+        Counterparts(stage.target, choices, nullptr, stream.get_2d({Purpose::lens}), backward)};
     if (!walk.begin(flight)) continue;
     BidirectionalWalk::InFlight copy(flight);
     while (walk.proceed(flight, 12)) continue;

@@ -9,23 +9,23 @@
 
 namespace pharos {
 
-/// What all paths from the sensor share in one render.
+/// Data that all paths from the sensor share in one render.
 struct CameraScene {
   const RenderTarget& target;
   const PathSettings& settings;
-  const LightSelector& lights;  ///< for next event estimation
+  const LightSelector& lights;  ///< chooses lights for next event estimation
 };
 
-/// What one path from the sensor found.
+/// The result of one path from the sensor.
 struct PathSample {
   Rgb radiance;
   Vec2 film;  ///< [pixels]
   Features features;
-  bool splat = false;  ///< the camera was guided: the path may belong to any pixel
+  bool splat = false;  ///< the camera was guided, so the path may belong to any pixel
 };
 
-/// A path from the sensor in flight, with what it found so far and what is known of the paths from
-/// lights that could have made it. A value, like Path.
+/// A path from the sensor in flight, with its result so far. Its counterparts know the paths from
+/// lights that could have produced the same path. It is a value, like Path.
 template <class Counterparts>
 struct CameraPath {
   Path path;
@@ -37,8 +37,8 @@ struct CameraPath {
 ///
 ///     begin() -> [ emission -> light samples -> step ] until the path ends
 ///
-/// Light that both light samples and steps find is weighted by multiple importance sampling.
-/// `Counterparts` know which paths from lights make the same path.
+/// Light that both light samples and steps can find is weighted by multiple importance sampling.
+/// `Counterparts` know the densities of the paths from lights that produce the same path.
 template <class Recorder, class Counterparts = NoCounterparts, class Rules = EstimatorRules>
 class CameraWalk {
  public:
@@ -52,7 +52,7 @@ class CameraWalk {
         counters_(counters),
         kernel_(shared.target.scene, context.guiding, arenas, counters, recorder) {}
 
-  /// Runs a path to its end. It has at most `max_depth` segments.
+  /// Traces a path from its beginning to its end. The path has at most `max_depth` segments.
   PathSample run(const SampleStream& stream, std::uint16_t max_depth,
                  Counterparts counterparts = {}) const {
     InFlight flight{Path(stream), {}, std::move(counterparts)};
@@ -61,7 +61,8 @@ class CameraWalk {
     return flight.found;
   }
 
-  /// Begins a path at the lens and takes it to its first vertex. Returns false if it ends there.
+  /// Begins a path at the lens and traces it to its first vertex. Returns false if the path ends
+  /// there.
   bool begin(InFlight& flight) const {
     ++counters_.paths;
     Path& path = flight.path;
@@ -85,7 +86,7 @@ class CameraWalk {
     step.event = Event::smooth_reflect;
     step.value = step.unguided_weight = Rgb(1);
     step.unguided_pdf = 1;
-    GuidingQuery query;  // lives as long as its guidance
+    GuidingQuery query;  // must live as long as the guidance
     Guidance guidance;
     const GuidingFrame* guiding = kernel_.guiding();
     if (guiding != nullptr && guiding->guides_camera()) {
@@ -98,8 +99,8 @@ class CameraWalk {
     return goes;
   }
 
-  /// Collects light at the current vertex and takes the path to the next one. Returns false if it
-  /// ends.
+  /// Collects light at the current vertex and traces the path to the next vertex. Returns false if
+  /// the path ends.
   bool proceed(InFlight& flight, std::uint16_t max_depth) const {
     add_emission(flight);
     if (!goes_on(flight.path, max_depth)) return false;
@@ -107,8 +108,8 @@ class CameraWalk {
     return kernel_.extend(flight.path, visitor, flight.counterparts);
   }
 
-  /// Takes a path that begin() has begun to the vertex of this number and calls
-  /// `visit(scattering, guidance)` there, if lights are sampled at it.
+  /// Begins a path, traces it to the vertex number `bounce`, and calls
+  /// `visit(scattering, guidance)` there if lights are sampled at this vertex.
   template <class Visit>
   void visit_vertex(InFlight& flight, std::uint16_t bounce, Visit&& visit) const {
     bool goes = begin(flight);
@@ -118,7 +119,8 @@ class CameraWalk {
     }
   }
 
-  /// Samples the light of a branch at the primary numbers `u`, from the current vertex.
+  /// Takes the light sample of a branch at the current vertex, with the random numbers `u` in
+  /// [0,1)^2.
   void sample_light(InFlight& flight, const LocalScattering& scattering, const Guidance& guidance,
                     std::uint16_t branch, Vec2 u) const {
     const Path& path = flight.path;
@@ -135,7 +137,7 @@ class CameraWalk {
   }
 
  private:
-  /// What happens at a vertex on the way.
+  /// The visitor of ordinary paths: samples lights and plays Russian roulette at each vertex.
   struct Visitor {
     const CameraWalk& walk;
     InFlight& flight;
@@ -153,7 +155,7 @@ class CameraWalk {
     }
   };
 
-  /// Stops at one vertex.
+  /// The visitor of visit_vertex(): ends the path at the vertex number `bounce`.
   template <class Visit>
   struct VertexVisitor {
     const CameraWalk& walk;
@@ -173,7 +175,7 @@ class CameraWalk {
     }
   };
 
-  /// Whether the path may have a segment beyond the current vertex.
+  /// Returns whether the path may have a segment beyond the current vertex.
   static bool goes_on(const Path& path, std::uint16_t max_depth) {
     return path.here().kind != VertexKind::environment && path.bounce < max_depth;
   }
@@ -192,8 +194,9 @@ class CameraWalk {
     path.towards_previous = lens.normal;
   }
 
-  /// Camera guiding: the mixture of uniform film positions and the guides' directions. A path of
-  /// any pixel may land in any other pixel, so all contributions become splats.
+  /// Draws the first step of a path if the camera is guided, from a mixture of uniform film
+  /// positions and directions of the guides. A path of any pixel may land in any other pixel, so
+  /// all contributions become splats. Returns false if the path has value zero.
   bool guide_first_step(InFlight& flight, const LensPoint& lens, Vec2 size,
                         const Guidance& guidance, ScatterStep& step) const {
     const VertexStream stream = flight.path.numbers();
@@ -215,7 +218,7 @@ class CameraWalk {
     return true;
   }
 
-  /// Takes note of what the first vertex shows.
+  /// Stores the features of the first vertex.
   void note_features(InFlight& flight) const {
     const PathVertex& here = flight.path.here();
     if (here.kind != VertexKind::surface) return;
@@ -248,8 +251,8 @@ class CameraWalk {
     }
   }
 
-  /// Emission that the path ran into; `light_pdf()` is the density of a light sample of it, without
-  /// the choice of the light.
+  /// Adds emission that the path has hit. `light_pdf()` returns the density of a light sample at
+  /// this point, without the probability of choosing the light.
   template <class LightPdf>
   void add_light(InFlight& flight, const Light& light, int index, Rgb radiance,
                  LightPdf&& light_pdf) const {
@@ -275,7 +278,7 @@ class CameraWalk {
     Rgb value = scatter.value * light.radiance / light.pdf;
     if (is_black(value)) return;
     Ray shadow{here.origin_towards(light.direction), light.direction, light.distance};
-    // Ends just before the light's surface, by as much as positions are uncertain there.
+    // The ray ends just before the light's surface, by the uncertainty of positions there.
     if (std::isfinite(light.distance)) {
       shadow =
           ray_between(shadow.origin, light.point.origin_towards(-light.direction), light.direction);
@@ -331,8 +334,8 @@ class CameraWalk {
     return true;
   }
 
-  /// Refraction compresses radiance into smaller solid angles; roulette must not take this for a
-  /// loss of light.
+  /// Accounts for refraction. Refraction compresses radiance into a smaller solid angle, and
+  /// roulette must not mistake this for a loss of light.
   static void note_refraction(Path& path, const LocalScattering& scattering) {
     const float ratio = square(scattering.bsdf().relative_ior());
     const bool enters = dot(path.towards_previous, path.here().surface.normal) > 0;

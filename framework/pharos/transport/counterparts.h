@@ -7,23 +7,23 @@
 #include <pharos/transport/light_selection.h>
 #include <pharos/transport/subpath_densities.h>
 
-/// The paths of the other kind that could have made a path: the other techniques of the balance
-/// heuristic, whose densities a walk cannot know by itself.
+/// The paths from the other end that could have produced a path. They are the other techniques of
+/// the balance heuristic, and a walk cannot know their densities by itself.
 namespace pharos {
 
-/// Lights as both kinds of path choose them.
+/// The choice of lights by both kinds of path.
 struct LightChoices {
-  const LightSelector& sampled;   ///< by vertices of paths from the lens
-  const LightSelector& emitting;  ///< by paths from the lights
+  const LightSelector& sampled;   ///< lights that are sampled at vertices of paths from the lens
+  const LightSelector& emitting;  ///< lights at which paths begin
 };
 
-/// The paths from lights that would make what a path from the lens finds.
+/// The paths from lights that would produce the same path as a path from the lens.
 template <class Rules = EstimatorRules>
 class LightCounterparts {
  public:
   static constexpr bool kExist = true;
 
-  /// The lens point of the path belongs to `u_lens`.
+  /// `u_lens` are the random numbers that determine the lens point of the path.
   LightCounterparts(const RenderTarget& target, const LightChoices& lights,
                     const GuidingFrame* guiding, Vec2 u_lens, Arena& arena)
       : target_(target),
@@ -34,7 +34,7 @@ class LightCounterparts {
         first_steps_(guiding, arena),
         continuations_(target.scene, guiding, Transport::importance, arena) {}
 
-  /// The path has gone from one vertex to the next.
+  /// Takes note of the step of the path from one vertex to the next.
   void advance(const PathVertex& from, const PathVertex& to, const ScatterStep& step,
                const Guidance& guidance, float length, Rgb transmittance) {
     Way there = way_to(to, step.direction, length, transmittance);
@@ -53,8 +53,8 @@ class LightCounterparts {
     back_ = way_to(from, -step.direction, length, transmittance);
   }
 
-  /// The weight of light that the path ran into at `here`; `sampled` is the density [1/sr] of light
-  /// samples of it, 0 if there are none.
+  /// Returns the MIS weight of emission that the path has hit at `here`. `sampled` is the density
+  /// [1/sr] of light samples of this emission; 0 if there are none.
   float of_emission(const Light& light, int index, const PathVertex& here, float sampled) const {
     const EmissionDensity pdf = light.pdf_emission(here.surface, back_.target.direction);
     const double at_light = density_at_light(pdf, here.kind, lights_.emitting.probability(index));
@@ -62,8 +62,9 @@ class LightCounterparts {
                           densities_.ratio(density_beyond_light(pdf, here.kind, back_), at_light));
   }
 
-  /// The weight of a light sample at `here`, whose light is scattered by `event`; BSDF or phase
-  /// function would sample its direction with density `scatter_pdf` [1/sr].
+  /// Returns the MIS weight of a light sample at `here`, whose light is scattered by `event`.
+  /// `scatter_pdf` is the density [1/sr] with which the BSDF or phase function samples its
+  /// direction.
   float of_light_sample(const Light& light, int index, const LightSample& sample, float scatter_pdf,
                         const Guidance& guidance, const PathVertex& here, Event event,
                         Rgb transmittance) const {
@@ -82,14 +83,14 @@ class LightCounterparts {
   }
 
  private:
-  /// The first vertex beyond the lens, which light paths must be seen from.
+  /// Adds the first vertex beyond the lens, from which light paths are connected to the lens.
   void begin(const PathVertex& lens, const PathVertex& to, const Way& there) {
     const LensPoint lens_point{lens.position(), lens.surface.normal};
     densities_.extend(first_steps_.density(lens_point, there, direction_pdf(lens_point, to, there)),
                       0);
   }
 
-  /// Of the first direction, when film positions are uniform [1/sr].
+  /// Returns the density [1/sr] of the first direction if film positions are uniform.
   float direction_pdf(const LensPoint& lens, const PathVertex& to, const Way& there) const {
     const PreparedSensor& sensor = target_.sensor;
     if (to.kind == VertexKind::environment) {
@@ -100,8 +101,9 @@ class LightCounterparts {
     return way ? way->direction_pdf() : 0;
   }
 
-  /// The density, in vertex measure, of light paths going on from `at`, when they come from
-  /// `before` in `direction`, to where this path came from, if that is not the lens.
+  /// Returns the density, in vertex measure, with which a light path that comes to `at` from
+  /// `before` continues to the vertex from which this path came. `direction` points from `at` to
+  /// `before`. Returns 0 if this path came from the lens or if no light path can produce it.
   double onwards(const PathVertex& at, const PathVertex& before, Vec3 direction,
                  Event event) const {
     if (densities_.vertices() < 2 || densities_.is_ruled_out()) return 0;
@@ -119,12 +121,13 @@ class LightCounterparts {
   FirstSteps first_steps_;
   Continuations continuations_;
   SubpathDensities densities_;
-  /// Density of the last step [1/sr], to volumes [1/(sr m)]; of steps from the lens nobody asks.
+  /// Density of the last step [1/sr], or [1/(sr m)] to a volume vertex. It is not used for steps
+  /// from the lens.
   double last_step_ = 1;
-  Way back_;  ///< from the last vertex to the one before
+  Way back_;  ///< from the last vertex to the previous one
 };
 
-/// The paths from the lens that would make what a path from a light shows.
+/// The paths from the lens that would produce the same path as a path from a light.
 class CameraCounterparts {
  public:
   static constexpr bool kExist = true;
@@ -137,8 +140,8 @@ class CameraCounterparts {
         first_steps_(guiding, arena),
         continuations_(target.scene, guiding, Transport::radiance, arena) {}
 
-  /// The path begins with this emission; `before_scene` is what media leave of the light of the
-  /// environment on its way to the scene.
+  /// Begins a path with this emission. `before_scene` is the transmittance of media for environment
+  /// light on its way to the scene.
   void begin(const Light& light, int index, const EmissionSample& emission, Rgb before_scene) {
     before_scene_ = before_scene;
     light_ = &light;
@@ -151,7 +154,7 @@ class CameraCounterparts {
         density_at_light(emission.pdf, emission.kind, lights_.emitting.probability(index)), 0);
   }
 
-  /// The path has gone from one vertex to the next.
+  /// Takes note of the step of the path from one vertex to the next.
   void advance(const PathVertex& from, const PathVertex& to, const ScatterStep& step,
                const Guidance& guidance, float length, Rgb transmittance) {
     const bool begins = densities_.vertices() == 1;
@@ -172,7 +175,8 @@ class CameraCounterparts {
     if (begins) begin_backwards(to);
   }
 
-  /// The weight of the light itself at `here`, seen from the lens in `direction`.
+  /// Returns the MIS weight of the light itself at `here`, which is seen from the lens in
+  /// `direction`.
   float of_light_seen(const PathVertex& here, const LensPoint& lens, Vec3 direction, float distance,
                       float direction_pdf, Rgb transmittance) const {
     const Way from_lens = way_to(here, direction, distance, transmittance);
@@ -180,7 +184,8 @@ class CameraCounterparts {
         densities_.ratio(0, first_steps_.density(lens, from_lens, direction_pdf)));
   }
 
-  /// The weight of being seen through `way` from `here`, which scatters light that way by `event`.
+  /// Returns the MIS weight of the connection `way` from `here` to the lens. At `here` the light is
+  /// scattered towards the lens by `event`.
   float of_connection(const PathVertex& here, const SensorConnection& way, Event event,
                       Rgb transmittance) const {
     const Way from_lens = way_to(here, -way.direction, way.distance, transmittance);
@@ -193,8 +198,10 @@ class CameraCounterparts {
   }
 
  private:
-  /// The density, in vertex measure, of paths from the lens going on from `at`, when they come from
-  /// `before` in `direction`, to where this path came from.
+  /// Returns the density, in vertex measure, with which a path from the lens that comes to `at`
+  /// from `before` continues to the vertex from which this path came. `direction` points from `at`
+  /// to `before`. The density of light samples is included if this path came from the light and
+  /// `event` is not discrete.
   double onwards(const PathVertex& at, const GuidingVertex& before, Vec3 direction,
                  Event event) const {
     if (densities_.is_ruled_out()) return 0;
@@ -206,7 +213,7 @@ class CameraCounterparts {
     return leads_to_light_ && !is_discrete(event) ? density + sampled_ : density;
   }
 
-  /// The first vertex beyond the light: `sampled_` and the way back from there.
+  /// Sets `sampled_` and completes `back_` at the first vertex beyond the light.
   void begin_backwards(const PathVertex& to) {
     sampled_ = lights_.sampled.probability(index_);
     if (emission_.kind == VertexKind::surface) {
@@ -233,10 +240,10 @@ class CameraCounterparts {
   int index_ = 0;
   EmissionSample emission_;
   Rgb before_scene_{1};
-  bool runs_into_light_ = false;  ///< whether steps can meet it
-  bool leads_to_light_ = false;   ///< whether `back_` does
-  double sampled_ = 0;            ///< density of light samples, in the measure of the light's end
-  Way back_;                      ///< from the last vertex to the one before
+  bool runs_into_light_ = false;  ///< whether steps can hit the light
+  bool leads_to_light_ = false;   ///< whether `back_` leads to the light
+  double sampled_ = 0;  ///< density of light samples in the measure of the vertex on the light
+  Way back_;            ///< from the last vertex to the previous one
 };
 
 }  // namespace pharos

@@ -8,44 +8,44 @@
 namespace pharos {
 
 /// The formulas that make the estimators of light transport unbiased, one function each. Walks take
-/// them as a template parameter: tests replace single formulas by wrong ones, to see which tests
-/// notice.
+/// them as a template parameter. Tests can thus replace single formulas by wrong ones and see which
+/// other tests detect the fault.
 struct EstimatorRules {
   using Tracer = SegmentTracer;
 
-  /// Whether a path of this value counts: all do, those of value zero included.
+  /// Returns whether a path of this value counts. All paths do, including paths of value zero.
   static bool keeps(Rgb) { return true; }
 
-  /// The density of a light sample whose light was chosen with `probability`, in the measure of
-  /// `pdf`.
+  /// Returns the density of a light sample in the measure of `pdf`. Its light was chosen with
+  /// probability `probability`.
   static float light_sample_pdf(float pdf, float probability) { return pdf * probability; }
 
-  /// The MIS weight [1] of a light sample of density `light_pdf` that a step of density `step`
-  /// could have hit (Veach 1997, eq. 9.8 and 9.13).
+  /// Returns the MIS weight [1] of a light sample of density `light_pdf` that a step of density
+  /// `step` could have hit (Veach 1997, eq. 9.8 and 9.13).
   static float light_sample_weight(MisHeuristic heuristic, float light_pdf, const StepDensity& step,
                                    float /*medium_density*/) {
     return pharos::light_sample_weight(heuristic, light_pdf, step.total);
   }
 
-  /// The MIS weight [1] of emission that a path ran into, if light samples find it with density
-  /// `light_pdf`.
+  /// Returns the MIS weight [1] of emission that a path has hit, if light samples find it with
+  /// density `light_pdf`.
   static float emission_weight(MisHeuristic heuristic, const Path& path, float light_pdf) {
     return pharos::emission_weight(heuristic, path.arrival.total, light_pdf);
   }
 
-  /// The point that a light sample of the emission at `to` would have been taken from, when a step
-  /// from `from` ran into it.
+  /// Returns the point from which a light sample of the emission at `to` would have been taken, if
+  /// a step from `from` has hit the emission.
   static Point3 light_sample_origin(const Scene&, Point3 from, const SurfacePoint& /*to*/) {
     return from;
   }
 
-  /// The factor that makes up for Russian roulette with this probability of survival.
+  /// Returns the factor that compensates for Russian roulette with this probability of survival.
   static float survivor_weight(float survival) { return 1 / survival; }
 
-  /// The factor by which the cosine at a light foreshortens it, when the lens sees it.
+  /// Returns the foreshortening factor of a light that the lens sees, for the cosine at the light.
   static float foreshortening(float cosine) { return cosine; }
 
-  /// The density with which a path from the other end would make the same step.
+  /// Returns the density with which a path from the other end would take the same step.
   static double reverse_density(double density) { return density; }
 };
 

@@ -9,24 +9,25 @@
 
 namespace pharos {
 
-/// Memory for guides, one of each for a work unit.
+/// Memory for guides during one work unit.
 struct TransportArenas {
-  Arena vertex;  ///< what lives until the next vertex is known
-  Arena path;    ///< what guides remember along paths; reset when no path is in flight
+  Arena vertex;  ///< objects that live until the next vertex is known
+  Arena path;    ///< objects that guides remember along paths; reset when no path is in flight
 };
 
-/// The knowledge of a walk whose paths no other technique can make: they need no MIS weights.
+/// The counterparts of a walk whose paths cannot be produced from the other end. Such a walk needs
+/// no MIS weights for both ends.
 struct NoCounterparts {
   static constexpr bool kExist = false;
 };
 
-/// Advances paths from vertex to vertex, from the sensor and from lights alike:
+/// Advances paths from vertex to vertex, both from the sensor and from lights:
 ///
 ///     begin(path) -> advance(path, first step) -> extend(path, …) until it returns false
 ///
-/// A step is traced first and weighted then, because the density of a guided step may depend on
-/// what it hits. All state of a path is in the Path, so that calls for different paths may
-/// alternate. `Recorder` is told of everything (recorder.h).
+/// A step is traced before it is weighted, because the density of a guided step may depend on what
+/// it hits. The whole state of a path is in the Path, so that calls for different paths may
+/// alternate. `Recorder` receives a report of every event (recorder.h).
 template <class Recorder, class Rules = EstimatorRules>
 class TransportKernel {
  public:
@@ -50,18 +51,22 @@ class TransportKernel {
     recorder_.arrive(path);
   }
 
-  /// Returns the guidance at the first vertex, on the lens. It lives until the path is advanced.
+  /// Returns the guidance at the first vertex, on the lens. The guidance lives until the path is
+  /// advanced.
   Guidance guidance_at_lens(Path& path, GuidingQuery& query) const {
     query = {.current = path.current, .towards_previous = path.towards_previous, .bounce = 0};
     return ask(path, query);
   }
 
-  /// Continues a path from its current vertex to the next one. `visitor` does what the kind of path
-  /// does at a vertex:
+  /// Continues a path from its current vertex to the next one. `visitor` does what is specific to
+  /// the kind of path:
   ///
-  ///     bool meets(Path&, const LocalScattering&)   // before guides are asked; false: the path
-  ///     ends void leaves(Path&, const LocalScattering&, const Guidance&)   // e.g. samples lights
-  ///     bool survives(Path&, const LocalScattering&, ScatterStep&)    // Russian roulette
+  ///     // Called before guides are asked. Returns false if the path ends here.
+  ///     bool meets(Path&, const LocalScattering&)
+  ///     // Called before the path leaves the vertex, for example to sample lights.
+  ///     void leaves(Path&, const LocalScattering&, const Guidance&)
+  ///     // Plays Russian roulette. Returns false if the path ends here.
+  ///     bool survives(Path&, const LocalScattering&, ScatterStep&)
   ///
   /// Returns false if the path ends; its throughput no longer matters then.
   template <class Visitor, class Counterparts>
@@ -69,7 +74,7 @@ class TransportKernel {
     const LocalScattering scattering =
         path.here().scattering(scene_, path.towards_previous, path.transport);
     if (!visitor.meets(path, scattering)) return false;
-    std::optional<GuidingQuery> query;  // lives as long as its guidance
+    std::optional<GuidingQuery> query;  // must live as long as the guidance
     Guidance guidance;
     if (describes_vertices()) {
       path.current.roughness = scattering.roughness();
@@ -91,8 +96,8 @@ class TransportKernel {
            visitor.survives(path, scattering, step) && advance(path, step, guidance, counterparts);
   }
 
-  /// Traces a step to the next vertex and weights it. Returns false if nothing can come of the
-  /// path.
+  /// Traces a step to the next vertex and weights it. Returns false if the path cannot contribute
+  /// any more.
   template <class Counterparts>
   bool advance(Path& path, const ScatterStep& step, const Guidance& guidance,
                Counterparts& counterparts) const {
@@ -118,12 +123,12 @@ class TransportKernel {
   }
 
  private:
-  /// Whether a guide or a recorder needs descriptions of vertices.
+  /// Returns whether a guide or a recorder needs descriptions of vertices.
   bool describes_vertices() const { return Recorder::kRecords || guiding_ != nullptr; }
 
   Guidance ask(Path& path, GuidingQuery& query) const {
     arenas_.vertex.reset();
-    // A guide that remembered its path would know which end it began at.
+    // The memory of a guide would depend on the end at which the path began.
     PathMemories* memories = path.from_both_ends ? nullptr : &path.memories;
     return guiding_->query(query, arenas_.vertex, memories, &arenas_.path);
   }
@@ -150,7 +155,7 @@ class TransportKernel {
     recorder_.step(path, step, guidance, weight, resolved, transmittance);
   }
 
-  /// Makes the vertex that a step led to the current one.
+  /// Makes the vertex at the end of a step the current vertex.
   void move_on(Path& path, const ScatterStep& step, float length) const {
     if (describes_vertices()) {
       path.previous = path.current;

@@ -23,18 +23,19 @@ struct EnumNames<LightSelection> {
       {{"one", LightSelection::one}, {"all", LightSelection::all}});
 };
 
-/// The lights of a scene under a selection policy. Constant and thread-safe.
+/// Chooses lights of a scene by a selection policy. Constant and thread-safe.
 class LightSelector {
  public:
   LightSelector(const Scene& scene, LightSelection selection);
 
-  /// The number of light samples to take at each vertex.
+  /// Returns the number of light samples to take at each vertex.
   std::uint16_t branches() const { return branches_; }
-  /// Whether choose() uses its random number, that is, whether there is a choice.
+  /// Returns whether choose() uses its random number, that is, whether there is more than one light
+  /// to choose from.
   bool needs_number() const { return cumulative_.size() > 1; }
-  /// Returns the index in Scene::lights() of the light for a branch; `u` in [0,1).
+  /// Returns the index in Scene::lights() of the light for a branch; `u` is in [0,1).
   int choose(std::uint16_t branch, float u) const;
-  /// The probability [1] of choosing a light; 1 with `all`.
+  /// Returns the probability [1] of choosing a light; 1 with `all`.
   float probability(int light) const { return probability_[static_cast<std::size_t>(light)]; }
 
  private:

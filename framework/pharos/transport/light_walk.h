@@ -7,16 +7,17 @@
 
 namespace pharos {
 
-/// What all paths from lights share in one render.
+/// Data that all paths from lights share in one render.
 struct LightScene {
   const RenderTarget& target;
-  const LightSelector& lights;     ///< chooses the light of a path by its power
-  std::uint16_t max_depth;         ///< segments, the one to the lens included
-  std::uint16_t first_bounce = 0;  ///< number of the light's vertex in the stream's dimensions
+  const LightSelector& lights;  ///< chooses the light of a path in proportion to power
+  std::uint16_t max_depth;      ///< largest number of segments, including the one to the lens
+  /// Number of the vertex on the light in the dimensions of the stream.
+  std::uint16_t first_bounce = 0;
 };
 
-/// A path from a light in flight, with what is known of the paths from the lens that could have
-/// made it. A value, like Path.
+/// A path from a light in flight. Its counterparts know the paths from the lens that could have
+/// produced the same path. It is a value, like Path.
 template <class Counterparts>
 struct LightPath {
   Path path;
@@ -27,8 +28,8 @@ struct LightPath {
 ///
 ///     begin() -> [ connect to the lens -> step ] until the path ends
 ///
-/// The sensor sees every vertex, the one on the light included. `Counterparts` know which paths
-/// from the lens make the same path.
+/// Every vertex is connected to the lens, including the vertex on the light. `Counterparts` know
+/// the densities of the paths from the lens that produce the same path.
 template <class Recorder, class Counterparts = NoCounterparts, class Rules = EstimatorRules>
 class LightWalk {
  public:
@@ -41,15 +42,15 @@ class LightWalk {
         counters_(counters),
         kernel_(shared.target.scene, context.guiding, arenas, counters, recorder) {}
 
-  /// Runs a path to its end.
+  /// Traces a path from its beginning to its end.
   void run(const SampleStream& stream, Counterparts counterparts = {}) const {
     InFlight flight{Path(stream), std::move(counterparts)};
     bool goes = begin(flight);
     while (goes) goes = proceed(flight);
   }
 
-  /// Begins a path at a light, shows the light to the sensor, and takes the path to its first
-  /// vertex beyond. Returns false if the path ends before.
+  /// Begins a path at a light, connects the light itself to the lens, and traces the path to its
+  /// first vertex beyond the light. Returns false if the path ends before.
   bool begin(InFlight& flight) const {
     ++counters_.paths;
     Path& path = flight.path;
@@ -62,8 +63,8 @@ class LightWalk {
            kernel_.advance(path, step, {}, flight.counterparts);
   }
 
-  /// Connects the current vertex to the lens and takes the path to the next vertex. Returns false
-  /// if it ends.
+  /// Connects the current vertex to the lens and traces the path to the next vertex. Returns false
+  /// if the path ends.
   bool proceed(InFlight& flight) const {
     Visitor visitor{*this, flight.counterparts};
     return kernel_.extend(flight.path, visitor, flight.counterparts);
@@ -85,8 +86,8 @@ class LightWalk {
 
   // --- the light ------------------------------------------------------------------------------
 
-  /// Draws a ray that leaves a light, and shows the light itself to the sensor. False if nothing
-  /// can come of it.
+  /// Draws a ray that leaves a light, and connects the light itself to the lens. Returns false if
+  /// the path cannot contribute any more.
   bool emit(InFlight& flight, ScatterStep& step) const {
     Path& path = flight.path;
     const VertexStream numbers = path.numbers();
@@ -97,7 +98,7 @@ class LightWalk {
                                                           numbers.get_2d(Purpose::bsdf_direction));
     if (!(emission.pdf.direction > 0) || !(chosen > 0)) return false;
     place(emission, path);
-    // Light of the environment crosses media from infinitely far away.
+    // Light from the environment crosses media from infinity.
     Rgb before_scene(1);
     if (emission.kind == VertexKind::environment && path.here().medium != nullptr) {
       before_scene = path.here().medium->transmittance(
@@ -129,14 +130,14 @@ class LightWalk {
         scene_.has_media() ? scene_.medium_at(start.origin_towards(emission.direction)) : nullptr;
   }
 
-  /// Guides see the environment where the first vertex sees it.
+  /// Moves the environment vertex for guides to the point that the first vertex sees.
   void place_environment(Path& path) const {
     if (path.bounce != 1 || path.previous.kind != VertexKind::environment) return;
     path.previous.position =
         scene_.environment_point(path.here().position(), path.towards_previous);
   }
 
-  /// An area light as it is seen from the lens.
+  /// Adds the contribution of an area light that the lens sees directly.
   void show_surface(const InFlight& flight, const Light& light, const EmissionSample& emission,
                     float chosen) const {
     const Path& path = flight.path;
@@ -158,7 +159,8 @@ class LightWalk {
                               (emission.pdf.position * chosen) * transmittance * radiance);
   }
 
-  /// The environment as it is seen from the lens, if any film position sees it there.
+  /// Adds the contribution of the environment that the lens sees directly, if any film position
+  /// sees it in this direction.
   void show_environment(const InFlight& flight, const Light& light, const EmissionSample& emission,
                         float chosen) const {
     if (!light.is_environment()) return;
@@ -211,8 +213,8 @@ class LightWalk {
     contribute(way->film, weight * path.throughput * seen);
   }
 
-  /// Fills in what is between the current vertex and the lens, for light of this strength; false if
-  /// something hides the lens.
+  /// Fills in the passage from the current vertex to the lens, for light of this strength. Returns
+  /// false if the lens is occluded.
   bool look(const Path& path, const SensorConnection& way, Rgb strength, Passage& passage) const {
     const PathVertex& here = path.here();
     const Ray ray =

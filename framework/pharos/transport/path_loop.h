@@ -4,8 +4,8 @@
 
 namespace pharos {
 
-/// Calls `trace(key, stream)` for every path of a work unit, in a fixed order, and counts them on
-/// the film.
+/// Calls `trace(key, stream)` for every path of a work unit, in a fixed order, and counts the paths
+/// on the film.
 template <class Trace>
 void for_each_path(const WorkUnit& unit, const IterationContext& context, int film_width,
                    WorkResult& result, Trace&& trace) {
@@ -23,13 +23,15 @@ void for_each_path(const WorkUnit& unit, const IterationContext& context, int fi
   result.film.count_paths(static_cast<std::uint64_t>(unit.pixels.area()) * unit.sample_count);
 }
 
-/// Takes note of a path of NaN or infinite value, which counts as black.
+/// Counts a path of NaN or infinite value and keeps the key of the first one. Such paths count as
+/// black.
 inline void reject(const PathKey& key, WorkResult& result) {
   ++result.counters.invalid_paths;
   if (!result.first_invalid) result.first_invalid = key;
 }
 
-/// `radiance` if it is finite; else black, and the path is taken note of, in its record too.
+/// Returns `radiance` if it is finite. Otherwise rejects the path, makes its record black, and
+/// returns black.
 inline Rgb checked(Rgb radiance, const PathKey& key, WorkResult& result) {
   if (is_finite(radiance)) return radiance;
   reject(key, result);
@@ -37,7 +39,7 @@ inline Rgb checked(Rgb radiance, const PathKey& key, WorkResult& result) {
   return {};
 }
 
-/// Puts a path's value on the film. NaN and infinity are counted and count as zero.
+/// Adds the value of a path to the film. NaN and infinite values are counted and added as zero.
 inline void deposit(PathSample sample, const RenderTarget& target, const PathKey& key,
                     WorkResult& result) {
   sample.radiance = checked(sample.radiance, key, result);

@@ -8,7 +8,7 @@
 namespace pharos {
 namespace {
 
-/// Delivers one chosen value for one dimension and keyed random numbers for all others.
+/// A sampler that returns a chosen value for one dimension and keyed random numbers for all others.
 class PinnedSampler final : public PreparedSampler {
  public:
   PinnedSampler(Dimension pinned, Vec2 value) : pinned_(pinned), value_(value) {}
@@ -26,13 +26,13 @@ class PinnedSampler final : public PreparedSampler {
   Vec2 value_;
 };
 
-/// Keeps the contribution of the last light sample, throughput included.
+/// Keeps the contribution of the last light sample, including the throughput.
 class LightProbeRecorder : public SilentRecorder {
  public:
   void connect(const Path& path, const Connection&, PathWeight weight, Rgb value) {
     last_ = path.throughput * (weight.own_end * value);
   }
-  /// Returns that contribution; black if there was none since the last call.
+  /// Returns the contribution; black if there was no light sample since the last call.
   Rgb take() { return std::exchange(last_, Rgb()); }
 
  private:
@@ -84,7 +84,7 @@ class PathProbe final : public IntegrandProbe {
     return key;
   }
 
-  /// All points share the path up to the vertex.
+  /// Evaluates light samples. All points share the path up to the vertex.
   void evaluate_light(const ProbeQuery& query, const PathKey& key, std::span<const Vec2> points,
                       std::span<Rgb> values) const {
     std::fill(values.begin(), values.end(), Rgb());

@@ -7,7 +7,7 @@
 
 namespace pharos {
 
-/// Makes the probe of path tracing without guides; it refers to `shared`.
+/// Makes the probe of path tracing without guides. The probe refers to `shared`.
 std::unique_ptr<const IntegrandProbe> make_path_probe(const CameraScene& shared);
 
 }  // namespace pharos

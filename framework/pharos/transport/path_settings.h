@@ -12,8 +12,8 @@
 
 namespace pharos {
 
-/// How light that is found by sampling a light and by running into it is weighted. `light_samples`
-/// counts the former alone wherever lights can be sampled.
+/// The weighting of light that both light samples and steps can find. `light_samples` counts only
+/// light samples, wherever lights can be sampled.
 enum class MisHeuristic { balance, power, light_samples };
 enum class Roulette { off, throughput };
 
@@ -30,7 +30,7 @@ struct EnumNames<Roulette> {
       {{"off", Roulette::off}, {"throughput", Roulette::throughput}});
 };
 
-/// How paths from the sensor are traced.
+/// The settings for tracing paths from the sensor.
 struct PathSettings {
   std::uint16_t max_depth = 12;
   bool next_event_estimation = true;
@@ -44,22 +44,23 @@ struct PathSettings {
   static void describe(Schema<PathSettings>& schema);
 };
 
-/// MIS weight [1] of a technique of density `own` against one of density `other`; both in the same
-/// measure (Veach 1997, eq. 9.8 and 9.13 with exponent 2).
+/// Returns the MIS weight [1] of a technique of density `own` against one of density `other`. Both
+/// densities are in the same measure (Veach 1997, eq. 9.8 and 9.13 with exponent 2).
 inline float mis_weight(float own, float other, bool squared) {
   if (!squared) return own / (own + other);
   const float ratio = other / own;  // squares of large densities overflow, their ratio does not
   return 1 / (1 + ratio * ratio);
 }
 
-/// MIS weight [1] of a light sample of density `own` that a step of density `step` could have met.
+/// Returns the MIS weight [1] of a light sample of density `own` that a step of density `step`
+/// could have hit.
 inline float light_sample_weight(MisHeuristic heuristic, float own, float step) {
   if (heuristic == MisHeuristic::light_samples) return 1;
   return mis_weight(own, step, heuristic == MisHeuristic::power);
 }
 
-/// MIS weight [1] of light that a step of density `own` met, and light samples with density
-/// `light`.
+/// Returns the MIS weight [1] of light that a step of density `own` has hit and that light samples
+/// find with density `light`.
 inline float emission_weight(MisHeuristic heuristic, float own, float light) {
   if (heuristic == MisHeuristic::light_samples) return light > 0 ? 0.0f : 1.0f;
   return mis_weight(own, light, heuristic == MisHeuristic::power);

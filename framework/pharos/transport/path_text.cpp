@@ -49,7 +49,8 @@ std::string text(Rgb c) {
   return fmt::format("({:.6g}, {:.6g}, {:.6g})", c.r, c.g, c.b);
 }
 
-/// Shares and densities of all techniques: " (unguided 0.5 of 0.31, method 1 0.5 of 2.2)".
+/// Returns shares and densities of all techniques, such as " (share 0.5 of unguided 0.31, 0.5 of
+/// method 1 2.2)". Returns an empty text if there is only one technique.
 std::string text(std::span<const Technique> techniques) {
   if (techniques.size() < 2) return {};
   std::string out =

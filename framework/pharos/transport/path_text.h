@@ -6,7 +6,8 @@
 
 namespace pharos {
 
-/// Describes a recorded path for people: one line for each vertex and one for each light sample.
+/// Returns a readable description of a recorded path: lines for each vertex, its emission, its
+/// light samples and its step.
 std::string path_text(const PathView& path, Rgb radiance);
 
 }  // namespace pharos

@@ -11,13 +11,14 @@ namespace pharos {
 /// A vertex that a path has reached or begins at.
 struct PathVertex {
   VertexKind kind = VertexKind::sensor;
-  SurfacePoint surface;  ///< off surfaces its `position` alone, on the lens the normal too
-  const Medium* medium = nullptr;  ///< that the path came through
+  SurfacePoint surface;  ///< off surfaces only `position` is set, on the lens also the normal
+  const Medium* medium = nullptr;  ///< medium through which the path came
 
   Point3 position() const { return surface.position; }
   bool is_on_surface() const { return kind == VertexKind::surface; }
 
-  /// Where a ray begins that leaves here, and the medium that it is in.
+  /// Returns the origin of a ray that leaves here in `direction`; medium_towards() returns its
+  /// medium.
   Point3 origin_towards(Vec3 direction) const {
     return is_on_surface() ? surface.origin_towards(direction) : position();
   }
@@ -25,19 +26,19 @@ struct PathVertex {
     return is_on_surface() ? scene.medium_after(surface, direction, medium) : medium;
   }
 
-  /// Refers to this vertex. Surface and volume vertices only.
+  /// Returns the scattering at a surface or volume vertex. The result refers to this vertex.
   LocalScattering scattering(const Scene& scene, Vec3 towards_previous, Transport transport) const {
     if (is_on_surface()) return {surface, scene.bsdf(surface), towards_previous, transport};
     return {medium->phase_function(), medium->scattering(position()), towards_previous, transport};
   }
 
-  /// That of LocalScattering; 1 where nothing scatters.
+  /// Returns LocalScattering::roughness() at this vertex; 1 if nothing scatters here.
   float roughness(const Scene& scene) const {
     if (is_on_surface()) return scene.bsdf(surface).roughness(surface);
     if (kind != VertexKind::volume) return 1;
     return 1 - std::abs(medium->phase_function().mean_cosine());
   }
-  /// What a guide may know of it, but for the event.
+  /// Returns the description of the vertex for guides, without the event.
   GuidingVertex described(float roughness = 1) const {
     const bool has_normal = is_on_surface() || kind == VertexKind::sensor;
     return {.position = position(),
@@ -48,7 +49,7 @@ struct PathVertex {
   }
 };
 
-/// The ray from `origin` to `goal`, which lies in about `direction`.
+/// Returns the ray from `origin` to `goal`, which lies approximately in `direction`.
 inline Ray ray_between(Point3 origin, Point3 goal, Vec3 direction) {
   const Vec3 span = goal - origin;
   Ray ray{origin, direction, length(span)};

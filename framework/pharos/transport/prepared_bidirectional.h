@@ -7,18 +7,18 @@
 
 namespace pharos {
 
-/// How paths start at lights beside those from the lens.
+/// The rules for paths that start at lights.
 struct LightPathRules {
-  bool always = true;     ///< in the final image, too; else in training iterations alone
-  bool recorded = false;  ///< a learner wants them
+  bool always = true;     ///< also in the final image; otherwise only in training iterations
+  bool recorded = false;  ///< a learner needs records of them
 };
 
-/// Path tracing and light tracing together, prepared for a render.
+/// Path tracing and light tracing in combination, prepared for a render.
 template <class Rules = EstimatorRules>
 class PreparedBidirectional : public PreparedIntegrator {
  public:
-  /// Number of the first vertex of light paths among a sample's dimensions, beyond those of the
-  /// path from the lens.
+  /// Number of the first vertex of light paths in the dimensions of a sample. It lies beyond the
+  /// vertices of the path from the lens.
   static constexpr std::uint16_t kFirstLightBounce = 0x8000;
 
   PreparedBidirectional(const PathSettings& settings, const LightPathRules& light_paths,
@@ -65,11 +65,11 @@ class PreparedBidirectional : public PreparedIntegrator {
 
  private:
   struct Arenas {
-    TransportArenas forward;  ///< of queries along paths
-    Arena backward;           ///< of queries for densities from the other end
+    TransportArenas forward;  ///< for queries along paths
+    Arena backward;           ///< for queries of densities from the other end
   };
 
-  /// Whether paths start at lights: in training they always do.
+  /// Returns whether paths start at lights. In training iterations they always do.
   bool traces_light(const IterationContext& context) const {
     return context.record || light_paths_.always;
   }

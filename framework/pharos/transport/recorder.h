@@ -8,47 +8,49 @@
 
 namespace pharos {
 
-/// MIS weights of one way to make a path.
+/// The MIS weights of one way to produce a path.
 struct PathWeight {
   float own_end = 1;    ///< among the techniques of paths from the same end
   float both_ends = 1;  ///< among the techniques of all paths
 };
 
-/// The end of a connection from a vertex: a light sample, or the lens.
+/// The end of a connection from a vertex: a point on a light, or on the lens.
 struct Connection {
   Point3 position;
   VertexKind kind = VertexKind::surface;
   Vec3 direction;             ///< unit, from the vertex
-  Event event = Event::none;  ///< of scattering into `direction` at the vertex
-  bool discrete = false;      ///< no step can hit the end: it is a light without extent
+  Event event = Event::none;  ///< event of scattering into `direction` at the vertex
+  bool discrete = false;      ///< no step can hit the end, because it is a light without extent
 };
 
-/// What the transport kernel and the walks report, call by call along a path. This recorder ignores
-/// everything and compiles to nothing; others hide the functions of the calls that they use.
+/// The interface by which the transport kernel and the walks report events along a path. This
+/// recorder ignores all events and compiles to nothing. Other recorders hide the functions for the
+/// events that they use.
 struct SilentRecorder {
-  /// Whether vertices must be described in full.
+  /// Whether the recorder needs full descriptions of vertices.
   static constexpr bool kRecords = false;
 
-  /// A path begins; `film` in pixels, unknown for paths from lights.
+  /// Reports that a path begins. `film` is in pixels and unknown for paths from lights.
   void begin(Path&, Vec2 /*film*/) {}
-  /// A guide of the camera chose this place on the film [pixels].
+  /// Reports that a guide of the camera chose this position on the film [pixels].
   void film(Vec2) {}
-  /// The path has reached its current vertex, or begins there.
+  /// Reports that the path has reached its current vertex or begins there.
   void arrive(Path&) {}
-  /// Emission of the current vertex.
+  /// Reports emission of the current vertex.
   void emission(const Path&, Rgb /*radiance*/, PathWeight) {}
-  /// The path is about to leave the current vertex.
+  /// Reports that the path is about to leave the current vertex.
   void leave(const Path&, const LocalScattering&, const Guidance&) {}
-  /// A connection from the current vertex; `value` is its f/p, without throughput.
+  /// Reports a connection from the current vertex. `value` is its f/p, without throughput.
   void connect(const Path&, const Connection&, PathWeight, Rgb /*value*/) {}
-  /// The step from the current vertex, once the next vertex is known.
+  /// Reports the step from the current vertex, once the next vertex is known.
   void step(const Path&, const ScatterStep&, const Guidance&, Rgb /*weight*/, const ResolvedVertex&,
             Rgb /*transmittance*/) {}
-  /// What a path from a light adds to the film [pixels], as FilmTile::add_splat() takes it.
+  /// Reports a contribution of a path from a light to the film [pixels], as FilmTile::add_splat()
+  /// takes it.
   void contribute(Vec2 /*film*/, Rgb /*contribution*/) {}
 };
 
-/// Writes paths into a PathLog, one after another. What it knows of a path in flight is
+/// Writes paths into a PathLog, one after another. Its only state of a path in flight is
 /// Path::record, so that branches of a path can be recorded in turn.
 class LogRecorder {
  public:

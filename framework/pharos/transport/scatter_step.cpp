@@ -3,7 +3,7 @@
 namespace pharos {
 namespace {
 
-/// What the scattering makes of a guide's proposal.
+/// Fills in the step of a guide's proposal. Returns false if the step has value zero.
 bool accept(const LocalScattering& scattering, const Proposal& proposal, ScatterStep& step) {
   step = {.direction = proposal.direction,
           .reach = proposal.reach,

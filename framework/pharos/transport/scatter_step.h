@@ -12,15 +12,15 @@ struct ScatterStep {
   Vec3 direction;
   Event event = Event::none;
   Rgb value;               ///< f |cos| [1/sr] (volume: [1/(sr m)]), or share [1] if discrete
-  float unguided_pdf = 0;  ///< of the BSDF or phase function [1/sr], or probability [1]
+  float unguided_pdf = 0;  ///< density of the BSDF or phase function [1/sr], or probability [1]
   Rgb unguided_weight;     ///< value / unguided_pdf
-  float continuation = 1;  ///< makes up for Russian roulette; a factor of the step's weight
+  float continuation = 1;  ///< compensates for Russian roulette; a factor of the step's weight
   Proposal::Reach reach = Proposal::Reach::medium;
-  float distance = 0;  ///< for Reach::distance [scene units]
+  float distance = 0;  ///< used with Reach::distance [scene units]
   TargetMask targets = TargetMask::all;
-  const Bounds3* within = nullptr;  ///< where the next vertex must lie; null: anywhere
+  const Bounds3* within = nullptr;  ///< box in which the next vertex must lie; null: anywhere
 
-  /// Whether a next vertex like this is one that the step was for.
+  /// Returns whether a next vertex of this kind and position was proposed.
   bool accepts(VertexKind kind, Point3 position) const {
     return is_target(targets, within, kind, position);
   }
@@ -28,14 +28,16 @@ struct ScatterStep {
 
 /// The densities of a step once its next vertex is known.
 struct StepDensity {
-  float unguided = 0;  ///< of the unguided sampler, the medium included
-  float guided = 0;    ///< of the guide
-  float total = 0;     ///< of the mixture the step was drawn from
+  float unguided = 0;  ///< of the unguided sampler, including the medium's factor
+  float guided = 0;    ///< of the guides, including the medium's factor
+  float total = 0;     ///< of the mixture from which the step was drawn
 };
 
-// Steps are filled in place: moved out of optionals they stall the walks, by 5 % of all time.
+// Functions fill in steps in place. Moving steps out of optionals stalls the walks, by 5 % of all
+// time.
 
-/// Fills in a step of the BSDF or phase function. False for a valid sample of value zero.
+/// Fills in a step drawn from the BSDF or phase function. Returns false for a valid sample of value
+/// zero.
 inline bool sample_unguided_step(const LocalScattering& scattering, const VertexStream& stream,
                                  ScatterStep& step) {
   const std::optional<ScatterSample> sample = scattering.sample(
@@ -53,12 +55,13 @@ inline bool sample_unguided_step(const LocalScattering& scattering, const Vertex
   return true;
 }
 
-/// Fills in a step that the guides propose. False for a valid sample of value zero.
+/// Fills in a step that the guides propose. Returns false for a valid sample of value zero.
 bool sample_guided_step(const LocalScattering& scattering, const Guidance& guidance,
                         const VertexStream& stream, ScatterStep& step);
 
 /// Draws the next step at a vertex from the one-sample mixture of unguided sampling (with
-/// probability `guidance.unguided_share`) and the guides. False for a valid sample of value zero.
+/// probability `guidance.unguided_share`) and the guides. Returns false for a valid sample of value
+/// zero.
 inline bool sample_step(const LocalScattering& scattering, const Guidance& guidance,
                         const VertexStream& stream, ScatterStep& step) {
   const bool unguided =
@@ -67,9 +70,9 @@ inline bool sample_step(const LocalScattering& scattering, const Guidance& guida
                   : sample_guided_step(scattering, guidance, stream, step);
 }
 
-/// The density of reaching `vertex`, by whichever way, in the measure of its event and kind, when
-/// the unguided sampler's density of its direction (or probability of its discrete event) is
-/// `unguided_pdf`.
+/// Returns the density of reaching `vertex` by any technique, in the measure of its event and kind.
+/// `unguided_pdf` is the unguided sampler's density of its direction, or the probability of its
+/// discrete event.
 inline StepDensity step_density(const Guidance& guidance, const ResolvedVertex& vertex,
                                 float unguided_pdf) {
   StepDensity density;

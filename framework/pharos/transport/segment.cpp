@@ -5,7 +5,7 @@
 namespace pharos {
 namespace {
 
-/// Where a step ends on one leg of a segment, of length `ray.t_max`, in a medium.
+/// Returns where a step ends on one leg of a segment in a medium. The leg has length `ray.t_max`.
 DistanceSample stop_on_leg(const Medium& medium, const Ray& ray, Rgb shares,
                            const ScatterStep& step, float traveled, std::uint16_t leg,
                            const VertexStream& numbers) {
@@ -47,7 +47,7 @@ bool SegmentTracer::trace_through(Ray ray, const Medium* medium, const ScatterSt
     segment.length += ray.t_max;
     segment.medium = medium;
     if (segment.kind == VertexKind::volume) return true;
-    // Nothing to scatter at where the proposed vertex would be.
+    // There is nothing to scatter at the position of the proposed vertex.
     if (step.reach == Proposal::Reach::distance && step.distance <= segment.length) return false;
     if (std::isinf(ray.t_max)) {
       arrive_at_environment(whole, segment, end);
@@ -76,8 +76,8 @@ bool SegmentTracer::pass_through(Ray ray, const Medium* medium, Rgb throughput,
     if (arrives) return true;
     medium = scene_.medium_after(at, ray.direction, medium);
     ray.origin = at.origin_towards(ray.direction);
-    // Aimed anew, so that the ray does not reach beyond its goal, which may lie before a surface by
-    // no more than the boundary's own error.
+    // The ray is aimed again at its goal, so that it does not reach beyond. The goal may lie before
+    // a surface by no more than the boundary's own error.
     const Vec3 rest = goal - ray.origin;
     ray.t_max = is_near ? length(rest) : kInfinity;
     if (is_near && !(dot(rest, ray.direction) > 0)) return true;

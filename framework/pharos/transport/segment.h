@@ -8,31 +8,33 @@
 
 namespace pharos {
 
-/// What light meets on a straight way through media.
+/// The effect of media on light along a straight way.
 struct Passage {
-  Rgb transmittance{1};     ///< what is left of it [1]
-  float medium_density = 1; /**< the probability [1] with which the media's own sampling gets to the
-                                 end; for a volume vertex the density [1/m] of stopping there */
+  Rgb transmittance{1};  ///< share of light that is left [1]
+  /// Probability [1] with which the sampling of the media reaches the end; for a volume vertex, the
+  /// density [1/m] of stopping there.
+  float medium_density = 1;
 };
 
 /// The straight way from one vertex to the next.
 struct Segment {
-  VertexKind kind = VertexKind::surface;  ///< of its end: surface, volume or environment
+  VertexKind kind = VertexKind::surface;  ///< kind of its end: surface, volume or environment
   float length = 0;                       ///< infinite to the environment [scene units]
-  const Medium* medium = nullptr;         ///< at its end; null: empty space
+  const Medium* medium = nullptr;         ///< medium at its end; null: empty space
   Passage passage;
 };
 
-/// Follows rays through media and the boundaries between them: surfaces of objects that do nothing
-/// but let light pass (Scene::is_boundary()) are no vertices, they only change the medium.
+/// Traces rays through media and the boundaries between them. Surfaces that only let light pass
+/// (Scene::is_boundary()) are not vertices; they only change the medium.
 class SegmentTracer {
  public:
   SegmentTracer(const Scene& scene, RenderCounters& counters)
       : scene_(scene), counters_(counters) {}
 
-  /// Goes from a vertex at `ray.origin`, in `medium`, as far as `step` says; fills `segment`, which
-  /// is new, and `end`: the whole point on a surface, else its position. `throughput` is the
-  /// path's, with what the step scatters. False when a proposed vertex cannot be reached.
+  /// Traces a step from a vertex at `ray.origin`, in `medium`, as far as `step` says. Fills in
+  /// `segment`, which must be new, and `end`: the whole point on a surface, otherwise its position.
+  /// `throughput` is the path's throughput times the value of the step. Returns false if a proposed
+  /// vertex cannot be reached.
   bool trace(const Ray& ray, const Medium* medium, const ScatterStep& step, Rgb throughput,
              const VertexStream& numbers, Segment& segment, SurfacePoint& end) const {
     if (scene_.has_media() || scene_.has_boundaries()) {
@@ -45,8 +47,9 @@ class SegmentTracer {
     return true;
   }
 
-  /// Fills `passage`, which is new, with what a shadow ray meets up to `ray.t_max`, for a path of
-  /// this throughput, as above; false when a surface is in the way.
+  /// Fills in `passage`, which must be new, with the effect of media on a shadow ray up to
+  /// `ray.t_max`. `throughput` is the same as for trace(). Returns false if a surface is in the
+  /// way.
   bool pass(const Ray& ray, const Medium* medium, Rgb throughput, Passage& passage) const {
     if (scene_.has_boundaries()) return pass_through(ray, medium, throughput, passage);
     ++counters_.rays;

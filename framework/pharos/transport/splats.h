@@ -10,7 +10,8 @@
 
 namespace pharos {
 
-/// The contributions of one path from a light, kept until all are known to be finite.
+/// The contributions of one path from a light. They are kept until all of them are known to be
+/// finite.
 class Splats {
  public:
   explicit Splats(std::size_t most) { all_.reserve(most); }
@@ -21,7 +22,8 @@ class Splats {
                        [](const Splat& splat) { return is_finite(splat.contribution); });
   }
 
-  /// Puts the contributions on the film; none of a path with a NaN or infinite one.
+  /// Adds the contributions to the film. If one of them is NaN or infinite, the path is rejected
+  /// and none is added.
   void deposit(const PathKey& key, WorkResult& result) {
     const bool finite = are_finite();
     if (!finite) reject(key, result);
@@ -59,7 +61,7 @@ class SplatRecorder : public Recorder {
   Splats splats_;
 };
 
-/// Describes a path from a light in words.
+/// A recorder that describes a path from a light as text.
 class LightPathTeller : public SilentRecorder {
  public:
   static constexpr bool kRecords = true;

@@ -8,34 +8,36 @@
 #include <pharos/transport/path_vertex.h>
 #include <pharos/transport/scatter_step.h>
 
-/// Densities for the balance heuristic over whole paths (Veach 1997, section 10.2). They are those
-/// of vertices, in vertex measure: [1/m^2] on surfaces, [1/m^3] in media, [1/sr] for the
+/// Densities for the balance heuristic over whole paths (Veach 1997, section 10.2). They are
+/// densities of vertices, in vertex measure: [1/m^2] on surfaces, [1/m^3] in media, [1/sr] for the
 /// environment.
 ///
-/// Weights must be the same function of a path whichever way it was made; any such function that
-/// adds up to one will do. So densities in here differ from those that paths were drawn with in two
-/// things. Distances in media are those of white light, whose channels decide alike, and which
-/// media that only absorb stop as well. Discrete events count as their probability times the cosine
-/// [1/sr]: the distributions of both ways through a mirror are the same besides, and through glass
-/// but for the square of the refractive index.
+/// The weight must be the same function of a path, whichever technique produced it. Any such
+/// function is valid if the weights add up to one. The densities here therefore differ from the
+/// densities with which paths were drawn in two respects. First, distances in media follow white
+/// light: all color channels have the same share, and media that only absorb also stop light.
+/// Second, discrete events count as their probability times the cosine [1/sr]. Apart from that, the
+/// distributions of both directions through a mirror are the same. For both directions through
+/// glass they differ only by the square of the refractive index.
 namespace pharos {
 
 /// A straight way to a vertex.
 struct Way {
-  ResolvedVertex target;  ///< without event; distances in media by white light
-  float cosine = 1;       ///< between the way and the normal at its end; 1 off surfaces [1]
+  ResolvedVertex target;  ///< without event; `medium_density` for white light
+  float cosine = 1;       ///< between the way and the normal at its end [1]; 1 off surfaces
 
-  /// From a density of directions [1/sr] or of directions and distances [1/(sr m)] to one of the
-  /// target in vertex measure.
+  /// Returns the factor that converts a density of directions [1/sr], or of directions and
+  /// distances [1/(sr m)], to a density of the target in vertex measure.
   double to_vertex_measure() const {
     if (target.kind == VertexKind::environment) return 1;
-    // Not to be divided by zero, which media draw once in a while.
+    // Media occasionally draw the distance zero; the bound avoids a division by zero.
     return cosine / std::max(double{target.distance} * target.distance, 1e-60);
   }
 };
 
-/// The density [1/m] with which white light stops at `target` after losing all but
-/// `transmittance`, or [1] gets there.
+/// Returns the density [1/m] with which white light stops at `target` in a medium, or the
+/// probability [1] with which it reaches another `target`. `transmittance` is the share of light
+/// that is left there.
 inline float white_medium_density(const PathVertex& target, Vec3 direction, Rgb transmittance) {
   const float arrives = mean(transmittance);
   if (target.kind != VertexKind::volume) return arrives;
@@ -52,21 +54,23 @@ inline Way way_to(const PathVertex& target, Vec3 direction, float distance, Rgb 
           .cosine = target.is_on_surface() ? abs_dot(direction, target.surface.normal) : 1};
 }
 
-/// What a discrete event's probability is multiplied by to count as a density; 1 for others.
+/// Returns the factor that makes the probability of a discrete event count as a density; 1 for
+/// other events.
 inline double discrete_cosine(const PathVertex& at, Event event, Vec3 direction) {
   return is_discrete(event) ? abs_dot(direction, at.surface.normal) : 1;
 }
 
-/// How densely paths of one kind go on from vertices, guides included, wherever these vertices come
-/// from: for paths of the other kind, backwards.
+/// The densities with which paths from one end continue from a vertex, including guides. They are
+/// evaluated backwards at vertices of paths from the other end.
 class Continuations {
  public:
   /// `guiding` may be null. `arena` is reset by every call.
   Continuations(const Scene& scene, const GuidingFrame* guiding, Transport transport, Arena& arena)
       : scene_(scene), guiding_(guiding), transport_(transport), arena_(arena) {}
 
-  /// The density [1/sr], volume targets [1/(sr m)], of going on to `target` by an event like
-  /// `event`, for a path that came to `at` from `before`, which is seen from there in `direction`.
+  /// Returns the density [1/sr], for volume targets [1/(sr m)], with which a path that came to `at`
+  /// from `before` continues to `target`. `direction` points from `at` to `before`. If `event` is
+  /// discrete, the path continues by this event; otherwise it continues by a smooth event.
   double density(const PathVertex& at, const GuidingVertex& before, Vec3 direction, Event event,
                  ResolvedVertex target) const {
     const LocalScattering scattering = at.scattering(scene_, direction, transport_);
@@ -108,7 +112,7 @@ class Continuations {
   Arena& arena_;
 };
 
-/// How densely paths from the lens begin, a guide of first vertices included.
+/// The densities with which paths from the lens begin, including guides of the first vertex.
 class FirstSteps {
  public:
   /// `guiding` may be null. `arena` is reset by every call.
@@ -116,8 +120,9 @@ class FirstSteps {
       : guiding_(guiding != nullptr && guiding->guides_camera() ? guiding : nullptr),
         arena_(arena) {}
 
-  /// The density, in vertex measure, of the first vertex that `to` leads to from this point of the
-  /// lens, if that of its direction is `direction_pdf` [1/sr] where film positions are uniform.
+  /// Returns the density, in vertex measure, of the first vertex, to which `to` leads from this
+  /// point of the lens. `direction_pdf` is the density [1/sr] of its direction for uniform film
+  /// positions.
   double density(const LensPoint& lens, const Way& to, float direction_pdf) const {
     double density = double{direction_pdf} * to.target.medium_density;
     if (guiding_ != nullptr && direction_pdf > 0) {
@@ -140,12 +145,14 @@ class FirstSteps {
   Arena& arena_;
 };
 
-/// The product of densities of all vertices of a subpath, backward over forward, but for the last
-/// two vertices: what comes next decides on their backward densities.
+/// The product, over all vertices of a subpath except the last two, of the backward density over
+/// the forward density. The backward densities of the last two vertices depend on the vertices that
+/// follow.
 class SubpathDensities {
  public:
-  /// The next vertex, drawn with density `forward`. `backward` is the density with which the one
-  /// before the last would be drawn from this one's side, if there is one.
+  /// Adds the next vertex, which was drawn with density `forward`. `backward` is the density with
+  /// which a path that comes from the new vertex would draw the vertex two before it, if there is
+  /// one.
   void extend(double forward, double backward) {
     if (vertices_ >= 2) closed_ *= backward / before_last_;
     before_last_ = last_;
@@ -155,12 +162,13 @@ class SubpathDensities {
     last_ = 1;
     rule_out();
   }
-  /// No path of the other kind makes this one.
+  /// Marks that no path from the other end can produce this path.
   void rule_out() { closed_ = 0; }
 
   int vertices() const { return vertices_; }
   bool is_ruled_out() const { return closed_ == 0; }
-  /// Backward over forward for the whole subpath, of at least one vertex.
+  /// Returns the backward density over the forward density of the whole subpath, which has at least
+  /// one vertex.
   double ratio(double backward_before_last, double backward_last) const {
     if (is_ruled_out()) return 0;
     const double before_last = vertices_ >= 2 ? backward_before_last / before_last_ : 1;
@@ -169,24 +177,26 @@ class SubpathDensities {
 
  private:
   double closed_ = 1;
-  double before_last_ = 1, last_ = 1;  ///< forward
+  double before_last_ = 1, last_ = 1;  ///< forward densities
   int vertices_ = 0;
 };
 
-/// The weight [1] of a path by the balance heuristic, for the densities of all other ways to make
-/// it over that of the way taken. (0 for infinity, NaN for NaN.)
+/// Returns the MIS weight [1] of a path by the balance heuristic. `others` is the sum of the
+/// densities of all other techniques for this path over the density of the technique used.
+/// (Infinity gives 0, and NaN gives NaN.)
 inline float balance_weight(double others) {
   return static_cast<float>(1 / (1 + others));
 }
 
-/// The density, in vertex measure, of light paths that begin at a light of this kind, which is
-/// chosen with probability `chosen`. From infinitely far away directions are drawn first.
+/// Returns the density, in vertex measure, with which light paths begin at a light of this kind,
+/// which is chosen with probability `chosen`. Emission from infinitely far away draws the direction
+/// first.
 inline double density_at_light(const EmissionDensity& pdf, VertexKind kind, float chosen) {
   return double{chosen} * (kind == VertexKind::environment ? pdf.direction : pdf.position);
 }
 
-/// The density, in vertex measure, with which they go on from there to the vertex that `to` leads
-/// to.
+/// Returns the density, in vertex measure, with which light paths continue from the light to the
+/// vertex to which `to` leads.
 inline double density_beyond_light(const EmissionDensity& pdf, VertexKind kind, const Way& to) {
   const double way = kind == VertexKind::environment ? double{pdf.position} * to.cosine
                                                      : pdf.direction * to.to_vertex_measure();

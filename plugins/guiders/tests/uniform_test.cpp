@@ -13,7 +13,7 @@
 namespace pharos {
 namespace {
 
-/// A path that goes on from one vertex on a wall, where it may be guided or not, and meets a lamp.
+/// Returns a path that continues from one vertex on a wall, guidable or not, and hits a lamp.
 PathLog path_to_lamp(float radiance, bool guidable = true) {
   PathLog log;
   log.begin_path({}, Transport::radiance);

@@ -1,4 +1,4 @@
-// What can be tested without a scene; renders are tested in tests/integration and tests/contracts.
+// Tests that need no scene. Renders are tested in tests/integration and tests/contracts.
 
 #include "../path.h"
 
@@ -7,7 +7,6 @@
 #include <doctest/doctest.h>
 
 #include <pharos/core/error.h>
-
 #include <pharos/transport/path_text.h>
 
 namespace pharos {

@@ -7,7 +7,8 @@
 namespace pharos {
 namespace {
 
-/// The shares of unguided sampling and of two methods, whose models have this much evidence.
+/// Returns the shares of unguided sampling and of two methods, whose models have the evidence
+/// `first` and `second`.
 std::array<float, 3> shares_of(const MixingState& state, float first, float second,
                                std::uint32_t region = 0) {
   const GuidingQuery vertex{};

@@ -16,8 +16,8 @@ namespace {
 
 using Settings = LearnedMixing::Settings;
 
-/// All there is: three directions, with the probability that each sampler gives them and what is
-/// sought there.
+/// A world of three directions. It holds the probability that each sampler gives to each direction,
+/// and the value that is sought there.
 struct World {
   std::array<double, 3> unguided, guided, sought;
 
@@ -26,9 +26,9 @@ struct World {
   }
 };
 
-/// Where either way finds what the other misses.
+/// Each sampler finds what the other one misses.
 constexpr World kApart{{0.5, 0.5, 0}, {0, 0, 1}, {0.3, 0, 0.7}};
-/// Where no mixture is perfect.
+/// No mixture is perfect.
 constexpr World kOverlapping{{0.7, 0.2, 0.1}, {0.3, 0.1, 0.6}, {0.1, 0.5, 0.4}};
 constexpr World kGuideMisses{{1, 0, 0}, {0, 1, 0}, {1, 0, 0}};
 constexpr World kOnlyGuideFinds{{1, 0, 0}, {0, 1, 0}, {0, 1, 0}};
@@ -39,7 +39,7 @@ std::size_t choose(const std::array<double, 3>& probabilities, double u) {
   return i;
 }
 
-/// Adds a path with one step that found `found` times the radiance 1.
+/// Adds a path with one step whose estimate is `found` times the radiance 1.
 void add_path(PathLog& log, std::uint32_t mixing_key, std::span<const Technique> techniques,
               double found) {
   log.begin_path({}, Transport::radiance);
@@ -55,8 +55,8 @@ void add_path(PathLog& log, std::uint32_t mixing_key, std::span<const Technique>
   log.add(RecordedVertex{.parent = 1, .emission = Rgb(1)});
 }
 
-/// Paths that take one step each, drawn from the mixture of a share. `scale` is the unit of
-/// radiance. `guides` methods share the guided samples evenly.
+/// Returns paths of one step each, drawn from the mixture with the given share. `scale` is the unit
+/// of radiance. `guides` methods share the guided samples evenly.
 PathLog paths(const World& world, float share, int count, std::uint64_t seed,
               std::uint32_t region = 0, double scale = 1, std::size_t guides = 1) {
   PathLog log;
@@ -77,7 +77,7 @@ std::unique_ptr<MixingState> begin(const Settings& settings = {}) {
   return LearnedMixing(settings).begin(std::array{1.0f});
 }
 
-/// The share of unguided samples in a region of the only method.
+/// Returns the share of unguided samples in a region of the only method.
 float unguided_share(const MixingState& state, std::uint32_t region = 0) {
   const GuidingQuery vertex{};
   const std::array places{Place{.region = region}};
@@ -87,7 +87,7 @@ float unguided_share(const MixingState& state, std::uint32_t region = 0) {
   return shares[0];
 }
 
-/// One region's share after iterations of `count` paths each.
+/// Returns the share of one region after iterations of `count` paths each.
 double learned_share(const Settings& settings, const World& world, int count = 40'000,
                      int iterations = 4, double scale = 1) {
   const auto state = begin(settings);
@@ -109,7 +109,7 @@ double objective(const World& world, double share, MixingObjective which) {
   return sum;
 }
 
-/// The best share, by trying all.
+/// Finds the best share by trying all of them.
 double best_share(const World& world, MixingObjective which) {
   double best = 0.5;
   for (double share = 0.001; share < 1; share += 0.001) {
@@ -125,10 +125,11 @@ Settings free_to_move(MixingObjective which) {
 }  // namespace
 
 TEST_CASE("learned mixing: the optimum in closed form where the samplers find different things") {
-  // Divergence: each sampler gets the share of what only it finds.
+  // Divergence: the optimal share of each sampler is the share of what only this sampler finds.
   CHECK(learned_share(free_to_move(MixingObjective::kl), kApart) ==
         doctest::Approx(0.3).epsilon(0.03));
-  // Variance: shares as the roots of the second moments, 0.3^2 / 0.5 and 0.7^2 / 1.
+  // Variance: the optimal shares are proportional to the roots of the second moments, 0.3^2 / 0.5
+  // and 0.7^2 / 1.
   const double odds = std::sqrt(0.18 / 0.49);
   CHECK(learned_share(free_to_move(MixingObjective::variance), kApart) ==
         doctest::Approx(odds / (1 + odds)).epsilon(0.03));
@@ -137,7 +138,7 @@ TEST_CASE("learned mixing: the optimum in closed form where the samplers find di
 TEST_CASE("learned mixing: the optimum where the samplers overlap") {
   const double kl = best_share(kOverlapping, MixingObjective::kl);
   const double variance = best_share(kOverlapping, MixingObjective::variance);
-  REQUIRE(std::abs(kl - variance) > 0.2);  // or the objectives could not be told apart
+  REQUIRE(std::abs(kl - variance) > 0.2);  // otherwise the objectives could not be told apart
   CHECK(learned_share(free_to_move(MixingObjective::kl), kOverlapping) ==
         doctest::Approx(kl).epsilon(0.04));
   CHECK(learned_share(free_to_move(MixingObjective::variance), kOverlapping) ==
@@ -204,7 +205,8 @@ TEST_CASE("learned mixing: the momentum of one iteration is felt in the next") {
   state->update(1, {});
   const float there = unguided_share(*state);
   CHECK(there == doctest::Approx(0.5025).epsilon(1e-4));  // one step of 0.01 in log-odds
-  // The slope is now the opposite, and about as steep: without memory all would be undone.
+  // The slope is now reversed and about as steep. Without memory of it, the first step would be
+  // undone.
   state->absorb(paths(kOnlyGuideFinds, there, 100, 1));
   state->update(1, {});
   CHECK(unguided_share(*state) > 0.502f);
@@ -250,7 +252,7 @@ TEST_CASE("learned mixing: refined regions go on from where their origin was") {
   for (const std::uint32_t region : {0u, 2u}) CHECK(unguided_share(*refined, region) == learned);
   for (const std::uint32_t region : {1u, 3u}) CHECK(unguided_share(*refined, region) == 0.5f);
 
-  // With the same paths, heir and origin take the same steps.
+  // With the same paths, a refined region and its origin take the same steps.
   whole->absorb(paths(kApart, learned, 300, 2, 1));
   refined->absorb(paths(kApart, learned, 300, 2, 2));
   whole->update(2, std::array{0u, 1u});
@@ -353,8 +355,8 @@ TEST_CASE("learned mixing: what was saved otherwise is refused") {
   CHECK_NOTHROW(load_into({}, with(theta, 50)));  // beyond this policy's least share
   CHECK_THROWS_AS(load_into({}, with(theta, 1e300)), InputError);
   CHECK_THROWS_AS(load_into({}, with(theta, std::nan(""))), InputError);
-  CHECK_THROWS_AS(load_into({}, with(theta + 16, -1)), InputError);  // the mean square
-  CHECK_THROWS_AS(load_into({}, with(theta + 24, 2)), InputError);   // what is left of the start
+  CHECK_THROWS_AS(load_into({}, with(theta + 16, -1)), InputError);       // the mean square
+  CHECK_THROWS_AS(load_into({}, with(theta + 24, 2)), InputError);        // weight of the start
   CHECK_THROWS_AS(load_into({}, with(saved.size() - 8, 1)), InputError);  // a bin's moment alone
 }
 

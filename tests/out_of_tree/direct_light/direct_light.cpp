@@ -1,5 +1,5 @@
-// direct_light: emitters, and surfaces and media that they light directly. Directions come from the
-// BSDF, from light samples, and from guides, weighted by multiple importance sampling.
+// direct_light: renders emitters, and surfaces and media that they light directly. Directions come
+// from the BSDF, from light samples, and from guides, weighted by multiple importance sampling.
 //
 //     integrator: { type: direct_light, guiding: { learner: …, guider: … } }
 
@@ -11,7 +11,7 @@ namespace {
 
 using namespace pharos;
 
-/// Paths have two segments: one to what is seen, and one to its light.
+/// Paths have two segments: one to the visible point, and one to a light.
 constexpr std::uint16_t kSegments = 2;
 
 class PreparedDirectLight final : public PreparedIntegrator {
@@ -64,7 +64,8 @@ class DirectLight final : public Integrator {
   struct Settings {
     std::optional<GuidingSettings> guiding;
     static void describe(Schema<Settings>& s) {
-      s.field("guiding", &Settings::guiding, "What is learned and how it is used");
+      s.field("guiding", &Settings::guiding,
+              "Learner, guider, mixing policy and training schedule");
     }
   };
   explicit DirectLight(Settings settings) : settings_(std::move(settings)) {}

@@ -28,14 +28,15 @@ constexpr bool contains(TargetMask set, VertexKind kind) {
   }
 }
 
-/// Returns whether a vertex of this kind is among `targets` and inside the box; null: any place.
+/// Returns whether a vertex of this kind is among `targets` and lies inside the box `within`. A
+/// null box contains all points.
 inline bool is_target(TargetMask targets, const Bounds3* within, VertexKind kind, Point3 position) {
   return contains(targets, kind) && (within == nullptr || within->contains(position));
 }
 
 /// A proposal for the next path vertex.
 struct Proposal {
-  /// What decides how far the path goes along `direction`.
+  /// The rule that decides how far the path goes along `direction`.
   enum class Reach : std::uint8_t {
     medium,   ///< the medium samples a distance, as in unguided paths
     surface,  ///< the path crosses the medium to the next surface or the environment
@@ -43,12 +44,13 @@ struct Proposal {
   };
 
   Vec3 direction;  ///< unit, away from the current vertex
-  /// The events that the step may be. A discrete event stands for that discrete outcome, along its
-  /// own direction. If a smooth direction turns out to be an event that is not in the set, the
-  /// sample has value zero.
+  /// The events that the step may have. If the set contains only discrete events, the step is the
+  /// first discrete outcome of the BSDF with one of these events, and it takes the direction of
+  /// this outcome. Otherwise the step goes along `direction`, and the sample has value zero if its
+  /// event is not in the set.
   EventMask events = EventMask::smooth;
   Reach reach = Reach::medium;
-  float distance = 0;                    ///< for Reach::distance [scene units]
+  float distance = 0;                    ///< used with Reach::distance [scene units]
   TargetMask targets = TargetMask::all;  ///< a next vertex of another kind is a zero sample
   const Bounds3* within = nullptr; /**< a next vertex outside this box is a zero sample; the box
                                         lives as long as the guide; null: no limit */
@@ -68,7 +70,8 @@ struct ResolvedVertex {
   VertexKind kind = VertexKind::surface;
   Event event = Event::none;  ///< event of the step at the current vertex
   /// The medium's factor in the density of the step: the density [1/m] of stopping at `distance`
-  /// (volume) or the probability [1] of getting there (surface, environment); 1 in empty space.
+  /// (volume) or the probability [1] of reaching the vertex (surface, environment). It is 1 in
+  /// empty space.
   float medium_density = 1;
 };
 
@@ -76,19 +79,21 @@ struct ResolvedVertex {
 /// evaluates the density of any next vertex. It lives in the arena of the query that made it and is
 /// constant.
 ///
-/// The densities of all vertices that propose() can lead to integrate to at most one, over discrete
+/// The density of the vertices that propose() can lead to integrates to at most one, over discrete
 /// events, directions and distances together. The integral is below one if proposals can end as
 /// zero samples.
 class GuidingDistribution {
  public:
-  /// Draws a proposal from the stream's guide_* dimensions. Empty: a valid sample of value zero.
+  /// Draws a proposal with the stream's guide_* dimensions. Returns an empty optional for a valid
+  /// sample of value zero.
   virtual std::optional<Proposal> propose(const VertexStream& stream) const = 0;
 
   /// Returns the density with which propose() leads to `vertex`, summed over all ways to propose
   /// it, in the measure measure_of(vertex.event, vertex.kind). If the medium decides the distance
-  /// of a proposal, its density contains the factor `vertex.medium_density`, after discrete events
-  /// too. Guides that never steer distances (GuiderTraits::steers_distance is false) leave this
-  /// factor out and return [1/sr], or [1] for discrete events; the framework multiplies it in.
+  /// of a proposal, the density contains the factor `vertex.medium_density`; this holds for
+  /// discrete events too. Guides that never steer distances (GuiderTraits::steers_distance is
+  /// false) leave this factor out and return [1/sr], or [1] for discrete events; the framework
+  /// multiplies it in.
   virtual float density(const ResolvedVertex& vertex) const = 0;
 
  protected:

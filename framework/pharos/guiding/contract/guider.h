@@ -12,7 +12,7 @@
 
 namespace pharos {
 
-/// What a guider offers. Checked before rendering starts.
+/// The capabilities of a guider. The framework checks them before rendering starts.
 struct GuiderTraits {
   bool steers_distance = false;     ///< decides how far paths go in media
   bool steers_events = false;       ///< proposes discrete events
@@ -27,27 +27,30 @@ class Guider : public Component {
 
   virtual GuiderTraits traits() const = 0;
 
-  // The framework's side of GuiderOf. Only decorators of guiders implement it themselves.
+  // The following functions connect GuiderOf to the framework. Only decorators of guiders implement
+  // them directly.
 
-  /// The name of the kind of model that it samples.
+  /// Returns the name of the kind of model that this guider samples.
   virtual std::string_view model_name() const = 0;
-  /// Returns the address of that kind of model within `model`; null if `model` is of another kind.
+  /// Returns the address within `model` of the kind of model that this guider samples. Returns null
+  /// if `model` is of another kind.
   virtual const void* find(const GuidingModel& model) const = 0;
   /// Answers a query; `found` is what find() returned.
   virtual const GuidingDistribution* query_found(const void* found, const GuidingQuery& query,
                                                  Arena& arena) const = 0;
 };
 
-/// Base of guiders that sample models of type `Model`: a class with a member
-/// `static constexpr … kName`, which is a GuidingModel or a neutral contract that models meet.
+/// Base of guiders that sample models of type `Model`. `Model` is a class with a member
+/// `static constexpr … kName`. It is a GuidingModel or a neutral contract that models implement.
 /// The framework checks the type once, when a guider is bound to a model.
 template <class Model>
 class GuiderOf : public Guider {
  public:
-  /// Returns the distribution to sample at a vertex, made in `arena`, where it lives until the next
-  /// vertex is known; the query lives as long. Null: nothing is known here, and the vertex is
-  /// sampled by the other methods. Whether it is null depends on the query alone. No heap, no lock.
-  /// Vertices with discrete events only are asked if GuiderTraits::steers_events is true.
+  /// Returns the sampling distribution at a vertex. The distribution is made in `arena` and lives
+  /// until the next vertex is known; the query lives as long. Returns null if nothing is known
+  /// here; the other methods then sample the vertex. Whether the result is null depends on the
+  /// query alone. The function allocates nothing on the heap and takes no lock. At vertices whose
+  /// events are all discrete, the framework asks only if GuiderTraits::steers_events is true.
   virtual const GuidingDistribution* query(const Model& model, const GuidingQuery& query,
                                            Arena& arena) const = 0;
 
@@ -64,8 +67,8 @@ class GuiderOf : public Guider {
 /// A guider with the model that it samples: constant and thread-safe.
 class BoundGuider {
  public:
-  /// Shares ownership of the model; the guider must live as long. Throws InputError, naming both,
-  /// if the guider cannot sample the model.
+  /// Shares ownership of the model; the guider must live as long. Throws an InputError that names
+  /// both if the guider cannot sample the model.
   BoundGuider(const Guider& guider, std::shared_ptr<const GuidingModel> model)
       : guider_(&guider), model_(std::move(model)), found_(guider.find(*model_)) {
     if (found_ != nullptr) return;

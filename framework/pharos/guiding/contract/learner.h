@@ -14,7 +14,7 @@
 
 namespace pharos {
 
-/// The scene and the random numbers of a training.
+/// The scene and the random numbers of one training.
 struct LearningContext {
   Bounds3 region;                ///< bounds of geometry and sensor [scene units]
   std::uint64_t seed = 0;        ///< random numbers are keyed by (seed, iteration, cell)
@@ -22,16 +22,16 @@ struct LearningContext {
   PixelRect window{0, 0, 1, 1};  ///< the part of the film that is rendered [pixels]
 };
 
-/// What one training iteration led to.
+/// The result of one training iteration.
 struct Learned {
   std::shared_ptr<const GuidingModel> model;  ///< null while nothing is known
-  /// For each region of the model the region of the previous model that it came from. Empty: the
-  /// regions are the same as before.
+  /// Maps each region of the model to the region of the previous model from which it came. If
+  /// empty, the regions are the same as before.
   std::vector<std::uint32_t> region_origins = {};
 };
 
-/// What is learned during one render. One thread at a time calls its functions. They may use TBB,
-/// but the state they leave must not depend on the number of threads.
+/// The state of a learner during one render. Only one thread at a time calls its functions. They
+/// may use TBB, but the state they leave must not depend on the number of threads.
 class LearningState {
  public:
   virtual ~LearningState() = default;
@@ -44,9 +44,9 @@ class LearningState {
   virtual void archive(Archive& archive) = 0;
 };
 
-/// What a learner needs. Checked before rendering starts.
+/// The requirements of a learner. The framework checks them before rendering starts.
 struct LearnerTraits {
-  RecordNeeds records;  ///< what integrators must record
+  RecordNeeds records;  ///< records that integrators must make
 };
 
 /// Contract: turns recorded paths into a model.
@@ -56,8 +56,8 @@ class Learner : public Component {
 
   virtual LearnerTraits traits() const = 0;
   virtual std::unique_ptr<LearningState> begin(const LearningContext& context) const = 0;
-  /// Returns a model that knows nothing, of the type that this learner learns, to load a model
-  /// into.
+  /// Returns a model that knows nothing, of the type that this learner learns. Saved models are
+  /// loaded into it.
   virtual std::shared_ptr<GuidingModel> empty_model() const = 0;
 };
 

@@ -14,37 +14,38 @@
 
 namespace pharos {
 
-/// A vertex at which sampling techniques share the samples. It is asked before any guide is.
+/// A vertex at which sampling techniques share the samples. The policy is asked before any guide.
 struct MixingQuery {
   const GuidingQuery& vertex;  ///< `region` is undefined
-  /// What each method's model knows of the vertex; regions of all models are numbered through. A
-  /// method that cannot be asked here has the evidence 0.
+  /// What the model of each method knows of the vertex. The regions of all models share one
+  /// numbering. A method that cannot be asked here has the evidence 0.
   std::span<const Place> places;
 };
 
-/// How techniques share the samples, frozen for an iteration: constant and thread-safe.
+/// The shares of the sampling techniques, frozen for one iteration: constant and thread-safe.
 class MixingShares {
  public:
   virtual ~MixingShares() = default;
 
-  /// Fills in the share of unguided sampling, `shares[0]`, and of each method, `shares[1 + i]`.
-  /// They sum to 1. The unguided share is positive, or directions that no guide proposes would be
-  /// lost. If a method turns out to know nothing, the other methods divide its share. Returns a key
-  /// that tells the policy later how it decided here; see RecordedVertex::mixing_key.
+  /// Fills in the share of unguided sampling, `shares[0]`, and of each method, `shares[1 + i]`. The
+  /// shares sum to 1. The unguided share is positive, because otherwise directions that no guide
+  /// proposes would be lost. If the guide of a method turns out to know nothing, the other methods
+  /// divide its share. Returns a key from which the policy later knows how it decided here; see
+  /// RecordedVertex::mixing_key.
   virtual std::uint32_t at(const MixingQuery& query, std::span<float> shares) const = 0;
 };
 
-/// What a policy has learned during one render. Used like LearningState.
+/// The state of a policy during one render. Threads use it in the same way as LearningState.
 class MixingState {
  public:
   virtual ~MixingState() = default;
 
-  /// Takes the recorded paths of one work unit, in the order of work units.
+  /// Takes the recorded paths of one work unit. Called in the order of work units.
   virtual void absorb(const PathLog& log) = 0;
-  /// Ends an iteration. The next models have `regions` regions in all; region i came from
-  /// `origins[i]`. Empty: the regions are the same as before.
+  /// Ends an iteration. The next models have `regions` regions in all; region i came from region
+  /// `origins[i]`. If `origins` is empty, the regions are the same as before.
   virtual void update(std::uint32_t regions, std::span<const std::uint32_t> origins) = 0;
-  /// The shares in force since the last update().
+  /// Returns the shares as of the last update().
   virtual std::shared_ptr<const MixingShares> shares() const = 0;
   /// Saves the state, or loads it into a state that MixingPolicy::begin() made for the same render
   /// and that has been updated for the number of regions that was saved.
@@ -56,12 +57,14 @@ class MixingPolicy : public Component {
  public:
   static constexpr std::string_view contract_name = "mixing";
 
-  /// `weights`: the weights that a config gives the methods, all positive.
+  /// Returns the state of a new render. `weights` are the weights that the config gives the
+  /// methods; all of them are positive.
   virtual std::unique_ptr<MixingState> begin(std::span<const float> weights) const = 0;
 };
 
-/// Divides `guided`, the share of all methods together, in proportion to the weights of the methods
-/// that know something at the vertex, and gives unguided sampling the rest; all of it if none does.
+/// Gives unguided sampling the share `unguided` and divides the rest in proportion to the weights
+/// of the methods that know something at the vertex. If no method knows anything, unguided sampling
+/// gets the share 1.
 inline void share_by_weight(std::span<const float> weights, std::span<const Place> places,
                             float unguided, std::span<float> shares) {
   float total = 0;

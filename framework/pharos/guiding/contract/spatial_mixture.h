@@ -21,32 +21,34 @@ struct SpatialGaussian {
   void archive(Archive& archive) { archive(weight, mean, cholesky); }
 };
 
-/// L^-1 x: where the Gaussian about the origin is a unit one.
+/// Returns L^-1 x. This maps a point of the Gaussian, centered at the origin, to a point of the
+/// standard normal distribution.
 inline std::array<double, 3> whitened(const SpatialGaussian& g, const std::array<double, 3>& x) {
   const float* l = g.cholesky;
   const double a = x[0] / l[0];
   const double b = (x[1] - l[1] * a) / l[2];
   return {a, b, (x[2] - l[3] * a - l[4] * b) / l[5]};
 }
-/// L z: a point of the Gaussian about the origin for a point z of the unit one.
+/// Returns L z. This maps a point of the standard normal distribution to a point of the Gaussian,
+/// centered at the origin.
 inline Vec3 spread(const SpatialGaussian& g, Vec3 z) {
   const float* l = g.cholesky;
   return {l[0] * z.x, l[1] * z.x + l[2] * z.y, l[3] * z.x + l[4] * z.y + l[5] * z.z};
 }
-/// |L|, the root of the covariance's determinant [scene units^3].
+/// Returns |L|, the square root of the determinant of the covariance [scene units^3].
 inline double root_determinant(const SpatialGaussian& g) {
   return double{g.cholesky[0]} * g.cholesky[2] * g.cholesky[5];
 }
 
-/// Neutral contract of models that hold mixtures of 3D Gaussians: guiders of any module can sample
-/// a model that also derives from this.
+/// Neutral contract of models that hold mixtures of 3D Gaussians. Guiders of any module can sample
+/// a model that also derives from this class.
 class SpatialMixture {
  public:
   static constexpr std::string_view kName = "spatial_mixture";
 
   virtual ~SpatialMixture() = default;
   /// Returns the mixture of positions of the next vertex, which may depend on the prefix of the
-  /// path. It lives in the model or in `arena`. Empty: nothing is known here.
+  /// path. The mixture lives in the model or in `arena`. It is empty if nothing is known here.
   virtual std::span<const SpatialGaussian> mixture_at(const GuidingQuery& query,
                                                       Arena& arena) const = 0;
 };

@@ -18,19 +18,20 @@ struct GuidingVertex {
   float roughness = 1;
 };
 
-/// Memory of one guide along one path. Whatever a guide leaves at a vertex is there at the next
-/// vertex. If the path is copied, both copies continue with the same memory; so what is remembered
-/// is constant, and a guide that has something new to remember makes a new object.
+/// The memory of one guide along one path. An object that the guide leaves at a vertex is available
+/// at the following vertices, until the guide leaves another object. If the path is copied, both
+/// copies share the object. Objects are therefore constant, and a guide that needs to remember
+/// something new makes a new object.
 class PathMemory {
  public:
   PathMemory(const void*& slot, Arena& arena) : slot_(slot), arena_(arena) {}
 
-  /// Returns what was left at the previous vertex; null: nothing.
+  /// Returns the object that was left before, which must be of type `T`; null if there is none.
   template <class T>
   const T* get() const {
     return static_cast<const T*>(slot_);
   }
-  /// Makes an object that lives as long as the path and leaves it for the next vertex.
+  /// Makes an object that lives as long as the path and leaves it for the next vertices.
   template <class T, class... Args>
   const T* leave(Args&&... args) const {
     const T* object = arena_.make<T>(std::forward<Args>(args)...);
@@ -49,17 +50,18 @@ class PathMemory {
 struct GuidingQuery {
   const GuidingVertex* previous = nullptr;
   GuidingVertex current;
-  Vec3 towards_previous;  ///< unit; on the lens its normal
+  Vec3 towards_previous;  ///< unit; on the lens the normal of the lens
   Transport transport = Transport::radiance;
   /// Number of the current vertex; the first vertex after the lens is 1. It is 0 if paths are made
-  /// from both ends: the density of a step must not depend on the end that a path began at. The
-  /// event at `previous` is then unknown for the same reason.
+  /// from both ends, because the density of a step must not depend on the end at which a path
+  /// began. For the same reason the event at `previous` is then unknown.
   std::uint16_t bounce = 1;
   const LocalScattering* scattering = nullptr;  ///< BSDF or phase function at the vertex
-  const Medium* medium = nullptr;               ///< that the path came through; null: empty space
-  std::uint32_t region = 0;           ///< that GuidingModel::place() returned for this vertex
-  const PathMemory* memory = nullptr; /**< of this guide along this path; null if the density of a
-                                           step is evaluated for a path made from the other end */
+  const Medium* medium = nullptr;  ///< medium through which the path came; null: empty space
+  std::uint32_t region = 0;        ///< region that GuidingModel::place() returned here
+  /// The memory of this guide along this path. Null if paths are made from both ends, because the
+  /// memory would depend on the end at which the path began.
+  const PathMemory* memory = nullptr;
 };
 
 }  // namespace pharos

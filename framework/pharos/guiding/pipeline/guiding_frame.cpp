@@ -8,10 +8,11 @@ namespace {
 
 constexpr std::size_t kMostMethods = GuidingSettings::kMostMethods;
 
-/// Branch of guide_choice that chooses among methods; guides number theirs from 0 on.
+/// The branch of the dimension guide_choice that chooses a method. Guides number their own branches
+/// from 0.
 constexpr std::uint16_t kMethodBranch = 0xffff;
 
-/// Divides the shares of the parts by their sum, so that they share the guided samples.
+/// Scales the shares of the parts so that they sum to 1.
 void normalize(std::span<GuidePart> parts) {
   float total = 0;
   for (const GuidePart& part : parts) total += part.share;

@@ -12,24 +12,24 @@
 
 namespace pharos {
 
-/// The memories of all guides along one path. A copy of a path has a copy of this.
+/// The memories of all guides along one path. A copy of a path has its own copy of this array.
 using PathMemories = std::array<const void*, GuidingSettings::kMostMethods>;
 
-/// One guide that takes part at a vertex.
+/// A guide that takes part at a vertex.
 struct GuidePart {
   const GuidingDistribution* distribution = nullptr;
-  float share = 0;  ///< among the guides that take part; these shares sum to 1
+  float share = 0;  ///< share among the guides that take part; these shares sum to 1
   std::uint32_t method = 0;
   bool steers_distance = false;
   bool steers_events = false;
 
   std::optional<Proposal> propose(const VertexStream& stream) const;
-  /// As GuidingDistribution::density(), always with the medium's factor.
+  /// Returns the density like GuidingDistribution::density(), but always with the medium's factor.
   float density(const ResolvedVertex& vertex) const;
 };
 
-/// How a vertex is sampled: unguided sampling and the guides that know something there share the
-/// samples.
+/// The sampling distribution at a vertex: a mixture of unguided sampling and of the guides that
+/// know something there.
 struct Guidance {
   std::span<const GuidePart> parts = {};  ///< empty: the vertex is sampled unguided
   float unguided_share = 1;
@@ -37,12 +37,14 @@ struct Guidance {
   std::uint32_t methods = 0;  ///< number of all methods of the render
 
   bool is_guided() const { return !parts.empty(); }
-  /// Draws a proposal of the guides' mixture.
+  /// Draws a proposal from the mixture of the guides.
   std::optional<Proposal> propose(const VertexStream& stream) const;
-  /// The density of the guides' mixture, medium included; 0 without guides.
+  /// Returns the density of the mixture of the guides, including the medium's factor; 0 if there
+  /// are no guides.
   float density(const ResolvedVertex& vertex) const;
-  /// Fills in the techniques of a step to `vertex` whose unguided density is `unguided`, medium
-  /// included; see PathView::techniques(). Returns the part of `out` that it filled.
+  /// Fills in the techniques that could have drawn a step to `vertex`; see PathView::techniques().
+  /// `unguided` is the unguided density of the step, including the medium's factor. Returns the
+  /// part of `out` that it filled.
   std::span<const Technique> techniques(
       const ResolvedVertex& vertex, float unguided,
       std::span<Technique, GuidingSettings::kMostMethods + 1> out) const;
@@ -54,17 +56,18 @@ class GuidingFrame {
   struct Method {
     std::optional<BoundGuider> guider;  ///< empty while its learner knows nothing
     GuiderTraits traits;
-    std::uint32_t first_region = 0;  ///< regions of all models are numbered through
+    /// Number of the first region of its model in the common numbering of all models.
+    std::uint32_t first_region = 0;
   };
 
   GuidingFrame(std::vector<Method> methods, std::shared_ptr<const MixingShares> shares);
 
-  /// Returns the guidance at a vertex; `query.region` and `query.memory` are filled in for each
-  /// guide. Parts are made in `arena` and live until the next vertex is known. What guides remember
-  /// goes through `memories` to objects in `path_arena`; null: they have no memory.
+  /// Returns the guidance at a vertex. Sets `query.region` and `query.memory` for each guide. The
+  /// parts are made in `arena` and live until the next vertex is known. `memories` refers to
+  /// objects that the guides remember in `path_arena`; if it is null, the guides have no memory.
   Guidance query(GuidingQuery& query, Arena& arena, PathMemories* memories = nullptr,
                  Arena* path_arena = nullptr) const;
-  /// Whether a guide proposes first vertices.
+  /// Returns whether any guide proposes the first vertex of paths from the sensor.
   bool guides_camera() const { return guides_camera_; }
 
  private:

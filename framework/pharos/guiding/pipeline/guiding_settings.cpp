@@ -10,7 +10,7 @@ namespace {
 constexpr const char* kModelHelp =
     "File of a learned model, which then guides from the start; nothing is learned";
 
-/// Reads the model that `stated` names for a method, whose learner is known.
+/// Reads the model file of a method, if it has one. `stated` is the config of the method.
 template <class Method>
 void read_model(Method& method, const ConfigNode& stated) {
   if (method.model_file.empty() || method.learner == nullptr) return;
@@ -30,26 +30,26 @@ Schema<GuidingSettings> described() {
 }  // namespace
 
 void GuidingMethod::describe(Schema<GuidingMethod>& s) {
-  s.field(
-      "learner", &GuidingMethod::learner,
-      "Turns recorded paths into a model; without it, the guider samples the model of the method "
-      "before it");
-  s.field("guider", &GuidingMethod::guider, "How the model is sampled").required();
+  s.field("learner", &GuidingMethod::learner,
+          "Turns recorded paths into a model; if absent, the guider samples the model of the "
+          "previous method");
+  s.field("guider", &GuidingMethod::guider, "Samples the model").required();
   s.field("weight", &GuidingMethod::weight,
-          "Share relative to the other methods that know something at a vertex")
+          "Share of the samples, relative to the other methods that know something at a vertex")
       .above(0);
   s.field("model", &GuidingMethod::model_file, kModelHelp);
 }
 
 void GuidingSettings::describe(Schema<GuidingSettings>& s) {
   s.field("learner", &GuidingSettings::learner, "Turns recorded paths into a model");
-  s.field("guider", &GuidingSettings::guider, "How the model is sampled");
+  s.field("guider", &GuidingSettings::guider, "Samples the model");
   s.field("model", &GuidingSettings::model_file, kModelHelp);
   s.field("methods", &GuidingSettings::methods,
-          "Several learner/guider pairs side by side, instead of one in place");
+          "List of several methods, instead of a single learner and guider");
   s.field("mixing", &GuidingSettings::mixing, "How guided and unguided sampling share the samples")
       .otherwise("fixed");
-  s.field("training", &GuidingSettings::training, "How the budget is divided");
+  s.field("training", &GuidingSettings::training,
+          "How the budget is divided between training and the final image");
 }
 
 std::vector<GuidingMethod> GuidingSettings::resolved_methods() const {

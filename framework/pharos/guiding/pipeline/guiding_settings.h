@@ -16,11 +16,12 @@ namespace pharos {
 
 /// One guiding method of a render: a learner whose model a guider samples.
 struct GuidingMethod {
-  Ref<Learner> learner;  ///< null: the guider samples the model of the method before it
+  Ref<Learner> learner;  ///< null: the guider samples the model of the previous method
   Ref<Guider> guider;
-  float weight = 1;  ///< relative share among the methods that know something at a vertex
-  std::filesystem::path model_file;  ///< that `model` was read from; empty: none
-  /// The model that guides from the start instead of what the learner would learn; null: it learns.
+  /// Share of the samples, relative to the other methods that know something at a vertex.
+  float weight = 1;
+  std::filesystem::path model_file;  ///< file from which `model` was read; empty: none
+  /// The model that guides from the start and replaces learning; null: the learner learns a model.
   std::shared_ptr<const GuidingModel> model;
 
   bool shares_model() const { return learner == nullptr; }
@@ -29,32 +30,32 @@ struct GuidingMethod {
   static void describe(Schema<GuidingMethod>& schema);
 };
 
-/// The `guiding:` part of an integrator's settings. One method is given in place, several as a
-/// list under `methods`.
+/// The `guiding:` part of an integrator's settings. A single method is given in place, by
+/// `learner`, `guider` and `model`. Several methods are given as a list under `methods`.
 struct GuidingSettings {
-  /// Most methods of one render.
+  /// The largest number of methods in one render.
   static constexpr std::size_t kMostMethods = 8;
 
   Ref<Learner> learner;
   Ref<Guider> guider;
-  std::filesystem::path model_file;           ///< of the method in place, as GuidingMethod's
-  std::shared_ptr<const GuidingModel> model;  ///< of the method in place, as GuidingMethod's
+  std::filesystem::path model_file;           ///< of the method in place; see GuidingMethod
+  std::shared_ptr<const GuidingModel> model;  ///< of the method in place; see GuidingMethod
   std::vector<GuidingMethod> methods;
   Ref<MixingPolicy> mixing;
   TrainingSettings training;
 
   static void describe(Schema<GuidingSettings>& schema);
 
-  /// Returns the methods, whichever way they were given. Throws InputError if none or both ways
-  /// were used, if there are more than kMostMethods, or if a method lacks a part.
+  /// Returns the methods, in whichever form they were given. Throws InputError if neither or both
+  /// forms were used, if there are more than kMostMethods, or if a method lacks a part.
   std::vector<GuidingMethod> resolved_methods() const;
 
   /// Returns whether any method learns. If none does, there is nothing to train.
   bool learns() const;
 };
 
-/// Reads the settings and then the model files that they name. Errors in a file are located where
-/// the config names it.
+/// Reads the settings and then the model files that they name. An error in a model file is reported
+/// at the place in the config that names the file.
 template <>
 struct Value<GuidingSettings> : PlainValue {
   static std::string type_name() { return "mapping"; }

@@ -7,7 +7,7 @@
 
 namespace pharos {
 
-/// Where a model comes from: a learner that learns it, or a file. Several guiders may sample it.
+/// The source of a model: a learner or a file. Several guiders may sample the model.
 struct GuidingState::Source {
   Ref<Learner> learner;
   std::unique_ptr<LearningState> state;  ///< null: the model was read from a file
@@ -24,9 +24,9 @@ struct GuidingState::Source {
     take(method.model);
   }
 
-  /// Ends an iteration. Appends where each region of the model came from among the regions before,
-  /// which are numbered from `first` on. The regions of a first model all come from the only one
-  /// there was.
+  /// Ends an iteration. Appends to `origins`, for each region of the new model, the region of the
+  /// previous model from which it came. Regions of the previous model are numbered from `first`.
+  /// All regions of the first model come from the single region that existed before.
   void update(std::uint32_t iteration, bool last, std::uint32_t first,
               std::vector<std::uint32_t>& origins) {
     const std::uint32_t before = regions;
@@ -59,7 +59,8 @@ struct GuidingState::Source {
       if (has_model) loaded->archive(archive);
       take(loaded);
     } else if (has_model) {
-      std::const_pointer_cast<GuidingModel>(model)->archive(archive);  // which only reads it
+      // Saving only reads the model.
+      std::const_pointer_cast<GuidingModel>(model)->archive(archive);
     }
   }
 };

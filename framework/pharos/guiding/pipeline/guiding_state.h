@@ -9,27 +9,27 @@
 
 namespace pharos {
 
-/// The learning side of a render: the state and the newest model of every method, and the state of
-/// the mixing policy.
+/// The learning side of a render. It holds the state and the newest model of every method, and the
+/// state of the mixing policy.
 class GuidingState {
  public:
   GuidingState(const GuidingSettings& settings, const LearningContext& context);
   ~GuidingState();
 
-  /// What guides the coming iteration; null before anything is known. It must not outlive the
-  /// settings, whose guiders it uses.
+  /// Returns the frame that guides the next iteration; null as long as nothing is known. The frame
+  /// uses the guiders of the settings and must not outlive the settings.
   std::shared_ptr<const GuidingFrame> frame() const { return frame_; }
   void absorb(const PathLog& log);
   void update(std::uint32_t iteration, bool last);
 
-  /// The newest model of method `i`; null before the first.
+  /// Returns the newest model of method `i`; null if there is none yet.
   std::shared_ptr<const GuidingModel> model(std::size_t i) const;
-  /// The plugin name of the learner of method `i`.
+  /// Returns the plugin name of the learner of method `i`.
   const std::string& learner_name(std::size_t i) const;
-  /// Memory of all models [bytes].
+  /// Returns the memory that all models use [bytes].
   std::size_t model_bytes() const;
 
-  /// Saves what was learned so far, models included, or loads it into a state for the same render.
+  /// Saves what was learned so far, including models, or loads it into a state for the same render.
   /// Rendering then continues as if it had never stopped.
   void archive(Archive& archive);
 

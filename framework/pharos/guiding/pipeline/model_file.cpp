@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::array<char, 8> kMagic{'p', 'h', 'a', 'r', 'o', 's', 'g', 'm'};
 constexpr std::uint32_t kForm = 2;
-/// Longest name [bytes]: a damaged length must not become memory.
+/// Largest length of a name [bytes]. It prevents a damaged length from allocating too much memory.
 constexpr std::uint32_t kLongestName = 256;
 
 [[noreturn]] void fail(const std::filesystem::path& path, const std::string& what) {
@@ -31,7 +31,7 @@ void write_name(std::ostream& out, std::string_view name) {
   out.write(name.data(), static_cast<std::streamsize>(name.size()));
 }
 
-/// Reads a model file from its beginning on, a field at a time.
+/// Reads a model file from the beginning, one field at a time.
 class FileReader {
  public:
   explicit FileReader(const std::filesystem::path& path) : path_(path) {
@@ -58,7 +58,7 @@ class FileReader {
     return header;
   }
 
-  /// The `bytes` after the head, of which check_rest() has found as many.
+  /// Returns the `bytes` bytes after the head. check_rest() has checked that they exist.
   std::string rest(std::uint64_t bytes) {
     std::string text(bytes, '\0');
     in_.read(text.data(), static_cast<std::streamsize>(bytes));

@@ -8,8 +8,9 @@
 
 #include <pharos/guiding/contract/learner.h>
 
-/// Files of learned models: train once, render many times. A file is a head, which any program can
-/// read, followed by what GuidingModel::archive() writes. Numbers are little-endian.
+/// Files of learned models: train once, render many times. A file consists of a head, which any
+/// program can read, and of the data that GuidingModel::archive() writes. Numbers are
+/// little-endian.
 ///
 ///     8 bytes   "pharosgm"
 ///     uint32    version of this form, 2
@@ -18,7 +19,7 @@
 ///     uint32    ModelInfo::version
 ///     uint64    length of the rest [bytes]
 ///
-/// Errors in a file are InputErrors without location that name the file in quotes.
+/// Errors in a file throw an InputError without location that names the file in quotes.
 namespace pharos {
 
 /// The head of a model file.
@@ -26,20 +27,22 @@ struct ModelHeader {
   std::string learner;        ///< plugin name of the learner that can read it
   std::string model;          ///< ModelInfo::name
   std::uint32_t version = 0;  ///< ModelInfo::version
-  std::uint64_t bytes = 0;    ///< length of the model itself
+  std::uint64_t bytes = 0;    ///< length of the model itself [bytes]
 };
 
-/// Writes a model that the learner of this plugin name made. The file appears whole or not at all;
-/// throws RunError.
+/// Writes a model that was learned by the learner with the plugin name `learner`. The file appears
+/// whole or not at all. Throws RunError if it cannot be written.
 void write_model_file(const GuidingModel& model, std::string_view learner,
                       const std::filesystem::path& path);
 
-/// The head alone. Throws InputError when the file is missing or unreadable, no model file, of
-/// another version of this form, cut off, or longer than its head says.
+/// Returns the head of a file. Throws InputError if the file is missing, unreadable or no model
+/// file, if it has another version of this form, if it is cut off, or if it is longer than its head
+/// says.
 ModelHeader read_model_header(const std::filesystem::path& path);
 
-/// The model. Throws InputError as read_model_header() does, and for a model of another learner, of
-/// another version than this learner writes, or damaged. Never null.
+/// Returns the model in a file; never null. Throws InputError in the same cases as
+/// read_model_header(), and also if another learner made the model, if its version differs from the
+/// one that this learner writes, or if it is damaged.
 std::shared_ptr<const GuidingModel> read_model_file(const std::filesystem::path& path,
                                                     const Learner& learner);
 

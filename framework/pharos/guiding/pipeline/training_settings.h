@@ -14,22 +14,23 @@ enum class TrainingImages { discard, combine };
 
 template <>
 struct EnumNames<ScheduleKind> {
-  static constexpr auto names =
-      std::to_array<EnumName<ScheduleKind>>({{"uniform", ScheduleKind::uniform}, {"geometric", ScheduleKind::geometric}});
+  static constexpr auto names = std::to_array<EnumName<ScheduleKind>>(
+      {{"uniform", ScheduleKind::uniform}, {"geometric", ScheduleKind::geometric}});
 };
 template <>
 struct EnumNames<TrainingImages> {
-  static constexpr auto names =
-      std::to_array<EnumName<TrainingImages>>({{"discard", TrainingImages::discard}, {"combine", TrainingImages::combine}});
+  static constexpr auto names = std::to_array<EnumName<TrainingImages>>(
+      {{"discard", TrainingImages::discard}, {"combine", TrainingImages::combine}});
 };
 
-/// How much of a render's budget trains its guides, and what becomes of the images of training.
+/// The part of a render's budget that trains the guides, and the use of the images of training.
 struct TrainingSettings {
   ScheduleKind schedule = ScheduleKind::uniform;
-  std::uint32_t iterations = 15;  ///< of training
-  double share = 0.5;             ///< of the budget that is spent on training
+  std::uint32_t iterations = 15;  ///< number of training iterations
+  double share = 0.5;             ///< share of the budget that is spent on training [1]
   TrainingImages images = TrainingImages::discard;
-  std::uint32_t latest_images = 1001;  ///< most images that are combined, the final one included
+  /// Largest number of combined images, including the final one.
+  std::uint32_t latest_images = 1001;
 
   static void describe(Schema<TrainingSettings>& schema);
 };

@@ -33,7 +33,7 @@ void PathLog::begin_path(Vec2 film, Transport transport) {
 std::uint32_t PathLog::add(RecordedVertex added) {
   const auto index = static_cast<std::uint32_t>(vertices_.size() - paths_.back().first_vertex);
   if (added.parent != kNoVertex) {
-    // At the end of the list of records of the same vertex, which are few.
+    // Appends the record to the list of records of the same vertex. The list is short.
     std::uint32_t* link = &vertex(added.parent).next;
     while (*link != kNoVertex) link = &vertex(*link).twin;
     *link = index;
@@ -66,7 +66,7 @@ void PathLog::clear() {
 void PathLog::archive(Archive& archive) {
   archive.heading("path_log", 1);
   archive(paths_, vertices_, light_samples_, techniques_);
-  // Indices of a damaged log must not lead outside it.
+  // Refuses a damaged log whose indices lead outside it.
   const auto expect = [&](bool holds) { archive.expect(holds, "the path log"); };
   for (std::size_t i = 0; archive.loads() && i < paths_.size(); ++i) {
     const Head& head = paths_[i];
@@ -96,8 +96,8 @@ void estimate_incident_radiance(const PathView& path, std::vector<Rgb>& out, Wei
   const bool jointly = among == WeightedAmong::both_ends;
   const std::size_t count = path.vertices.size();
   out.assign(count, Rgb());
-  // Children stand after their parents, and light samples in order of their vertices: one
-  // backward pass sees every vertex complete.
+  // Children come after their parents, and light samples are in the order of their vertices. A
+  // single backward pass therefore visits each vertex after everything that follows it.
   std::size_t light = path.light_samples.size();
   for (std::size_t i = count; i-- > 0;) {
     const RecordedVertex& vertex = path.vertices[i];

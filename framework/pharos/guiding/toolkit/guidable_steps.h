@@ -7,21 +7,23 @@
 
 namespace pharos {
 
-/// A step of a recorded path from the sensor that a guide could have sampled, and what came of it.
+/// A step of a recorded path from the sensor that a guide could have sampled, together with its
+/// results.
 struct GuidableStep {
   const RecordedVertex& from;
   const RecordedVertex& to;
   std::uint32_t number;  ///< index of `from` within the path
-  /// Estimate of the radiance that arrives along the step. In a medium it is multiplied by the
-  /// transmittance and divided by the density of the step's length. Zero if no light arrived.
+  /// Estimate of the radiance that arrives along the step, times RecordedVertex::continuation. In a
+  /// medium it is also multiplied by the transmittance and divided by the medium's factor in the
+  /// density of the step. It is zero if no light arrived.
   Rgb radiance;
-  Rgb reflected;  ///< what the step adds to the radiance that leaves `from`, f/p included
-  float pdf = 0;  ///< of the direction, all techniques together [1/sr]
+  Rgb reflected;  ///< contribution of the step to the radiance that leaves `from`, including f/p
+  float pdf = 0;  ///< density of the direction over all techniques together [1/sr]
 };
 
-/// Calls `visit(step)` once for each step that reached a vertex, whether or not it found light.
-/// Steps into directions into which a surface scatters nothing are left out. `incident` is scratch
-/// memory, kept from call to call.
+/// Calls `visit(step)` once for each guidable step that reached a vertex, whether or not it found
+/// light. Steps into directions into which a surface scatters nothing are left out. `incident` is
+/// scratch memory that the caller keeps from call to call.
 template <class Visit>
 void for_each_guidable_step(const PathView& path, std::vector<Rgb>& incident, Visit&& visit) {
   if (path.transport != Transport::radiance) return;
@@ -30,7 +32,7 @@ void for_each_guidable_step(const PathView& path, std::vector<Rgb>& incident, Vi
     const RecordedVertex& from = path.vertices[i];
     if (!from.guidable || is_discrete(from.event)) continue;
     if (from.next == kNoVertex) continue;
-    // The density consists of the direction's part and of the medium's.
+    // The density is the product of a factor for the direction and a factor for the medium.
     const float medium = from.medium_density;
     visit(GuidableStep{.from = from,
                        .to = path.vertices[from.next],

@@ -5,7 +5,8 @@
 namespace pharos {
 namespace {
 
-/// How much of what lies behind a vertex counts for who looks at it: nothing on rough surfaces.
+/// Returns the factor with which the distance behind `vertex` adds to the image distance that is
+/// seen from `from`. It is 0 for rough surfaces.
 float share_behind(const RecordedVertex& vertex, const RecordedVertex& from, float glossy) {
   const bool shows = vertex.kind == VertexKind::surface && vertex.event != Event::none &&
                      (is_discrete(vertex.event) || vertex.roughness < glossy);
@@ -13,7 +14,7 @@ float share_behind(const RecordedVertex& vertex, const RecordedVertex& from, flo
   const bool refracts =
       vertex.event == Event::smooth_transmit || vertex.event == Event::discrete_transmit;
   if (!refracts) return 1;
-  // Angles behind the surface, over those before it.
+  // The ratio of angles behind the surface to angles in front of it.
   const float in = std::abs(dot(from.direction, vertex.normal));
   const float out = std::abs(dot(vertex.direction, vertex.normal));
   const float scale = out / (in * vertex.eta);

@@ -6,11 +6,12 @@
 
 namespace pharos {
 
-/// For each vertex of a path the distance of the image that the step from it shows [scene units]:
-/// it goes on past smooth surfaces, through lenses as far as thin ones would show (Ruppert et al.
-/// 2020, section 5.1). Infinite for the environment; of the first step where the path branches; 0
-/// where no step was taken. Surfaces show what is behind them when what the path did there was
-/// discrete or their roughness is below `glossy`.
+/// Computes, for each vertex of a path, the distance of the image that is visible along the step
+/// from this vertex [scene units] (Ruppert et al. 2020, section 5.1). The distance continues past
+/// smooth surfaces. Refracting surfaces shift the image as thin lenses would. The distance is
+/// infinite for the environment and 0 if no step was taken. If the path branches, it is the
+/// distance for the first step. A surface counts as smooth if the path's event there was discrete
+/// or if its roughness is below `glossy`.
 void image_distances(const PathView& path, float glossy, std::vector<float>& distances);
 
 }  // namespace pharos

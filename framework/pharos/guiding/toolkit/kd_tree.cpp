@@ -47,7 +47,7 @@ void KdTree::archive(Archive& archive) {
   const auto expect = [&](bool holds) { archive.expect(holds, "the kd-tree"); };
   const std::size_t count = nodes_.size();
   expect(count % 2 == 1 && count <= kMostNodes);
-  // Every node but the root is a child of one that comes before it, every cell there once.
+  // Every node except the root must be a child of one earlier node, and every cell must occur once.
   std::vector<bool> has_parent(count, false), is_cell(cell_count(), false);
   std::vector<int> levels(count, 0);
   for (std::uint32_t i = 0; i < count; ++i) {

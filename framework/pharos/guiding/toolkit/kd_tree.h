@@ -8,12 +8,12 @@
 
 namespace pharos {
 
-/// All of space, divided into cells by planes across its axes.
+/// A division of all space into cells by axis-aligned planes.
 class KdTree {
  public:
   static constexpr int kMostLevels = 48;
 
-  /// The number of the cell around a point: below cell_count().
+  /// Returns the number of the cell that contains a point. It is below cell_count().
   std::uint32_t cell_at(Point3 p) const {
     Node node = nodes_[0];
     while (node.axis() < 3) {
@@ -22,19 +22,20 @@ class KdTree {
     return node.index();
   }
   std::uint32_t cell_count() const { return static_cast<std::uint32_t>(nodes_.size() + 1) / 2; }
-  /// Planes above the deepest cell.
+  /// Returns the number of planes above the deepest cell.
   int depth() const;
   std::size_t size_bytes() const { return nodes_.size() * sizeof(Node); }
 
-  /// Divides a cell at `position` across an axis: what is below keeps its number, the rest becomes
-  /// the cell with the next free one. `leaf` is the cell's place, as leaves() says.
+  /// Divides a cell by a plane across `axis` at `position`. The part below the plane keeps the
+  /// cell's number, and the other part becomes the cell with the next free number. `leaf` is the
+  /// place of the cell according to leaves().
   struct Halves {
     std::uint32_t low, high;  ///< places of both parts
   };
   Halves divide(std::uint32_t leaf, int axis, float position);
-  /// The places of all cells, by their numbers.
+  /// Returns the places of all cells, ordered by cell number.
   std::vector<std::uint32_t> leaves() const;
-  /// Planes above the cell at each place.
+  /// Returns the number of planes above the node at each place.
   std::vector<int> levels() const;
 
   void archive(Archive& archive);
@@ -42,13 +43,15 @@ class KdTree {
   friend bool operator==(const KdTree&, const KdTree&) = default;
 
  private:
-  /// A plane across an axis with two nodes behind it, or a cell (axis 3).
+  /// A plane across an axis with two child nodes, or a cell (axis 3).
   struct Node {
     std::uint32_t axis() const { return word & 3; }
     std::uint32_t index() const { return word >> 2; }
     static Node cell(std::uint32_t number) { return {number << 2 | 3, 0}; }
 
-    std::uint32_t word = 0;  ///< the axis, then the index of the first child or the cell's number
+    /// The lowest 2 bits are the axis. The other bits are the index of the first child or the
+    /// number of the cell.
+    std::uint32_t word = 0;
     float position = 0;
     void archive(Archive& archive) { archive(word, position); }
     friend bool operator==(const Node&, const Node&) = default;

@@ -12,29 +12,29 @@
 
 namespace pharos {
 
-/// How a cell is divided: at the mean of the positions at which its samples began, across the axis
-/// of their largest variance.
+/// The rule that divides cells: a cell is divided at the mean of its samples' origins, across the
+/// axis of their largest variance.
 struct CellDivision {
   bool divides = true;
-  std::uint32_t cell_samples = 32768;  ///< more than these divide a cell
-  int max_depth = 32;                  ///< planes above the deepest cell
-  double decay = 0.25;                 ///< what a cell knows counts so much for each half
+  std::uint32_t cell_samples = 32768;  ///< a cell with more samples is divided
+  int max_depth = 32;                  ///< largest number of planes above a cell
+  double decay = 0.25;  ///< factor by which each half weights what the cell has learned
 };
 
-/// The cells of a kd-tree, divided where many samples come, each of which learns from the samples
-/// that begin in it. The same for any number of threads.
+/// The cells of a kd-tree. Each cell learns from the samples that begin in it, and cells with many
+/// samples are divided. The result is the same for any number of threads.
 ///
 /// `Sample` has a Point3 `origin`. `Cell` is a value with
 ///
 ///     bool knows_something() const;
-///     void forget(double factor);       // what was learned so far counts so many times as much
+///     void forget(double factor);       // scales the weight of what was learned so far
 ///     void archive(Archive&);
 template <class Sample, class Cell>
 class KdTreeCells {
  public:
-  /// Divides cells that have too many samples and lets all learn from theirs, concurrently:
-  /// `teach(cell, samples, number)`. The samples are consumed. Cells that know nothing learn before
-  /// they are divided: their halves would know even less.
+  /// Divides cells that have too many samples and calls `teach(cell, samples, number)` concurrently
+  /// for all cells, with the samples of each. Clears `samples`. A cell that knows nothing learns
+  /// before it is divided, because its halves would have fewer samples to learn from.
   template <class Teach>
   void learn(std::vector<Sample>& samples, const CellDivision& rule, Teach&& teach) {
     std::vector<std::size_t> first = sort_by_cell(samples);
@@ -63,7 +63,7 @@ class KdTreeCells {
   void archive(Archive& archive);
 
  private:
-  /// What is known of the positions at which a cell's samples began.
+  /// Statistics of the origins of a cell's samples.
   struct Positions {
     double count = 0, sums[3] = {}, squares[3] = {};
     void archive(Archive& archive) { archive(count, sums, squares); }
@@ -90,10 +90,10 @@ class KdTreeCells {
   struct Place {
     Cell content;
     Positions positions;   ///< since the cell was last divided
-    bool is_done = false;  ///< with the samples at hand
+    bool is_done = false;  ///< the cell has learned from the current samples
     void archive(Archive& archive) { archive(content, positions); }
   };
-  /// A cell that may have to be divided.
+  /// A cell that may be divided.
   struct Candidate {
     std::uint32_t leaf, cell;
     int level;
@@ -104,8 +104,9 @@ class KdTreeCells {
                        [&](std::size_t i) { return tree_.cell_at(samples[i].origin); });
   }
 
-  /// Lets cells learn that are not done with their samples, which begin at `first`; only those that
-  /// know nothing, if `unknowing`.
+  /// Calls `teach` for the cells that have not yet learned from the current samples. The samples of
+  /// cell i begin at index `first[i]`. If `unknowing` is true, only cells that know nothing are
+  /// taught.
   template <class Teach>
   void teach_cells(const std::vector<Sample>& samples, const std::vector<std::size_t>& first,
                    bool unknowing, Teach&& teach) {
@@ -138,9 +139,11 @@ class KdTreeCells {
     const auto plane = static_cast<float>(positions.sums[axis] / positions.count);
     const auto middle = std::stable_partition(
         samples.begin(), samples.end(), [&](const Sample& s) { return s.origin[axis] < plane; });
-    if (middle == samples.begin() || middle == samples.end()) return;  // all in one place
+    // All samples lie on one side of the plane.
+    if (middle == samples.begin() || middle == samples.end()) return;
     const KdTree::Halves halves = tree_.divide(at.leaf, axis, plane);
-    // What it has learned from these very samples, its halves learn themselves.
+    // A cell that has already learned from these samples forgets everything, because its halves
+    // learn from them again.
     cells_[at.cell].content.forget(cells_[at.cell].is_done ? 0 : rule.decay);
     cells_[at.cell].positions = {};
     cells_[at.cell].is_done = false;

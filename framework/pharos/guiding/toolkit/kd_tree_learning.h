@@ -15,23 +15,23 @@
 
 namespace pharos {
 
-/// What mixtures are kept for.
+/// The regions for which mixtures are learned.
 enum class SpatialCells {
-  kdtree,  ///< one for each cell of a tree that grows
-  single   ///< one for the whole scene
+  kdtree,  ///< one mixture for each cell of a growing tree
+  single   ///< one mixture for the whole scene
 };
 template <>
 struct EnumNames<SpatialCells> {
-  static constexpr auto names =
-      std::to_array<EnumName<SpatialCells>>({{"kdtree", SpatialCells::kdtree}, {"single", SpatialCells::single}});
+  static constexpr auto names = std::to_array<EnumName<SpatialCells>>(
+      {{"kdtree", SpatialCells::kdtree}, {"single", SpatialCells::single}});
 };
 
-/// The learning state of methods that learn cell by cell of a kd-tree (KdTreeCells). Samples wait
-/// until the end of an iteration, or until there are `batch_samples` of them.
+/// The learning state of methods that learn in the cells of a kd-tree (KdTreeCells). Samples are
+/// collected until the end of an iteration, or until there are `batch_samples` of them.
 ///
-/// `Lessons` is a value that says how the method learns:
+/// `Lessons` is a value that defines how the method learns:
 ///
-///     using Sample = …;  using Cell = …;    // those of KdTreeCells; samples have archive(), too
+///     using Sample = …;  using Cell = …;    // as in KdTreeCells; samples also have archive()
 ///     static constexpr const char* kHeading;  static constexpr std::uint32_t kVersion;
 ///     const Settings& settings() const;     // with spatial, cell_samples, max_depth,
 ///                                           // batch_samples, decay, division_decay
@@ -66,7 +66,7 @@ class KdTreeLearning final : public LearningState {
   using Sample = typename Lessons::Sample;
   using Cell = typename Lessons::Cell;
 
-  /// Learns from the samples that wait.
+  /// Learns from the collected samples.
   void learn() {
     const auto& settings = lessons_.settings();
     const CellDivision division{.divides = settings.spatial == SpatialCells::kdtree,
@@ -82,8 +82,8 @@ class KdTreeLearning final : public LearningState {
 
   Lessons lessons_;
   KdTreeCells<Sample, Cell> cells_;
-  std::uint64_t lesson_ = 0;     ///< calls of learn(), a key of random numbers
-  std::vector<Sample> samples_;  ///< that wait
+  std::uint64_t lesson_ = 0;     ///< number of calls of learn(); a key of random numbers
+  std::vector<Sample> samples_;  ///< collected since the last call of learn()
 };
 
 }  // namespace pharos

@@ -12,11 +12,13 @@
 #include <pharos/config/schema.h>
 #include <pharos/guiding/toolkit/kd_tree_learning.h>
 
-/// What learners share that keep a mixture in each cell of a kd-tree: settings, and the steps by
-/// which a mixture follows its data. A component is whatever the mixture consists of.
+/// Code that is shared by learners that keep a mixture in each cell of a kd-tree: their settings,
+/// and the steps that adapt a mixture to its data. The steps work for any kind of mixture
+/// component.
 namespace pharos {
 
-/// Settings of such a learner. Learners derive their settings from it.
+/// Settings of a learner that keeps a mixture in each cell. Learners derive their settings from
+/// this class.
 struct MixtureLearningSettings {
   SpatialCells spatial = SpatialCells::kdtree;
   std::uint32_t cell_samples = 32768;
@@ -34,7 +36,7 @@ struct MixtureLearningSettings {
   double decay = 1, division_decay = 0.25;
   float least_pdf = 0.1f;
 
-  /// Throws InputError if a mixture begins with more components than it may have.
+  /// Throws InputError if `components` is larger than `most_components`.
   void check() const;
 };
 
@@ -43,62 +45,62 @@ template <class Settings>
 void describe_mixture_learning(Schema<Settings>& s) {
   using S = MixtureLearningSettings;
   s.field("spatial", &S::spatial,
-          "A mixture for each cell of a growing tree, or a single one for the whole scene");
+          "One mixture for each cell of a growing tree, or a single one for the whole scene");
   s.field("cell_samples", &S::cell_samples,
-          "Samples after which a cell is divided, at their mean across the axis of their largest "
+          "A cell with more samples is divided at their mean, across the axis of their largest "
           "variance")
       .at_least(64);
-  s.field("max_depth", &S::max_depth, "Most planes above a cell")
+  s.field("max_depth", &S::max_depth, "Largest number of planes above a cell")
       .at_least(0)
       .at_most(KdTree::kMostLevels);
   s.field("batch_samples", &S::batch_samples,
-          "Most samples that wait: when there are more, cells learn from them before the iteration "
-          "ends")
+          "Number of collected samples from which cells learn at once, before the iteration ends")
       .at_least(1024);
-  s.field("components", &S::components, "Components of a mixture at first")
+  s.field("components", &S::components, "Initial number of components of a mixture")
       .at_least(1)
       .at_most(1024);
-  s.field("most_components", &S::most_components, "Most components of a mixture")
+  s.field("most_components", &S::most_components, "Largest number of components of a mixture")
       .at_least(1)
       .at_most(1024);
   s.field("first_samples", &S::first_samples,
-          "Samples that found light, before a cell's first mixture is fitted")
+          "Number of samples with light that a cell needs before its first mixture is fitted")
       .at_least(2);
-  s.field("em_iterations", &S::em_iterations, "Most steps of a fit").at_least(1);
+  s.field("em_iterations", &S::em_iterations, "Largest number of EM steps of a fit").at_least(1);
   s.field("em_tolerance", &S::em_tolerance,
-          "A fit ends when a step raises its objective, a logarithm, by less than this for each "
-          "sample")
+          "A fit ends when a step raises its objective, a logarithm, by less than this per sample")
       .at_least(0);
   s.field("split_threshold", &S::split_threshold,
           "Chi-square divergence over directions above which a component is split")
       .above(0);
   s.field("least_density", &S::least_density,
-          "Lower bound of the mixture's density in that divergence, in units of a uniform density: "
-          "unguided samples find what the mixture leaves out")
+          "Lower bound of the mixture's density in the divergence of split_threshold, relative to "
+          "a uniform density; unguided samples cover what the mixture leaves out")
       .at_least(1e-6)
       .at_most(1);
   s.field("split_samples", &S::split_samples,
-          "Samples that a component is judged by before it is split")
+          "Number of samples that a component needs before it can be split")
       .at_least(1);
   s.field("merge_threshold", &S::merge_threshold,
           "Chi-square cost below which two components are merged")
       .at_least(0);
-  s.field("merge_samples", &S::merge_samples, "Samples from one merging to the next").at_least(1);
-  s.field("decay", &S::decay, "Share of what was learned that is kept for the next iteration")
+  s.field("merge_samples", &S::merge_samples, "Number of samples between two merge steps")
+      .at_least(1);
+  s.field("decay", &S::decay, "Share of the learned data that is kept for the next iteration")
       .at_least(0)
       .at_most(1);
   s.field("division_decay", &S::division_decay,
-          "Share of what was learned that each half keeps when a cell is divided")
+          "Share of the learned data that each half keeps when a cell is divided")
       .at_least(0)
       .at_most(1);
-  s.field("least_pdf", &S::least_pdf, "Smaller densities of samples count as this one")
+  s.field("least_pdf", &S::least_pdf,
+          "Lower bound to which smaller densities of samples are raised")
       .unit("1/sr")
       .above(0);
 }
 
-/// Lets a cell learn from the samples of one iteration: calls `learn(samples)` once there are
-/// `enough` samples that found light, and keeps such samples in `first` until then. `is_known`: the
-/// cell has a mixture already.
+/// Calls `learn(samples)` for a cell with its samples of one iteration. A cell without a mixture
+/// (`is_known` is false) waits until it has at least `enough` samples that found light; until then,
+/// these samples are kept in `first`. Nothing happens if no sample found light.
 template <class Sample, class Learn>
 void learn_when_enough(std::span<const Sample> samples, bool is_known, std::size_t enough,
                        std::vector<Sample>& first, Learn&& learn) {
@@ -116,9 +118,9 @@ void learn_when_enough(std::span<const Sample> samples, bool is_known, std::size
   }
 }
 
-/// Merges the cheapest pair of components as long as its cost is below `threshold`. `size()` is the
-/// number of components, `cost(i, j, bound)` the cost of merging i and j > i, of which only matters
-/// whether it is below `bound`, and `join(i, j)` merges j into i.
+/// Merges the cheapest pair of components as long as its cost is below `threshold`. `size()`
+/// returns the number of components. `cost(i, j, bound)` returns the cost of merging i and j > i;
+/// if the cost is not below `bound`, its exact value does not matter. `join(i, j)` merges j into i.
 template <class Size, class Cost, class Join>
 void merge_cheapest_pairs(double threshold, Size&& size, Cost&& cost, Join&& join) {
   while (size() > 1) {
@@ -135,9 +137,10 @@ void merge_cheapest_pairs(double threshold, Size&& size, Cost&& cost, Join&& joi
   }
 }
 
-/// Halves the components whose divergence is above `threshold`, the worst first, while there are
-/// fewer than `most`. `halve(k)` adds the other half at the end; it returns false if k cannot be
-/// halved. Returns the numbers of all halves in ascending order.
+/// Halves the components whose divergence is above `threshold`, beginning with the largest
+/// divergence, as long as there are fewer than `most` components. `halve(k)` appends the other half
+/// as the last component; it returns false if k cannot be halved. Returns the numbers of all halves
+/// in ascending order.
 template <class Size, class Divergence, class Halve>
 std::vector<std::size_t> halve_worst(double threshold, std::size_t most, Size&& size,
                                      Divergence&& divergence, Halve&& halve) {
@@ -158,10 +161,10 @@ std::vector<std::size_t> halve_worst(double threshold, std::size_t most, Size&& 
   return changed;
 }
 
-/// Splits components that the samples contradict and fits their halves, until none is left or there
-/// is no room or no data for more. `assess()` compares every component with the samples,
-/// `split()` is halve_worst(), `fit(changed)` fits the halves, and `renew(k, assessment)` replaces
-/// what was known about half k.
+/// Splits components that do not match the samples and fits their halves. Stops when all components
+/// match, or when there is no room or too little data for more. `assess()` compares every component
+/// with the samples, `split()` is halve_worst(), `fit(changed)` fits the halves, and `renew(k,
+/// assessment)` replaces what was known about half k.
 template <class Assess, class Split, class Fit, class Renew>
 void split_until_settled(Assess&& assess, Split&& split, Fit&& fit, Renew&& renew) {
   std::vector<std::size_t> changed = split();

@@ -9,7 +9,8 @@
 namespace pharos {
 namespace {
 
-/// A direction or a mean, in world space or whitened: L^-1 x for the covariance L L^T.
+/// A direction or a mean, in world space or in whitened space. Whitening maps x to L^-1 x for the
+/// covariance L L^T.
 using Double3 = std::array<double, 3>;
 
 double dot3(const Double3& a, const Double3& b) {
@@ -25,7 +26,7 @@ Double3 to_double(Vec3 v) {
   return {v.x, v.y, v.z};
 }
 
-/// The direction and the mean in whitened space, and what the densities have of them.
+/// The terms of the densities that follow from the direction and the mean in whitened space.
 struct WhitenedRay {
   WhitenedRay(const SpatialGaussian& g, Point3 origin, Vec3 direction) {
     const Double3 v = whitened(g, to_double(direction));
@@ -60,11 +61,12 @@ double projected_density(const SpatialGaussian& gaussian, Point3 origin, Vec3 di
   const Double3 omega = to_double(direction);
   const double cosine = d > 0 ? dot3(aim, omega) / d : 0;
   if (!(cosine > 0)) return 0;
-  // The point of the plane that the direction goes through, from the mean.
+  // The point in which the direction meets the plane, relative to the mean.
   Double3 y;
   for (int i = 0; i < 3; ++i) y[i] = d / cosine * omega[i] - aim[i];
-  // y^T S^-1 y for the projected covariance S: of the whitened y what is perpendicular to the image
-  // of the line of projection, for S^-1 is Sigma^-1 with that line's part taken out.
+  // y^T S^-1 y for the projected covariance S. S^-1 is Sigma^-1 without the part along the line of
+  // projection. The result is therefore the squared length of the part of the whitened y that is
+  // perpendicular to the whitened line.
   const Double3 white = whitened(gaussian, y), line = whitened(gaussian, aim);
   const Double3 moment = cross3(white, line);
   const double squared = dot3(moment, moment) / dot3(line, line);

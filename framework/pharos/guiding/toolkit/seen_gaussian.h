@@ -3,22 +3,23 @@
 #include <pharos/core/vec.h>
 #include <pharos/guiding/contract/spatial_mixture.h>
 
-/// One Gaussian as it is seen from a point, in double precision: the readable form of the
-/// densities. Guiders that need speed evaluate eight components at once.
+/// The directional densities of a Gaussian as seen from a point, in double precision. This is the
+/// readable form of the densities. Guiders that need speed evaluate eight components at once.
 namespace pharos {
 
-/// The density p0 of the directions from `origin` to points of a Gaussian [1/sr]; integrates to one
-/// over the sphere (Lelyakin et al. 2025, eq. 2).
+/// Returns the density p0 [1/sr] of the directions from `origin` to points of a Gaussian. It
+/// integrates to one over the sphere (Lelyakin et al. 2025, eq. 2).
 double exact_density(const SpatialGaussian& gaussian, Point3 origin, Vec3 direction);
 
-/// The density p1 of the same directions, those that look away from the mean turned around [1/sr]:
-/// 0 where dot(direction, mean - origin) < 0, integrates to one (eq. 3). In the mean itself nothing
-/// is turned around.
+/// Returns the density p1 [1/sr] of the same directions after those that point away from the mean
+/// have been reversed. It is 0 if dot(direction, mean - origin) < 0 and integrates to one (eq. 3).
+/// If `origin` is the mean, no direction is reversed.
 double flipped_density(const SpatialGaussian& gaussian, Point3 origin, Vec3 direction);
 
-/// The density of directions to points of the Gaussian's projection on the plane through its mean,
-/// perpendicular to the direction there [1/sr] (Schuessler et al. 2022, section 5.2); 0 behind the
-/// origin, integrates to one. Not defined in the mean itself: 0 there.
+/// Returns the density [1/sr] of the directions to points of the Gaussian's projection onto a plane
+/// (Schuessler et al. 2022, section 5.2). The plane passes through the mean, perpendicular to the
+/// direction from `origin` to the mean. The density is 0 behind the origin and integrates to one.
+/// If `origin` is the mean, the density is not defined and the function returns 0.
 double projected_density(const SpatialGaussian& gaussian, Point3 origin, Vec3 direction);
 
 }  // namespace pharos
