@@ -188,7 +188,6 @@ TEST_CASE("a fit recovers the mixture that points were drawn from") {
 }
 
 TEST_CASE("the prior pulls what few points say towards a ball") {
-  RandomStream random(6);
   const Gaussian<3> needle{Vector<3>::Zero(), Vector<3>{1, 1e-4, 1e-4}.asDiagonal()};
   const MixturePrior prior{.counts = 0.01, .strength = 0.2, .variance = 0.3};
   const auto one = Moments<3>::of(0.001, needle.mean, needle.covariance);

@@ -82,7 +82,7 @@ TEST_CASE("both dialects of a scene make the same tree") {
 
 TEST_CASE("names become those of Mitsuba 2 in scenes of dialect 0.x alone") {
   const auto name_of = [](const Document& d) { return d.scene->properties.at(0).name; };
-  for (const auto& [written, expected] :
+  for (const auto& names :
        std::map<std::string, std::string>{{"toWorld", "to_world"},
                                           {"intIOR", "int_ior"},
                                           {"extIOR", "ext_ior"},
@@ -94,6 +94,7 @@ TEST_CASE("names become those of Mitsuba 2 in scenes of dialect 0.x alone") {
                                           {"RGBvalue", "RGBvalue"},
                                           {"specularSamplingWeight", "specular_sampling_weight"},
                                           {"x", "x"}}) {
+    const std::string &written = names.first, &expected = names.second;
     CAPTURE(written);
     const std::string tag = "<float name=\"" + written + "\" value=\"1\"/>";
     CHECK(name_of(read_old(tag)) == expected);

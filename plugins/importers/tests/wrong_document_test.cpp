@@ -3,7 +3,6 @@
 #include <map>
 #include <string>
 #include <sys/stat.h>
-#include <utility>
 #include <vector>
 
 #include "document_test_kit.h"
@@ -18,12 +17,15 @@ std::string wrong(const std::string& inside) {
   return message.starts_with(head) ? message.substr(head.size()) : message;
 }
 
-using Cases = std::vector<std::pair<std::string, std::string>>;
+struct Case {
+  std::string text, message;
+};
+using Cases = std::vector<Case>;
 
 void check(const Cases& cases) {
-  for (const auto& [inside, message] : cases) {
-    CAPTURE(inside);
-    CHECK(wrong(inside) == message);
+  for (const Case& c : cases) {
+    CAPTURE(c.text);
+    CHECK(wrong(c.text) == c.message);
   }
 }
 
@@ -57,9 +59,9 @@ TEST_CASE("files that are no XML or no scene") {
       {"<!-- \xe4 -->", "1:6: error: expected UTF-8, found the byte 0xe4"},
       {"<!-- \xed\xa0\x80 -->", "1:6: error: expected UTF-8, found the byte 0xed"},
   };
-  for (const auto& [text, message] : cases) {
-    CAPTURE(text);
-    CHECK(refusal(text) == "scene.xml:" + message);
+  for (const Case& c : cases) {
+    CAPTURE(c.text);
+    CHECK(refusal(c.text) == "scene.xml:" + c.message);
   }
 }
 
