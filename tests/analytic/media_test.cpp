@@ -43,8 +43,9 @@ TEST_CASE("media: what gets through two nested boxes of other media") {
     return 2 * std::exp(-0.75 * outer - 0.25 * inner);
   };
   const double expected = mean_of(left(0.3, 4), left(1, 0), left(2, 1));
-  for (const auto& [scattering, absorption] :
+  for (const auto& fog :
        {std::pair{"[4, 0, 1]", "0"}, {"[1, 0, 0.5]", "[3, 0, 0.5]"}, {"0", "[4, 0, 1]"}}) {
+    const char *scattering = fog.first, *absorption = fog.second;
     CAPTURE(scattering);
     check_value(scene(scattering, absorption) + kFilm +
                     "integrator: { type: path, max_depth: 1 }\nsampler: independent\n",
@@ -106,11 +107,12 @@ TEST_CASE("media: light that is scattered once") {
     const char* phase;
     double g;
   };
-  for (const auto& [phase, g] : {Fog{"isotropic", 0},
-                                 {"{ type: henyey_greenstein, g: 0.7 }", 0.7},
-                                 {"{ type: henyey_greenstein, g: -0.4 }", -0.4}}) {
+  for (const Fog& fog : {Fog{"isotropic", 0},
+                         {"{ type: henyey_greenstein, g: 0.7 }", 0.7},
+                         {"{ type: henyey_greenstein, g: -0.4 }", -0.4}}) {
+    const char* phase = fog.phase;
     CAPTURE(phase);
-    const auto seen = [g = g](double scattering, double absorption) {
+    const auto seen = [g = fog.g](double scattering, double absorption) {
       const auto at = [&](double t, double) {
         const double away = std::hypot(t - 1, 1.0), sigma = scattering + absorption;
         // Light travels from the lamp to the line and then to the camera, along -z.

@@ -105,7 +105,8 @@ TEST_CASE("principal directions: edges that go down are those that go up") {
 }
 
 TEST_CASE("principal directions: two edges, and an edge beside one along an axis") {
-  for (const auto& [a, b] : {std::pair{30, 120}, {25, 65}, {60, 140}}) {
+  for (const auto& normals : {std::pair{30, 120}, {25, 65}, {60, 140}}) {
+    const int a = normals.first, b = normals.second;
     CAPTURE(a);
     const FreeDirections found = directions_of(
         test::product(test::half_plane(a, {0.5f, 0.5f}), test::half_plane(b, {0.5f, 0.5f})), 2);

@@ -46,7 +46,8 @@ double energy_by_definition(const TargetPower& v, double degrees, double length)
 TEST_CASE("energy: an edge's, with its waves smoothed") {
   const SuppressionRule rule{.exact = 1, .edge_length = 0.7};
   const Direction d = direction_of(30);
-  for (const auto& [x, y] : {std::pair{4, 1}, {7, 4}, {-5, 12}, {40, 21}, {33, 60}}) {
+  for (const auto& frequency : {std::pair{4, 1}, {7, 4}, {-5, 12}, {40, 21}, {33, 60}}) {
+    const int x = frequency.first, y = frequency.second;
     CAPTURE(x);
     CAPTURE(y);
     // Lengths around the rule's length produce all phases of the waves.
@@ -68,7 +69,8 @@ TEST_CASE("energy: an edge's, with its waves smoothed") {
 
 TEST_CASE("energy: the mean over the normals within the half angle") {
   const SuppressionRule sharp{.exact = 1}, spread{.exact = 0}, mixed{.exact = 0.25};
-  for (const auto& [x, y] : {std::pair{17, 10}, {16, 11}, {20, 0}, {-3, 25}}) {
+  for (const auto& frequency : {std::pair{17, 10}, {16, 11}, {20, 0}, {-3, 25}}) {
+    const int x = frequency.first, y = frequency.second;
     CAPTURE(x);
     CAPTURE(y);
     double mean = 0;
@@ -92,7 +94,8 @@ TEST_CASE("energy: the mean over the normals within the half angle") {
 
 TEST_CASE("energy: the mean over all normals, the same for all frequencies of a length") {
   const SuppressionRule sharp{.exact = 1};
-  for (const auto& [x, y] : {std::pair{2, 1}, {17, 10}, {-3, 25}}) {
+  for (const auto& frequency : {std::pair{2, 1}, {17, 10}, {-3, 25}}) {
+    const int x = frequency.first, y = frequency.second;
     CAPTURE(x);
     CAPTURE(y);
     double mean = 0;

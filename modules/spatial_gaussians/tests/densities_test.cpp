@@ -200,7 +200,8 @@ TEST_CASE("projection and the exact density are the closer the farther the lobe"
   // orientations are close to them.
   const std::pair<float, double> distances[] = {{1, 0.28}, {2, 0.17}, {4, 0.07}, {10, 0.04}};
   double last = 1;
-  for (const auto& [distance, expected] : distances) {
+  for (const auto& entry : distances) {
+    const auto distance = entry.first;
     constexpr int kLobes = 16;
     double mean = 0;
     for (int i = 0; i < kLobes; ++i) {
@@ -211,7 +212,7 @@ TEST_CASE("projection and the exact density are the closer the farther the lobe"
     }
     CAPTURE(distance);
     CHECK(mean < last);
-    CHECK(std::abs(mean - expected) < 0.04);
+    CHECK(std::abs(mean - entry.second) < 0.04);
     last = mean;
   }
 }
