@@ -317,7 +317,7 @@ TEST_CASE("techniques: unguided sampling and every method, those that know nothi
   const ResolvedVertex vertex{.event = Event::smooth_reflect, .medium_density = 0.5f};
   const StepDensity density = step_density(guidance, vertex, 3);
   std::array<Technique, GuidingSettings::kMostMethods + 1> memory;
-  const auto techniques = guidance.techniques(vertex, density.unguided, memory);
+  const auto techniques = guidance.techniques(density.unguided, density.of_parts, memory);
   REQUIRE(techniques.size() == 4);
   CHECK(techniques[0].share == 0.2f);
   CHECK(techniques[0].density == 1.5f);
@@ -333,7 +333,7 @@ TEST_CASE("techniques: unguided sampling and every method, those that know nothi
 
 TEST_CASE("techniques: unguided sampling alone if no guide took part") {
   std::array<Technique, GuidingSettings::kMostMethods + 1> memory;
-  const auto techniques = Guidance{.methods = 3}.techniques({}, 2, memory);
+  const auto techniques = Guidance{.methods = 3}.techniques(2, {}, memory);
   REQUIRE(techniques.size() == 1);
   CHECK(techniques[0].share == 1);
   CHECK(techniques[0].density == 2);

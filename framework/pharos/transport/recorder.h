@@ -106,8 +106,8 @@ class LogRecorder {
     here.medium_density = target.medium_density;
     here.transmittance = transmittance;
     std::array<Technique, GuidingSettings::kMostMethods + 1> techniques;
-    log_.set_techniques(path.record,
-                        guidance.techniques(target, path.arrival.unguided, techniques));
+    log_.set_techniques(
+        path.record, guidance.techniques(path.arrival.unguided, path.arrival.of_parts, techniques));
   }
   void contribute(Vec2, Rgb) {}
 

@@ -28,9 +28,10 @@ struct ScatterStep {
 
 /// The densities of a step once its next vertex is known.
 struct StepDensity {
-  float unguided = 0;  ///< of the unguided sampler, including the medium's factor
-  float guided = 0;    ///< of the guides, including the medium's factor
-  float total = 0;     ///< of the mixture from which the step was drawn
+  float unguided = 0;      ///< of the unguided sampler, including the medium's factor
+  float guided = 0;        ///< of the guides, including the medium's factor
+  float total = 0;         ///< of the mixture from which the step was drawn
+  PartDensities of_parts;  ///< of each part of the guidance
 };
 
 // Functions fill in steps in place. Moving steps out of optionals stalls the walks, by 5 % of all
@@ -79,7 +80,7 @@ inline StepDensity step_density(const Guidance& guidance, const ResolvedVertex& 
   density.unguided = unguided_pdf * vertex.medium_density;
   density.total = density.unguided;
   if (guidance.is_guided()) {
-    density.guided = guidance.density(vertex);
+    density.guided = guidance.density(vertex, density.of_parts);
     density.total =
         guidance.unguided_share * density.unguided + (1 - guidance.unguided_share) * density.guided;
   }

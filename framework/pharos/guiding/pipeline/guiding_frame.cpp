@@ -43,19 +43,22 @@ std::optional<Proposal> Guidance::propose(const VertexStream& stream) const {
   return parts[i].propose(stream);
 }
 
-float Guidance::density(const ResolvedVertex& vertex) const {
+float Guidance::density(const ResolvedVertex& vertex, PartDensities& of_parts) const {
   float sum = 0;
-  for (const GuidePart& part : parts) sum += part.share * part.density(vertex);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    of_parts[i] = parts[i].density(vertex);
+    sum += parts[i].share * of_parts[i];
+  }
   return sum;
 }
 
-std::span<const Technique> Guidance::techniques(const ResolvedVertex& vertex, float unguided,
+std::span<const Technique> Guidance::techniques(float unguided, const PartDensities& of_parts,
                                                 std::span<Technique, kMostMethods + 1> out) const {
   out[0] = {unguided_share, unguided};
   if (!is_guided()) return out.first(1);
   for (std::uint32_t i = 0; i < methods; ++i) out[1 + i] = {};
-  for (const GuidePart& part : parts) {
-    out[1 + part.method] = {(1 - unguided_share) * part.share, part.density(vertex)};
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    out[1 + parts[i].method] = {(1 - unguided_share) * parts[i].share, of_parts[i]};
   }
   return out.first(1 + methods);
 }

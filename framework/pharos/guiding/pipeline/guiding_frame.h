@@ -28,6 +28,10 @@ struct GuidePart {
   float density(const ResolvedVertex& vertex) const;
 };
 
+/// The density of each part of a Guidance, in the same order, including the medium's factor. The
+/// other numbers are not set.
+using PartDensities = std::array<float, GuidingSettings::kMostMethods>;
+
 /// The sampling distribution at a vertex: a mixture of unguided sampling and of the guides that
 /// know something there.
 struct Guidance {
@@ -40,13 +44,17 @@ struct Guidance {
   /// Draws a proposal from the mixture of the guides.
   std::optional<Proposal> propose(const VertexStream& stream) const;
   /// Returns the density of the mixture of the guides, including the medium's factor; 0 if there
-  /// are no guides.
-  float density(const ResolvedVertex& vertex) const;
-  /// Fills in the techniques that could have drawn a step to `vertex`; see PathView::techniques().
-  /// `unguided` is the unguided density of the step, including the medium's factor. Returns the
-  /// part of `out` that it filled.
+  /// are no guides. Fills in the densities of the parts.
+  float density(const ResolvedVertex& vertex, PartDensities& of_parts) const;
+  float density(const ResolvedVertex& vertex) const {
+    PartDensities of_parts;
+    return density(vertex, of_parts);
+  }
+  /// Fills in the techniques that could have drawn a step; see PathView::techniques(). `unguided`
+  /// is the unguided density of the step, including the medium's factor, and `of_parts` is what
+  /// density() filled in for its vertex. Returns the part of `out` that it filled.
   std::span<const Technique> techniques(
-      const ResolvedVertex& vertex, float unguided,
+      float unguided, const PartDensities& of_parts,
       std::span<Technique, GuidingSettings::kMostMethods + 1> out) const;
 };
 
