@@ -42,20 +42,17 @@ class AreaLight final : public Light {
         object_(site.object) {}
 
   LightSample sample(Point3 from, Vec2 u) const override {
-    const ShapeSample on_shape = shape_.sample_from(from, u);
-    LightSample sample;
-    sample.pdf = on_shape.pdf;
-    sample.point = on_shape.point;
-    sample.point.object = object_;
-    const Vec3 d = sample.point.position - from;
-    sample.distance = length(d);
-    if (!(sample.distance > 0)) {
-      sample.pdf = 0;
-      return sample;
-    }
-    sample.direction = d / sample.distance;
-    sample.radiance = radiance(sample.point, -sample.direction);
-    return sample;
+    ShapeSample on_shape = shape_.sample_from(from, u);
+    on_shape.point.object = object_;
+    const Vec3 d = on_shape.point.position - from;
+    const float distance = length(d);
+    if (!(distance > 0)) return {.point = on_shape.point};
+    const Vec3 direction = d / distance;
+    return {.direction = direction,
+            .distance = distance,
+            .radiance = radiance(on_shape.point, -direction),
+            .pdf = on_shape.pdf,
+            .point = on_shape.point};
   }
 
   float pdf_point(Point3 from, const SurfacePoint& point) const override {

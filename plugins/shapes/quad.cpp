@@ -35,11 +35,11 @@ Quad::Quad(const Settings& settings)
       common_(mesh()->surface_point(0, 0.25f, 0.5f)) {}
 
 ShapeSample Quad::sample(Vec2 u) const {
-  SurfacePoint point = common_;
-  point.position = corner_ + u.x * edge_u_ + u.y * edge_v_;
-  point.uv = u;
-  point.primitive = u.x >= u.y ? 0 : 1;  // below or above the diagonal
-  return {.point = point, .pdf = 1 / area()};
+  ShapeSample sample{.point = common_, .pdf = 1 / area()};
+  sample.point.position = corner_ + u.x * edge_u_ + u.y * edge_v_;
+  sample.point.uv = u;
+  sample.point.primitive = u.x >= u.y ? 0 : 1;  // below or above the diagonal
+  return sample;
 }
 
 }  // namespace pharos

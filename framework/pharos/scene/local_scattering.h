@@ -60,6 +60,7 @@ class LocalScattering {
   bool sides_agree(Vec3 direction, Vec3 local) const {
     return dot(direction, point_->normal) * local.z > 0;
   }
+  std::optional<ScatterSample> sample_phase(Vec2 u, EventMask allowed) const;
   /// The factor by which shading normals scale light scattered into `direction` at surfaces. It is
   /// 0 if the sides disagree. Otherwise it is 1 for radiance and Veach's correction for importance.
   float normal_factor(Vec3 direction, Vec3 local) const;
@@ -92,31 +93,37 @@ inline ScatterValue LocalScattering::evaluate(Vec3 direction, EventMask allowed)
   const Vec3 local = point_->shading.to_local(direction);
   const float factor = normal_factor(direction, local);
   if (factor == 0) return {};
-  ScatterValue result = bsdf_->evaluate(*point_, wo_local_, local, {transport_, allowed});
-  result.value *= factor;
-  return result;
+  const ScatterValue own = bsdf_->evaluate(*point_, wo_local_, local, {transport_, allowed});
+  return {factor * own.value, own.pdf};
 }
 
 inline std::optional<ScatterSample> LocalScattering::sample(float u_choice, Vec2 u,
                                                             EventMask allowed) const {
-  if (!is_surface()) {
-    if (!contains(allowed, Event::scatter)) return std::nullopt;
-    const Vec3 direction = phase_->sample(wo_, u);
-    return ScatterSample{.direction = direction,
-                         .event = Event::scatter,
-                         .weight = sigma_s_,
-                         .pdf = phase_->evaluate(wo_, direction)};
-  }
+  // One variable is returned everywhere, so that it is never copied. A copy would stall the walks,
+  // because it reads at once what was written in parts.
   std::optional<ScatterSample> result =
-      bsdf_->sample(*point_, wo_local_, u_choice, u, {transport_, allowed});
-  if (!result) return std::nullopt;
+      is_surface() ? bsdf_->sample(*point_, wo_local_, u_choice, u, {transport_, allowed})
+                   : sample_phase(u, allowed);
+  if (!result || !is_surface()) return result;
   const Vec3 local = result->direction;
   result->direction = point_->shading.to_world(local);
   if (result->event == Event::pass_through) return result;
   const float factor = normal_factor(result->direction, local);
-  if (factor == 0) return std::nullopt;
-  result->weight *= factor;
+  if (factor == 0) {
+    result.reset();
+  } else {
+    result->weight *= factor;
+  }
   return result;
+}
+
+inline std::optional<ScatterSample> LocalScattering::sample_phase(Vec2 u, EventMask allowed) const {
+  if (!contains(allowed, Event::scatter)) return std::nullopt;
+  const Vec3 direction = phase_->sample(wo_, u);
+  return ScatterSample{.direction = direction,
+                       .event = Event::scatter,
+                       .weight = sigma_s_,
+                       .pdf = phase_->evaluate(wo_, direction)};
 }
 
 inline DiscreteOutcomes LocalScattering::discrete(EventMask allowed) const {

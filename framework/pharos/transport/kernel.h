@@ -45,11 +45,7 @@ class TransportKernel {
   const typename Rules::Tracer& tracer() const { return tracer_; }
 
   /// Begins a path at `path.here()`, its first vertex.
-  void begin(Path& path) const {
-    if (!describes_vertices()) return;
-    path.current = path.here().described(guiding_ != nullptr ? path.here().roughness(scene_) : 1);
-    recorder_.arrive(path);
-  }
+  void begin(Path& path) const { describe_arrival(path); }
 
   /// Returns the guidance at the first vertex, on the lens. The guidance lives until the path is
   /// advanced.
@@ -75,21 +71,9 @@ class TransportKernel {
         path.here().scattering(scene_, path.towards_previous, path.transport);
     if (!visitor.meets(path, scattering)) return false;
     std::optional<GuidingQuery> query;  // must live as long as the guidance
-    Guidance guidance;
-    if (describes_vertices()) {
-      path.current.roughness = scattering.roughness();
-      if (guiding_ != nullptr) {
-        query.emplace(GuidingQuery{.previous = &path.previous,
-                                   .current = path.current,
-                                   .towards_previous = path.towards_previous,
-                                   .transport = path.transport,
-                                   .bounce = path.from_both_ends ? std::uint16_t{0} : path.bounce,
-                                   .scattering = &scattering,
-                                   .medium = path.here().medium});
-        guidance = ask(path, *query);
-      }
-      recorder_.leave(path, scattering, guidance);
-    }
+    const Guidance guidance =
+        guiding_ != nullptr ? guidance_at_vertex(path, scattering, query.emplace()) : Guidance{};
+    recorder_.leave(path, scattering, guidance);
     visitor.leaves(path, scattering, guidance);
     ScatterStep step;
     return sample_step(scattering, guidance, path.numbers(), step) &&
@@ -126,6 +110,27 @@ class TransportKernel {
   /// Returns whether a guide or a recorder needs descriptions of vertices.
   bool describes_vertices() const { return Recorder::kRecords || guiding_ != nullptr; }
 
+  /// Fills in the description of the current vertex, at which the path has just arrived.
+  void describe_arrival(Path& path) const {
+    if (!describes_vertices()) return;
+    path.here().describe(path.here().roughness(scene_), path.current);
+    recorder_.arrive(path);
+  }
+
+  /// Returns the guidance at a vertex after the first one. Fills in `query` in place, as steps are
+  /// (scatter_step.h).
+  Guidance guidance_at_vertex(Path& path, const LocalScattering& scattering,
+                              GuidingQuery& query) const {
+    query.previous = &path.previous;
+    query.current = path.current;
+    query.towards_previous = path.towards_previous;
+    query.transport = path.transport;
+    query.bounce = path.from_both_ends ? std::uint16_t{0} : path.bounce;
+    query.scattering = &scattering;
+    query.medium = path.here().medium;
+    return ask(path, query);
+  }
+
   Guidance ask(Path& path, GuidingQuery& query) const {
     arenas_.vertex.reset();
     // The memory of a guide would depend on the end at which the path began.
@@ -143,7 +148,7 @@ class TransportKernel {
                                   .event = step.event,
                                   .medium_density = segment.passage.medium_density};
     const Rgb transmittance = segment.passage.transmittance;
-    path.arrival = step_density(guidance, resolved, step.unguided_pdf);
+    set_step_density(guidance, resolved, step.unguided_pdf, path.arrival);
     path.medium_density = resolved.medium_density;
     const bool plain = !guidance.is_guided() && !scene_.has_media();
     Rgb weight = plain                    ? step.unguided_weight
@@ -165,9 +170,7 @@ class TransportKernel {
     path.segment_length = length;
     path.at = 1 - path.at;
     if (++path.bounce == 1) path.first_throughput = max_component(path.throughput);
-    if (!describes_vertices()) return;
-    path.current = path.here().described();
-    recorder_.arrive(path);
+    describe_arrival(path);
   }
 
   const Scene& scene_;

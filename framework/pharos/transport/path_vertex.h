@@ -38,14 +38,21 @@ struct PathVertex {
     if (kind != VertexKind::volume) return 1;
     return 1 - std::abs(medium->phase_function().mean_cosine());
   }
-  /// Returns the description of the vertex for guides, without the event.
-  GuidingVertex described(float roughness = 1) const {
+  /// Fills in the description of the vertex for guides, without the event.
+  void describe(float roughness, GuidingVertex& out) const {
     const bool has_normal = is_on_surface() || kind == VertexKind::sensor;
-    return {.position = position(),
-            .normal = has_normal ? surface.normal : Vec3{},
-            .shading_normal = has_normal ? surface.shading.n : Vec3{},
-            .kind = kind,
-            .roughness = roughness};
+    out.position = position();
+    out.normal = has_normal ? surface.normal : Vec3{};
+    out.shading_normal = has_normal ? surface.shading.n : Vec3{};
+    out.kind = kind;
+    out.event = Event::none;
+    out.roughness = roughness;
+  }
+  /// Returns what describe() fills in.
+  GuidingVertex described(float roughness = 1) const {
+    GuidingVertex result;
+    describe(roughness, result);
+    return result;
   }
 };
 

@@ -63,12 +63,13 @@ class LogRecorder {
   }
   void film(Vec2 film) { log_.set_film(film); }
   void arrive(Path& path) {
-    path.record = log_.add(RecordedVertex{.position = path.current.position,
-                                          .normal = path.current.normal,
-                                          .kind = path.current.kind,
-                                          .parent = path.record,
-                                          .throughput = path.throughput,
-                                          .branch = path.branch});
+    path.record = log_.add_after(path.record);
+    RecordedVertex& here = log_.vertex(path.record);
+    here.position = path.current.position;
+    here.normal = path.current.normal;
+    here.kind = path.current.kind;
+    here.throughput = path.throughput;
+    here.branch = path.branch;
   }
   void emission(const Path& path, Rgb radiance, PathWeight weight) {
     RecordedVertex& here = log_.vertex(path.record);

@@ -30,15 +30,21 @@ void PathLog::begin_path(Vec2 film, Transport transport) {
   paths_.push_back({vertices_.size(), light_samples_.size(), film, transport});
 }
 
-std::uint32_t PathLog::add(RecordedVertex added) {
+std::uint32_t PathLog::add(const RecordedVertex& added) {
+  const std::uint32_t index = add_after(added.parent);
+  vertex(index) = added;
+  return index;
+}
+
+std::uint32_t PathLog::add_after(std::uint32_t parent) {
   const auto index = static_cast<std::uint32_t>(vertices_.size() - paths_.back().first_vertex);
-  if (added.parent != kNoVertex) {
+  if (parent != kNoVertex) {
     // Appends the record to the list of records of the same vertex. The list is short.
-    std::uint32_t* link = &vertex(added.parent).next;
+    std::uint32_t* link = &vertex(parent).next;
     while (*link != kNoVertex) link = &vertex(*link).twin;
     *link = index;
   }
-  vertices_.push_back(added);
+  vertices_.emplace_back().parent = parent;
   return index;
 }
 

@@ -115,7 +115,9 @@ class PathLog {
   void begin_path(Vec2 film, Transport transport);
   /// Adds a vertex to the last path, after its parent. Returns the index of the vertex within the
   /// path.
-  std::uint32_t add(RecordedVertex vertex);
+  std::uint32_t add(const RecordedVertex& vertex);
+  /// Adds a vertex after `parent` (kNoVertex: none), to be completed by vertex().
+  std::uint32_t add_after(std::uint32_t parent);
   void add(const RecordedLightSample& sample) { light_samples_.push_back(sample); }
   /// Records the techniques that could have drawn the step from a vertex of the last path; see
   /// PathView::techniques().
