@@ -23,6 +23,18 @@ void for_each_path(const WorkUnit& unit, const IterationContext& context, int fi
   result.film.count_paths(static_cast<std::uint64_t>(unit.pixels.area()) * unit.sample_count);
 }
 
+/// Calls `render(recorder)` with the recorder that the iteration needs.
+template <class Render>
+void with_recorder(const IterationContext& context, WorkResult& result, Render&& render) {
+  if (context.record) {
+    LogRecorder recorder(result.log);
+    render(recorder);
+  } else {
+    SilentRecorder recorder;
+    render(recorder);
+  }
+}
+
 /// Counts a path of NaN or infinite value and keeps the key of the first one. Such paths count as
 /// black.
 inline void reject(const PathKey& key, WorkResult& result) {

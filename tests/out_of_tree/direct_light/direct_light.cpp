@@ -21,13 +21,8 @@ class PreparedDirectLight final : public PreparedIntegrator {
 
   void render(const WorkUnit& unit, const IterationContext& context,
               WorkResult& result) const override {
-    if (context.record) {
-      LogRecorder recorder(result.log);
-      render_unit(unit, context, recorder, result);
-    } else {
-      SilentRecorder recorder;
-      render_unit(unit, context, recorder, result);
-    }
+    with_recorder(context, result,
+                  [&](auto& recorder) { render_unit(unit, context, recorder, result); });
   }
 
   PathTrace replay(const PathKey& key, const IterationContext& context) const override {
