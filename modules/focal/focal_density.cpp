@@ -6,8 +6,13 @@ namespace pharos::focal {
 
 double FocalDensity::directional_density(Point3 from, Vec3 direction) const {
   const Line line(converging.box(), from, direction);
-  return converging.directional_density<Side::ahead>(line) +
-         diverging.directional_density<Side::behind>(line);
+  DirectionalDensity<Side::ahead> ahead(converging, line);
+  DirectionalDensity<Side::behind> behind(diverging, line);
+  for (bool more_ahead = true, more_behind = true; more_ahead || more_behind;) {
+    if (more_ahead) more_ahead = ahead.advance();
+    if (more_behind) more_behind = behind.advance();
+  }
+  return ahead.value() + behind.value();
 }
 
 std::optional<Vec3> FocalDensity::sample_direction(Point3 from, float sign, Vec2 u, float v) const {

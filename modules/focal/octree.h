@@ -146,7 +146,7 @@ class Octree {
   /// This is the density of directions that point toward points drawn from the tree (for the side
   /// `behind`: away from these points; Rath et al. 2023, eq. 4, 6 and 7).
   template <Side side>
-  [[gnu::always_inline]] double directional_density(const Line& line) const;
+  double directional_density(const Line& line) const;
   /// Samples a point with the density density() / mass() from random numbers in [0, 1), by
   /// hierarchical sample warping (McCool and Harwood 1997).
   Double3 sample(const Double3& u) const;
@@ -170,6 +170,10 @@ class Octree {
  private:
   struct Steps;
   struct Front;
+  template <Side side>
+  class Traversal;
+  template <Side side>
+  friend class DirectionalDensity;
 
   static constexpr std::uint32_t kInner = 0x80000000u;
 
@@ -270,55 +274,97 @@ inline std::uint64_t Octree::cross(const Front& front, std::uint64_t crossed, co
   return found;
 }
 
-template <Side side, class Visit>
-inline void Octree::traverse(const Line& line, Visit&& visit) const {
-  // The traversal proceeds level by level, because nodes of one level can be processed at once. The
-  // place of a node's children depends only on the number of nodes before the node, so the
-  // processor does not have to wait for the content of these nodes. A mask marks the children to be
-  // visited. If a level has more than kRound nodes, they are processed in several rounds.
-  Front fronts[kMostLevels + 1];
-  Front* front = fronts;
-  front->x[0] = line.entry[0];
-  front->y[0] = line.entry[1];
-  front->z[0] = line.entry[2];
-  front->children[0] = 0;
-  const Steps steps(line);
-  std::uint32_t unfinished = 0;  // levels with nodes that remain for another round
-  for (std::uint64_t pending = 1;;) {
-    const std::uint64_t round = Front::take_round(pending);
-    const auto level = static_cast<unsigned>(front - fronts);
+/// A traversal in progress. It proceeds level by level, because nodes of one level can be processed
+/// at once. The place of a node's children depends only on the number of nodes before the node, so
+/// the processor does not have to wait for the content of these nodes. A mask marks the children to
+/// be visited. If a level has more than kRound nodes, they are processed in several rounds.
+template <Side side>
+class Octree::Traversal {
+ public:
+  Traversal(const Octree& octree, const Line& line) : octree_(octree), steps_(line) {
+    front_->x[0] = line.entry[0];
+    front_->y[0] = line.entry[1];
+    front_->z[0] = line.entry[2];
+    front_->children[0] = 0;
+  }
+
+  /// Visits the nodes of one round as traverse() does. Returns whether nodes remain.
+  template <class Visit>
+  [[gnu::always_inline]] bool advance(Visit& visit) {
+    const std::uint64_t round = Front::take_round(pending_);
+    const auto level = static_cast<unsigned>(front_ - fronts_);
     const auto visit_here = [&](std::uint32_t i, const CrossedNode& node, const Spans& spans) {
       visit(i, node, spans, level);
     };
-    const std::uint64_t found = cross<side>(*front, round, steps, front[1], visit_here);
-    if (pending != 0) [[unlikely]] {
-      front->pending = pending;
-      unfinished |= 1u << level;
+    const std::uint64_t found = octree_.cross<side>(*front_, round, steps_, front_[1], visit_here);
+    if (pending_ != 0) [[unlikely]] {
+      front_->pending = pending_;
+      unfinished_ |= 1u << level;
     }
     if (found != 0) {
-      pending = found;
-      ++front;
-    } else {
-      if (unfinished == 0) return;
-      const int back = std::bit_width(unfinished) - 1;
-      unfinished ^= 1u << back;
-      front = fronts + back;
-      pending = front->pending;
+      pending_ = found;
+      ++front_;
+      return true;
     }
+    if (unfinished_ == 0) return false;
+    const int back = std::bit_width(unfinished_) - 1;
+    unfinished_ ^= 1u << back;
+    front_ = fronts_ + back;
+    pending_ = front_->pending;
+    return true;
+  }
+
+ private:
+  const Octree& octree_;
+  Steps steps_;
+  Front fronts_[kMostLevels + 1];  // not initialized
+  Front* front_ = fronts_;
+  std::uint64_t pending_ = 1;     // bit mask of the nodes of *front_ that remain to be visited
+  std::uint32_t unfinished_ = 0;  // levels with nodes that remain for another round
+};
+
+template <Side side, class Visit>
+inline void Octree::traverse(const Line& line, Visit&& visit) const {
+  Traversal<side> traversal(*this, line);
+  while (traversal.advance(visit)) {
   }
 }
 
+/// The computation of Octree::directional_density() in steps. Each step depends on the step before,
+/// so the processor waits less if the caller advances several computations in turn.
+template <Side side>
+class DirectionalDensity {
+ public:
+  DirectionalDensity(const Octree& octree, const Line& line)
+      : third_per_volume_(octree.third_per_volume_), traversal_(octree, line) {}
+
+  /// Takes the next step. Returns whether steps remain.
+  [[gnu::always_inline]] bool advance() {
+    const auto visit = [this](std::uint32_t, const Octree::CrossedNode& node, const Spans& spans,
+                              unsigned) {
+      const Lanes lengths = spans.lengths(), masses = node.masses();
+      // (t1^3 - t0^3) / (t1 - t0), without the cancellation of the difference of cubes.
+      const auto squares = [](const Quad& t0, const Quad& t1) { return t0 * (t0 + t1) + t1 * t1; };
+      sum_ = sum_ + masses.lower * lengths.lower * squares(spans.begin.lower, spans.end.lower);
+      sum_ = sum_ + masses.upper * lengths.upper * squares(spans.begin.upper, spans.end.upper);
+    };
+    return traversal_.advance(visit);
+  }
+  /// Returns the density after the last step [1/sr].
+  double value() const { return sum_.sum() * third_per_volume_; }
+
+ private:
+  double third_per_volume_;
+  Octree::Traversal<side> traversal_;
+  Quad sum_{};
+};
+
 template <Side side>
 inline double Octree::directional_density(const Line& line) const {
-  Quad sum{};
-  traverse<side>(line, [&](std::uint32_t, const CrossedNode& node, const Spans& spans, unsigned) {
-    const Lanes lengths = spans.lengths(), masses = node.masses();
-    // (t1^3 - t0^3) / (t1 - t0), without the cancellation of the difference of cubes.
-    const auto squares = [](const Quad& t0, const Quad& t1) { return t0 * (t0 + t1) + t1 * t1; };
-    sum = sum + masses.lower * lengths.lower * squares(spans.begin.lower, spans.end.lower);
-    sum = sum + masses.upper * lengths.upper * squares(spans.begin.upper, spans.end.upper);
-  });
-  return sum.sum() * third_per_volume_;
+  DirectionalDensity<side> density(*this, line);
+  while (density.advance()) {
+  }
+  return density.value();
 }
 
 }  // namespace pharos::focal
