@@ -14,8 +14,11 @@ if [ ! -e "$tbb/lib/libtbb.so.12" ]; then
   (cd "$tbb" && apt-get source -q onetbb)
   cmake -S "$tbb"/onetbb-* -B "$tbb/build" -G Ninja -D TBB_TEST=OFF -D TBBMALLOC_BUILD=OFF \
     -D TBB_STRICT=OFF -D CMAKE_BUILD_TYPE=RelWithDebInfo -D CMAKE_CXX_FLAGS=-fsanitize=thread \
-    -D CMAKE_SHARED_LINKER_FLAGS=-fsanitize=thread -D CMAKE_LIBRARY_OUTPUT_DIRECTORY="$tbb/lib"
+    -D CMAKE_SHARED_LINKER_FLAGS=-fsanitize=thread
   cmake --build "$tbb/build" --target tbb
+  # TBB names its output folder after the compiler.
+  mkdir -p "$tbb/lib"
+  cp -a "$tbb"/build/*/libtbb.so* "$tbb/lib"
 fi
 export LD_LIBRARY_PATH=$tbb/lib${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
 # A long history, so that both sides of a report have their stacks.
