@@ -1,5 +1,7 @@
 // Replaces the global `operator new`. Modules are loaded after the program and therefore use this
-// version, too. The array and nothrow forms of the standard library call these two functions.
+// version, too. The array forms of the standard library call these functions. Its nothrow form
+// does, too, but the address sanitizer has a nothrow form of its own, whose blocks need its own
+// `delete`.
 
 #include "allocation_count.h"
 
@@ -24,6 +26,13 @@ void* operator new(std::size_t bytes) {
 void* operator new(std::size_t bytes, std::align_val_t alignment) {
   const auto edge = static_cast<std::size_t>(alignment);
   return counted(std::aligned_alloc(edge, (bytes + edge - 1) / edge * edge));
+}
+void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept {
+  try {
+    return operator new(bytes);
+  } catch (const std::bad_alloc&) {
+    return nullptr;
+  }
 }
 void operator delete(void* block) noexcept {
   std::free(block);
