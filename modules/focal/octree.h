@@ -142,11 +142,6 @@ class Octree {
 
   /// Returns the density at a point [1/scene unit^3], 0 outside the box.
   double density(Point3 p) const;
-  /// Returns the integral of density t^2 dt over a side of `line`, a line relative to box() [1/sr].
-  /// This is the density of directions that point toward points drawn from the tree (for the side
-  /// `behind`: away from these points; Rath et al. 2023, eq. 4, 6 and 7).
-  template <Side side>
-  double directional_density(const Line& line) const;
   /// Samples a point with the density density() / mass() from random numbers in [0, 1), by
   /// hierarchical sample warping (McCool and Harwood 1997).
   Double3 sample(const Double3& u) const;
@@ -330,11 +325,14 @@ inline void Octree::traverse(const Line& line, Visit&& visit) const {
   }
 }
 
-/// The computation of Octree::directional_density() in steps. Each step depends on the step before,
-/// so the processor waits less if the caller advances several computations in turn.
+/// The integral of density t^2 dt over a side of a line [1/sr]. This is the density of directions
+/// that point toward points drawn from the octree (for the side `behind`: away from these points;
+/// Rath et al. 2023, eq. 4, 6 and 7). It is computed in steps. Each step depends on the step
+/// before, so the processor waits less if the caller advances several computations in turn.
 template <Side side>
 class DirectionalDensity {
  public:
+  /// `line` is relative to the box of the octree.
   DirectionalDensity(const Octree& octree, const Line& line)
       : third_per_volume_(octree.third_per_volume_), traversal_(octree, line) {}
 
@@ -358,13 +356,5 @@ class DirectionalDensity {
   Octree::Traversal<side> traversal_;
   Quad sum_{};
 };
-
-template <Side side>
-inline double Octree::directional_density(const Line& line) const {
-  DirectionalDensity<side> density(*this, line);
-  while (density.advance()) {
-  }
-  return density.value();
-}
 
 }  // namespace pharos::focal

@@ -1,5 +1,6 @@
 // Costs of random numbers, for every registered sampler with its defaults or its first example. See
-// sampler_costs.h. Besides, the cost of a power spectrum, which point sets are judged by.
+// sampler_costs.h. The cost of a power spectrum, which measures the quality of point sets, is here,
+// too.
 
 #include <chrono>
 #include <cstdio>

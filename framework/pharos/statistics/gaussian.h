@@ -84,8 +84,8 @@ std::array<Moments<D>, 2> halves(const Moments<D>& moments, const Vector<D>& dir
 /// eigenvectors stay the same.
 template <int D>
 Matrix<D> with_eigenvalues_above(double floor, const Matrix<D>& symmetric) {
-  // Most matrices need no change, and a Cholesky factor proves that for a tenth of the cost of
-  // eigenvalues. The margin covers the rounding errors of both.
+  // Most matrices need no change. A Cholesky factor proves that, and costs less than eigenvalues.
+  // The margin covers the rounding errors of both.
   const double margin = 1e-12 * symmetric.trace();
   const Matrix<D> excess = symmetric - (floor + margin) * Matrix<D>::Identity();
   if (excess.llt().info() == Eigen::Success) return symmetric;

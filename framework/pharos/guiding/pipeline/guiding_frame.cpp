@@ -14,10 +14,6 @@ constexpr std::uint16_t kMethodBranch = 0xffff;
 
 /// Scales the shares of the parts so that they sum to 1.
 void normalize(std::span<GuidePart> parts) {
-  if (parts.size() == 1) {
-    parts[0].share = 1;
-    return;
-  }
   float total = 0;
   for (const GuidePart& part : parts) total += part.share;
   for (GuidePart& part : parts) part.share /= total;
