@@ -1,12 +1,12 @@
 #include "guide_costs.h"
 
 #include <algorithm>
-#include <ctime>
 #include <span>
 
 #include <pharos/conformance/guided.h>
 
 #include "allocation_count.h"
+#include "thread_time.h"
 
 namespace pharos::bench {
 namespace {
@@ -14,13 +14,6 @@ namespace {
 /// Number of vertices that are measured together. It is small enough that the results of queries
 /// stay in the nearest cache.
 constexpr std::size_t kBatch = 8;
-
-/// Returns the processor time of this thread [ns], which excludes the time of other programs.
-double thread_ns() {
-  timespec now;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return 1e9 * static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec);
-}
 
 /// Returns the time of thread_ns() itself [ns].
 double clock_ns() {

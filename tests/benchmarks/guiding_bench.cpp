@@ -95,14 +95,12 @@ std::vector<Measurement> measure_render(const GuidePair& pair, const std::string
       named("update_share"), "1", {times.update / (times.training + times.update)}};
   const Measurement bytes{
       named("model_bytes"), "B", {static_cast<double>(trained.result().model_bytes)}};
-  Measurement ratio{named("rays_ratio"), "1", {}};
   const RenderRate rate(trained.config(), trained.scene());
-  rate.mrays(nullptr), rate.mrays(&trained.frame());  // warm-up
-  for (int i = 0; i < repeats; ++i) {
-    const double unguided = rate.mrays(nullptr);
-    ratio.runs.push_back(rate.mrays(&trained.frame()) / unguided);
-  }
-  return {ratio, share, bytes};
+  const GuidedSpeed speed = guided_speed(rate, trained.frame(), repeats);
+  return {{named("added_ns"), "ns", speed.added_ns},
+          {named("rays_ratio"), "1", speed.rays_ratio},
+          share,
+          bytes};
 }
 
 std::vector<Measurement> measure_pair(const GuidePair& pair, const SphereField& field,

@@ -1,15 +1,18 @@
-// Runs all benchmarks, prints a table, and writes JSON on request:
-// {"name": {"value": median, "unit": …, "runs": n, "low": …, "high": …}, …}
+// Runs groups of benchmarks and prints a table. Writes the results as JSON and compares them with
+// earlier results on request.
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <exception>
-#include <fstream>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <pharos/core/error.h>
+
 #include "bench.h"
+#include "results_file.h"
 
 namespace pharos::bench {
 
@@ -28,22 +31,17 @@ double Measurement::high() const {
 
 namespace {
 
-std::string json_text(const std::vector<Measurement>& all) {
-  std::string text = "{\n";
-  for (const Measurement& m : all) {
-    text += fmt::format(
-        "  \"{}\": {{\"value\": {:.6g}, \"unit\": \"{}\", \"runs\": {}, \"low\": {:.6g}, "
-        "\"high\": {:.6g}}}{}\n",
-        m.name, m.median(), m.unit, m.runs.size(), m.low(), m.high(), &m == &all.back() ? "" : ",");
-  }
-  return text + "}\n";
-}
-
 struct Options {
   std::string json;
+  std::string compare;
   std::string filter;
   int repeats = 5;
 };
+
+std::string line(const Measurement& m) {
+  return fmt::format("{:<44} {:>10.4g} {:<10} ({:.4g} to {:.4g}, {} runs)", m.name, m.median(),
+                     m.unit, m.low(), m.high(), m.runs.size());
+}
 
 int run(const Options& options) {
   const std::vector<std::pair<std::string, Benchmark>> benchmarks{
@@ -51,22 +49,21 @@ int run(const Options& options) {
       {"guiding", bench_guiding},  {"samplers", bench_samplers},   {"growth", bench_growth},
       {"aligned", bench_aligned},  {"gaussians", bench_gaussians}, {"baselines", bench_baselines},
       {"triplets", bench_triplets}};
+  const OldResults old = options.compare.empty() ? OldResults() : read_results(options.compare);
   std::vector<Measurement> all;
   for (const auto& [name, benchmark] : benchmarks) {
     if (!options.filter.empty() && name.find(options.filter) == std::string::npos) continue;
+    const auto start = std::chrono::steady_clock::now();
     for (Measurement& m : benchmark(options.repeats)) {
-      fmt::print("{:<40} {:>10.4g} {:<10} ({:.4g} to {:.4g}, {} runs)\n", m.name, m.median(),
-                 m.unit, m.low(), m.high(), m.runs.size());
+      fmt::print("{}\n", old.empty() ? line(m) : comparison_line(m, old));
       std::fflush(stdout);
       all.push_back(std::move(m));
     }
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+    fmt::print(stderr, "group {}: {:.0f} s\n", name, taken.count());
   }
-  if (options.json.empty()) return 0;
-  std::ofstream out(options.json);
-  out << json_text(all);
-  if (out.good()) return 0;
-  fmt::print(stderr, "{}: error: cannot be written\n", options.json);
-  return 2;
+  if (!options.json.empty()) write_results(options.json, all);
+  return 0;
 }
 
 }  // namespace
@@ -76,12 +73,19 @@ int main(int argc, char** argv) {
   CLI::App app("Benchmarks of Pharos");
   pharos::bench::Options options;
   app.add_option("--json", options.json, "Write the results as JSON");
+  app.add_option("--compare", options.compare,
+                 "Print old and new medians and the ratio new / old with its interval of 95 %, for "
+                 "results that --json has written")
+      ->check(CLI::ExistingFile);
   app.add_option("--filter", options.filter, "Only groups whose name contains this");
   app.add_option("--repeats", options.repeats, "How often to measure each figure")
       ->check(CLI::Range(1, 100));
   CLI11_PARSE(app, argc, argv);
   try {
     return pharos::bench::run(options);
+  } catch (const pharos::InputError& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return 2;
   } catch (const std::exception& error) {
     fmt::print(stderr, "{}\n", error.what());
     return 3;

@@ -89,6 +89,31 @@ scene:
   sensor: { type: perspective, fov: 40, to_world: { look_at: { origin: [0, 1.6, 5], target: [0, 0.8, 0], up: [0, 1, 0] } } }
 )";
 
+/// Six dark walls. The only lamp is behind one of them and faces away, so every light sample is
+/// black before a shadow ray is traced: the time of a vertex is the time of a radiance ray and of
+/// scattering.
+const std::string kDarkRoom = R"(
+scene:
+  materials: { wall: { type: diffuse, reflectance: [0.4, 0.3, 0.26] } }
+  shapes:
+    - { type: box, flip_normals: true, material: wall, to_world: [ { scale: [1.5, 1.1, 1] } ] }
+    - { type: quad, material: wall, emitter: { type: area, radiance: 10 }, to_world: [ { scale: 0.3 }, { translate: [0, 0, 2] } ] }
+  sensor: { type: perspective, fov: 60, to_world: { look_at: { origin: [0, 0, 0.9], target: [0, 0, 0], up: [0, 1, 0] } } }
+)";
+
+/// Measures vertices per second of unguided paths.
+Measurement dark_room(int repeats) {
+  RenderJob job(testing::config_from(kDarkRoom + kPath).config);
+  Measurement vertices{"rays.dark-room.mvertices", "1e6/s", {}};
+  job.run();  // warm-up
+  for (int i = 0; i < repeats; ++i) {
+    const RenderResult result = job.run();
+    vertices.runs.push_back(1e-6 * static_cast<double>(result.counters.vertices) /
+                            result.times.rendering);
+  }
+  return vertices;
+}
+
 /// Measures paths from the lights per second.
 Measurement light_paths(const std::string& scene, int repeats) {
   const std::string config = scene + R"(
@@ -117,6 +142,7 @@ std::vector<Measurement> bench_rays(int repeats) {
     all.push_back(m);
   }
   for (Measurement& m : bench_scene("fog", kFog + kPath, repeats)) all.push_back(m);
+  all.push_back(dark_room(repeats));
   all.push_back(light_paths(scene_entry("cornell-box"), repeats));
   return all;
 }

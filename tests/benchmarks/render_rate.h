@@ -7,15 +7,20 @@
 
 namespace pharos::bench {
 
+/// The speed of a render without training.
+struct Speed {
+  double mrays = 0;      ///< [1e6 rays/s], of all threads together
+  double vertex_ns = 0;  ///< processor time of a vertex at which a path was to scatter [ns]
+};
+
 /// Renders the film of a config repeatedly, without training.
 class RenderRate {
  public:
   /// `scene` must outlive this object.
   RenderRate(const RenderConfig& config, const Scene& scene);
 
-  /// Returns millions of rays per second of a final image. `guiding` is the guide; null renders
-  /// unguided.
-  double mrays(const GuidingFrame* guiding) const;
+  /// Renders a final image and returns the speed. `guiding` is the guide; null renders unguided.
+  Speed measure(const GuidingFrame* guiding) const;
 
  private:
   const RenderConfig& config_;
@@ -23,5 +28,12 @@ class RenderRate {
   std::unique_ptr<const PreparedIntegrator> integrator_;
   std::unique_ptr<const PreparedSampler> sampler_;
 };
+
+/// The speed of guided renders relative to unguided ones, measured in turns.
+struct GuidedSpeed {
+  std::vector<double> rays_ratio;  ///< rays per second with the guide over rays without [1]
+  std::vector<double> added_ns;    ///< processor time that the guide adds to a vertex [ns]
+};
+GuidedSpeed guided_speed(const RenderRate& rate, const GuidingFrame& guiding, int repeats);
 
 }  // namespace pharos::bench

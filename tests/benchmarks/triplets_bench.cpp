@@ -133,18 +133,14 @@ integrator:
   const auto& guider = *loaded.config.integrator->guiding()->resolved_methods().front().guider;
   const GuidingFrame frame = conformance::frame_of(guider, result.model);
   const RenderRate rate(loaded.config, job.scene());
-  Measurement ratio{named("rays_ratio"), "1", {}};
-  rate.mrays(nullptr), rate.mrays(&frame);  // warm-up
-  for (int i = 0; i < repeats; ++i) {
-    const double unguided = rate.mrays(nullptr);
-    ratio.runs.push_back(rate.mrays(&frame) / unguided);
-  }
+  const GuidedSpeed speed = guided_speed(rate, frame, repeats);
   const ModelInfo info = result.model->info();
   std::vector<Measurement> all{
       {named("learn_share"),
        "1",
        {result.times.update / (result.times.training + result.times.update)}},
-      ratio,
+      {named("added_ns"), "ns", speed.added_ns},
+      {named("rays_ratio"), "1", speed.rays_ratio},
       {named("model_mib"), "MiB", {static_cast<double>(info.bytes) / (1 << 20)}}};
   for (const ModelFact& fact : info.facts) {
     if (fact.name == "samples") {

@@ -52,6 +52,7 @@ void check_model(const GuidingMethod& method, const GuidingModel& model,
 RenderCounters& RenderCounters::operator+=(const RenderCounters& other) {
   paths += other.paths;
   rays += other.rays;
+  vertices += other.vertices;
   invalid_paths += other.invalid_paths;
   return *this;
 }

@@ -78,6 +78,25 @@ Bounded mean_ratio(std::span<const double> a, std::span<const double> b, double 
   return exponential_of_mean(differences, confidence);
 }
 
+Bounded ratio_of_means(std::span<const double> a, std::span<const double> b, double confidence) {
+  if (a.empty() || b.empty()) throw InputError("expected at least one value for a mean");
+  const Moments over = moments(logarithms(a)), under = moments(logarithms(b));
+  const double over_error = over.variance / over.count, under_error = under.variance / under.count;
+  const double error = over_error + under_error;
+  double freedom = 0;
+  if (over.count > 1 && under.count > 1) {
+    // The equation of Welch and Satterthwaite. Without spread, any number of degrees will do.
+    freedom = error > 0 ? error * error /
+                              (over_error * over_error / (over.count - 1) +
+                               under_error * under_error / (under.count - 1))
+                        : over.count + under.count - 2;
+  }
+  const double factor = student_factor(freedom, confidence);
+  const double reach = std::isinf(factor) ? kInfinite : factor * std::sqrt(error);
+  const double difference = over.mean - under.mean;
+  return {std::exp(difference), {std::exp(difference - reach), std::exp(difference + reach)}};
+}
+
 Bounded fitted_slope(std::span<const double> x, std::span<const double> y, double confidence) {
   check_paired(x, y);
   check_finite(x);

@@ -31,6 +31,12 @@ Bounded geometric_mean(std::span<const double> values, double confidence = 0.95)
 /// confidence interval. Throws InputError like geometric_mean().
 Bounded mean_ratio(std::span<const double> a, std::span<const double> b, double confidence = 0.95);
 
+/// Returns the ratio of the geometric means of two independent samples of positive values, a over
+/// b, with its confidence interval by Welch's t on their logarithms. The interval is [0, infinity)
+/// if a sample has a single value. Throws InputError like geometric_mean().
+Bounded ratio_of_means(std::span<const double> a, std::span<const double> b,
+                       double confidence = 0.95);
+
 /// Returns the slope of the least-squares line of y over x with its confidence interval by
 /// Student's t. The interval for two points is (-infinity, infinity). Throws InputError if x holds
 /// fewer than two different values.

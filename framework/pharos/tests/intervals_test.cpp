@@ -50,6 +50,29 @@ TEST_CASE("arithmetic mean: a worked example, one value, none") {
   CHECK_THROWS_AS(arithmetic_mean(Values{1, std::nan("")}), InputError);
 }
 
+TEST_CASE("ratio of two independent means: a worked example, and its coverage") {
+  // The logarithms have means 2 and 0, and squared standard errors 1/3 and 4/3. Welch's equation
+  // gives (5/3)^2 / ((1/3)^2 / 2 + (4/3)^2 / 2) = 50/17 degrees of freedom. The 97.5 % point of
+  // Student's t there is 3.218759.
+  const Values a{std::exp(1.0), std::exp(2.0), std::exp(3.0)}, b{std::exp(-2.0), 1, std::exp(2.0)};
+  const Bounded ratio = ratio_of_means(a, b);
+  CHECK(ratio.value == doctest::Approx(std::exp(2.0)));
+  CHECK(std::log(ratio.interval.high) == doctest::Approx(2 + 3.218759 * std::sqrt(5.0 / 3)));
+  CHECK(std::log(ratio.interval.low) == doctest::Approx(2 - 3.218759 * std::sqrt(5.0 / 3)));
+  CHECK(std::isinf(ratio_of_means(a, Values{1}).interval.high));
+  CHECK(ratio_of_means(Values{2, 2}, Values{1, 1}).interval.high == doctest::Approx(2));
+  CHECK_THROWS_AS(ratio_of_means(a, Values{1, 0}), InputError);
+  CHECK_THROWS_AS(ratio_of_means(Values{}, b), InputError);
+
+  const double share = coverage(11, kTrials, [](RandomStream& random) {
+    Values over, under;
+    for (int i = 0; i < 5; ++i) over.push_back(std::exp(0.1 * normal(random)));
+    for (int i = 0; i < 8; ++i) under.push_back(std::exp(0.3 * normal(random)));
+    return holds(ratio_of_means(over, under).interval, 1);
+  });
+  CHECK(std::abs(share - 0.95) < 0.005 + tolerance(0.95));  // Welch's interval is approximate
+}
+
 TEST_CASE("geometric mean: a worked example") {
   // The logarithms 0, 1 and 2 have mean 1 and standard deviation 1. The 97.5 % point of Student's t
   // with two degrees of freedom is 4.302653.

@@ -36,6 +36,7 @@ class TransportKernel {
       : scene_(scene),
         guiding_(guiding),
         arenas_(arenas),
+        counters_(counters),
         tracer_(scene, counters),
         recorder_(recorder) {}
 
@@ -70,6 +71,7 @@ class TransportKernel {
     const LocalScattering scattering =
         path.here().scattering(scene_, path.towards_previous, path.transport);
     if (!visitor.meets(path, scattering)) return false;
+    ++counters_.vertices;
     std::optional<GuidingQuery> query;  // must live as long as the guidance
     const Guidance guidance =
         guiding_ != nullptr ? guidance_at_vertex(path, scattering, query.emplace()) : Guidance{};
@@ -176,6 +178,7 @@ class TransportKernel {
   const Scene& scene_;
   const GuidingFrame* guiding_;
   TransportArenas& arenas_;
+  RenderCounters& counters_;
   typename Rules::Tracer tracer_;
   Recorder& recorder_;
 };
