@@ -28,8 +28,7 @@ Speed RenderRate::measure(const GuidingFrame* guiding) const {
   std::atomic<std::uint64_t> rays = 0, vertices = 0;
   std::atomic<double> processor_ns = 0;
   // The iteration after training, which has other random numbers than the training iterations.
-  const GuidingSettings* settings = config_.integrator->guiding();
-  const std::uint32_t iteration = settings != nullptr ? settings->training.iterations : 0;
+  const std::uint32_t iteration = config_.integrator->guiding()->training.iterations;
   const auto start = std::chrono::steady_clock::now();
   parallel_for(kSamples / kUnitSamples, [&](std::size_t i) {
     const WorkUnit unit{.pixels = config_.film.window(),

@@ -10,7 +10,7 @@ namespace pharos::bench {
 /// The speed of a render without training.
 struct Speed {
   double mrays = 0;      ///< [1e6 rays/s], of all threads together
-  double vertex_ns = 0;  ///< processor time of a vertex at which a path was to scatter [ns]
+  double vertex_ns = 0;  ///< processor time per vertex (RenderCounters::vertices) [ns]
 };
 
 /// Renders the film of a config repeatedly, without training.

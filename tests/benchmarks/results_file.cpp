@@ -15,7 +15,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 bool all_positive(const std::vector<double>& values) {
-  return !values.empty() && std::ranges::all_of(values, [](double v) { return v > 0; });
+  return std::ranges::all_of(values, [](double v) { return v > 0; });
 }
 
 }  // namespace
@@ -39,10 +39,11 @@ OldResults read_results(const std::string& file) {
     for (const auto& [name, entry] : json.items()) {
       results[name] = entry.at("runs").get<std::vector<double>>();
     }
-    return results;
+    const auto has_runs = [](const auto& figure) { return !figure.second.empty(); };
+    if (std::ranges::all_of(results, has_runs)) return results;
   } catch (const Json::exception&) {
-    throw InputError(file + ": expected results that --json has written");
   }
+  throw InputError(file + ": expected results that --json has written");
 }
 
 std::string comparison_line(const Measurement& now, const OldResults& old) {

@@ -19,7 +19,8 @@ void write_results(const std::string& file, const std::vector<Measurement>& all)
 OldResults read_results(const std::string& file);
 
 /// Returns the line of a figure in a comparison: its old and new medians, and the ratio new / old
-/// of the geometric means with its interval of 95 %. The line marks intervals without 1.
+/// of the geometric means with its interval of 95 %. A star marks a ratio whose interval does not
+/// contain 1.
 std::string comparison_line(const Measurement& now, const OldResults& old);
 
 }  // namespace pharos::bench

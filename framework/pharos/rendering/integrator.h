@@ -28,7 +28,7 @@ struct WorkUnit {
 struct RenderCounters {
   std::uint64_t paths = 0;
   std::uint64_t rays = 0;           ///< radiance and shadow rays
-  std::uint64_t vertices = 0;       ///< vertices at which a path was to scatter
+  std::uint64_t vertices = 0;       ///< vertices at which a next step was sampled
   std::uint64_t invalid_paths = 0;  ///< paths of NaN or infinite value; they count as black
 
   RenderCounters& operator+=(const RenderCounters& other);
