@@ -54,25 +54,25 @@ float largest(Vec3 v) {
 }
 
 /// Returns the step in the triangle's plane that moves the point of weights `b` at least `margin`
-/// away from every edge. In a narrower triangle the distance is only half the inradius.
+/// away from every edge. In a narrower triangle the distance is only half the inradius. The step
+/// leads towards the center of the inscribed circle. Steps across the edges would undo each other
+/// near a sharp corner.
 [[gnu::noinline, gnu::cold]] Vec3 step_off_edges(const std::array<Point3, 3>& p,
-                                                 const std::array<float, 3>& b, Vec3 normal,
-                                                 float double_area, float margin) {
-  std::array<Vec3, 3> edges;  // edge i is opposite vertex i
-  float perimeter = 0;
+                                                 const std::array<float, 3>& b, float double_area,
+                                                 float margin) {
+  std::array<float, 3> lengths;  // of the edge opposite each vertex
+  for (std::size_t i = 0; i < 3; ++i) lengths[i] = length(p[(i + 2) % 3] - p[(i + 1) % 3]);
+  const float perimeter = lengths[0] + lengths[1] + lengths[2];
+  const float inradius = double_area / perimeter;
+  const float kept = std::min(margin, 0.5f * inradius);
+  float share = 0;  // of the way to the center; the distance to each edge is linear in it
   for (std::size_t i = 0; i < 3; ++i) {
-    edges[i] = p[(i + 2) % 3] - p[(i + 1) % 3];
-    perimeter += length(edges[i]);
+    const float distance = b[i] * double_area / lengths[i];
+    if (distance < kept) share = std::max(share, (kept - distance) / (inradius - distance));
   }
-  // The inradius is double_area / perimeter. At half of it, no edge pushes the point past another.
-  const float kept = std::min(margin, 0.5f * double_area / perimeter);
-  Vec3 step;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const float edge_length = length(edges[i]);
-    const float distance = b[i] * double_area / edge_length;
-    if (distance < kept) step += (kept - distance) / edge_length * cross(normal, edges[i]);
-  }
-  return step;
+  // The weights of the center are the shares of the perimeter.
+  return share * ((lengths[1] / perimeter - b[1]) * (p[1] - p[0]) +
+                  (lengths[2] / perimeter - b[2]) * (p[2] - p[0]));
 }
 
 Frame shading_frame(Vec3 interpolated, Vec3 normal) {
@@ -119,7 +119,7 @@ inline Point3 TriangleMesh::position_at(std::uint32_t triangle, const std::array
       to_float(Vec3d(f.origin) + (b[1] * Vec3d(f.edge1) + double{b[2]} * Vec3d(f.edge2)));
   if (!(std::min(b[0], std::min(b[1], b[2])) < margin * f.edge_weight)) return position;
   const auto [i0, i1, i2] = triangles[triangle];
-  return position + step_off_edges({positions[i0], positions[i1], positions[i2]}, b, f.normal,
+  return position + step_off_edges({positions[i0], positions[i1], positions[i2]}, b,
                                    length(cross(f.edge1, f.edge2)), margin * f.error);
 }
 

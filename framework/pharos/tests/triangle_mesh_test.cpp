@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <pharos/core/warp.h>
 #include <pharos/scene/shape.h>
 
 #include "scene_fixtures.h"
@@ -61,6 +62,26 @@ TEST_CASE("positions keep the stated error away from edges, and do not move else
     CHECK((12 - 3 * p.position.x - 4 * p.position.y) / 5 >= enough);
     CHECK(length(p.position - Point3{4 * b.x, 3 * b.y, 0}) < 4 * p.error);
     CHECK(p.position.z == 0);
+  }
+}
+
+TEST_CASE("positions keep a margin from both edges of a corner, however sharp") {
+  constexpr float margin = 1e-3f;
+  for (const float degrees : {1.0f, 5.0f, 17.0f, 60.0f, 120.0f, 170.0f}) {
+    const float angle = degrees * kPi / 180;
+    const Vec3 side{std::cos(angle), std::sin(angle), 0};
+    const TriangleMesh mesh = one_triangle({0, 0, 0}, {1, 0, 0}, {side.x, side.y, 0});
+    RandomStream random(1);
+    for (int i = 0; i < 1000; ++i) {
+      const float scale = std::exp2(-20 * random.next_1d());
+      const Vec2 b = scale * warp::triangle_from_square(random.next_2d());
+      const Point3 p = mesh.position_off_edges(0, b.x, b.y, margin);
+      CAPTURE(degrees);
+      CAPTURE(p.x);
+      CHECK(p.y > 0.999f * margin);
+      CHECK(side.y * p.x - side.x * p.y > 0.999f * margin);
+      CHECK(p.z == 0);
+    }
   }
 }
 
