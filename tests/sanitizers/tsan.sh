@@ -13,8 +13,9 @@ if [ ! -e "$tbb/lib/libtbb.so.12" ]; then
   # Needs the distribution's sources (a deb-src line); any oneTBB of the same version will do.
   (cd "$tbb" && apt-get source -q onetbb)
   cmake -S "$tbb"/onetbb-* -B "$tbb/build" -G Ninja -D TBB_TEST=OFF -D TBBMALLOC_BUILD=OFF \
-    -D TBB_STRICT=OFF -D CMAKE_BUILD_TYPE=RelWithDebInfo -D CMAKE_CXX_FLAGS=-fsanitize=thread \
-    -D CMAKE_SHARED_LINKER_FLAGS=-fsanitize=thread
+    -D TBB_STRICT=OFF -D CMAKE_BUILD_TYPE=RelWithDebInfo -D CMAKE_C_COMPILER=clang \
+    -D CMAKE_CXX_COMPILER=clang++ -D CMAKE_CXX_FLAGS=-fsanitize=thread \
+    -D CMAKE_SHARED_LINKER_FLAGS="-fsanitize=thread -Wl,-z,undefs"
   cmake --build "$tbb/build" --target tbb
   # TBB names its output folder after the compiler.
   mkdir -p "$tbb/lib"
