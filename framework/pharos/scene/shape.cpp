@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <limits>
 
 #include <pharos/scene/shape.h>
@@ -49,30 +50,39 @@ constexpr float kEpsilon = std::numeric_limits<float>::epsilon();
 constexpr float kRounding = 2;
 constexpr float kArithmetic = 8;
 
+/// Distance of positions from edges, in units of SurfacePoint::error. A ray's origin lies one unit
+/// off the surface. At an edge where two triangles enclose an angle, it lies between them if the
+/// position is 1 / tan(angle) units away from the edge. This suffices for angles above 27 degrees.
+constexpr float kEdgeMargin = 2;
+
 float largest(Vec3 v) {
   return max_component(abs(v));
 }
 
-/// Returns the step in the triangle's plane that moves the point of weights `b` at least `margin`
-/// away from every edge. In a narrower triangle the distance is only half the inradius. The step
-/// leads towards the center of the inscribed circle. Steps across the edges would undo each other
-/// near a sharp corner.
+/// Returns the shortest step that moves the point of weights `b` at least `margin` away from every
+/// edge. In a narrower triangle the distance is only half the inradius. Points with this distance
+/// form a smaller triangle, each corner of which lies on the way to the center of the inscribed
+/// circle. The step leads to the nearest point on its boundary.
 [[gnu::noinline, gnu::cold]] Vec3 step_off_edges(const std::array<Point3, 3>& p,
                                                  const std::array<float, 3>& b, float double_area,
                                                  float margin) {
-  std::array<float, 3> lengths;  // of the edge opposite each vertex
-  for (std::size_t i = 0; i < 3; ++i) lengths[i] = length(p[(i + 2) % 3] - p[(i + 1) % 3]);
+  const Vec3 e1 = p[1] - p[0], e2 = p[2] - p[0];
+  const std::array<Vec3, 3> corners{Vec3{}, e1, e2};  // relative to vertex 0
+  const std::array<float, 3> lengths{length(e2 - e1), length(e2), length(e1)};  // opposite edges
   const float perimeter = lengths[0] + lengths[1] + lengths[2];
-  const float inradius = double_area / perimeter;
-  const float kept = std::min(margin, 0.5f * inradius);
-  float share = 0;  // of the way to the center; the distance to each edge is linear in it
-  for (std::size_t i = 0; i < 3; ++i) {
-    const float distance = b[i] * double_area / lengths[i];
-    if (distance < kept) share = std::max(share, (kept - distance) / (inradius - distance));
-  }
-  // The weights of the center are the shares of the perimeter.
-  return share * ((lengths[1] / perimeter - b[1]) * (p[1] - p[0]) +
-                  (lengths[2] / perimeter - b[2]) * (p[2] - p[0]));
+  const auto distance = [&](std::size_t i) { return b[i] * double_area / lengths[i]; };
+  std::size_t nearest = distance(1) < distance(0) ? 1 : 0;
+  if (distance(2) < distance(nearest)) nearest = 2;
+  const float kept = std::min(margin, 0.5f * double_area / perimeter);
+  if (distance(nearest) >= kept) return {};
+
+  const Vec3 center = (lengths[1] * e1 + lengths[2] * e2) / perimeter;
+  const float share = kept * perimeter / double_area;
+  const auto inner = [&](std::size_t i) { return corners[i] + share * (center - corners[i]); };
+  const Vec3 point = b[1] * e1 + b[2] * e2;
+  const Vec3 from = inner((nearest + 1) % 3), edge = inner((nearest + 2) % 3) - from;
+  const float along = dot(point - from, edge) / length_squared(edge);
+  return from + std::clamp(along, 0.0f, 1.0f) * edge - point;
 }
 
 Frame shading_frame(Vec3 interpolated, Vec3 normal) {
@@ -133,7 +143,7 @@ SurfacePoint TriangleMesh::surface_point(std::uint32_t triangle, float b1, float
   const TriangleFacts f = facts.empty() ? facts_of(triangle) : facts[triangle];
   const float b0 = 1 - b1 - b2;
   SurfacePoint point;
-  point.position = position_at(triangle, {b0, b1, b2}, f, 1);
+  point.position = position_at(triangle, {b0, b1, b2}, f, kEdgeMargin);
   point.normal = f.normal;
   point.error = f.error;
   point.primitive = triangle;

@@ -37,9 +37,9 @@ struct TriangleMesh {
 
   /// Returns the surface at barycentric weights (b1, b2) of `triangle`'s vertices 1 and 2. Without
   /// `uvs`, these weights are the texture coordinates. Without `normals`, or if the normals cancel
-  /// out, the shading normal is the geometric one. The position stays at least `error` away from
-  /// the edges, so that origin_towards() does not slip past the neighboring triangle at a concave
-  /// edge.
+  /// out, the shading normal is the geometric one. The position stays at least twice `error` away
+  /// from the edges, so that origin_towards() does not slip past the neighboring triangle at a
+  /// concave edge.
   SurfacePoint surface_point(std::uint32_t triangle, float b1, float b2) const;
   /// Returns the position of surface_point(), but at least `margin` away from the edges [scene
   /// units].
