@@ -1,30 +1,36 @@
 #include "interrupt.h"
 
 #include <csignal>
+#include <cstdint>
 #include <ctime>
 
 namespace pharos {
 namespace {
 
 std::atomic<bool> interrupted{false};
+/// When the first signal came [s]; 0: there was none. Two signals may arrive on two threads at the
+/// same time.
+std::atomic<std::int64_t> first_signal_at{0};
 static_assert(std::atomic<bool>::is_always_lock_free, "set from a signal handler");
+static_assert(std::atomic<std::int64_t>::is_always_lock_free, "set from a signal handler");
 
 /// The same cause may send two signals, one to the process and one to its group, as timeout(1)
 /// does. A signal counts as a second one only if it comes more than this later.
-constexpr std::time_t kSecondSignalSeconds = 1;
-volatile std::sig_atomic_t first_signal_at = 0;
+constexpr std::int64_t kSecondSignalSeconds = 1;
 
-std::time_t monotonic_seconds() {
+/// Returns the time on a clock that starts at 1 s.
+std::int64_t monotonic_seconds() {
   timespec now{};
   clock_gettime(CLOCK_MONOTONIC, &now);
-  return now.tv_sec;
+  return now.tv_sec + 1;
 }
 
 void handle(int signal) {
-  const std::time_t now = monotonic_seconds();
-  if (!interrupted.exchange(true)) {
-    first_signal_at = static_cast<std::sig_atomic_t>(now);
-  } else if (now - first_signal_at > kSecondSignalSeconds) {
+  const std::int64_t now = monotonic_seconds();
+  std::int64_t first = 0;
+  if (first_signal_at.compare_exchange_strong(first, now)) {
+    interrupted = true;
+  } else if (now - first > kSecondSignalSeconds) {
     std::signal(signal, SIG_DFL);
     std::raise(signal);
   }
@@ -34,6 +40,7 @@ void handle(int signal) {
 
 InterruptGuard::InterruptGuard() {
   interrupted = false;
+  first_signal_at = 0;
   std::signal(SIGINT, handle);
   std::signal(SIGTERM, handle);
 }
