@@ -84,9 +84,10 @@ std::array<SurfacePoint, 3> corners(const Mesh& mesh, std::uint32_t triangle) {
           m.surface_point(triangle, 0, 1)};
 }
 
+/// Positions at corners lie some errors away from the edges.
 void check_near(Vec3 a, Vec3 b) {
   INFO(a.x, " ", a.y, " ", a.z, " against ", b.x, " ", b.y, " ", b.z);
-  CHECK(length(a - b) < 1e-5f);
+  CHECK(length(a - b) < 5e-5f);
 }
 
 TEST_CASE("the transforms of all nodes above a mesh apply to it") {
