@@ -22,6 +22,11 @@ if [ ! -e "$tbb/lib/libtbb.so.12" ]; then
   cp -a "$tbb"/build/*/libtbb.so* "$tbb/lib"
 fi
 export LD_LIBRARY_PATH=$tbb/lib${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
+# The symbolizer complains of code without a file (the kernel's), which tests would take for
+# messages of the program.
+symbolizer=$build/llvm-symbolizer
+printf '#!/bin/sh\nexec "%s" "$@" 2>/dev/null\n' "$(clang++ -print-prog-name=llvm-symbolizer)" >"$symbolizer"
+chmod +x "$symbolizer"
 # A long history, so that both sides of a report have their stacks.
-export TSAN_OPTIONS="suppressions=$root/tests/sanitizers/tsan.supp history_size=7"
+export TSAN_OPTIONS="suppressions=$root/tests/sanitizers/tsan.supp history_size=7 external_symbolizer_path=$symbolizer"
 exec ctest --test-dir "$build" --output-on-failure "$@"
