@@ -18,9 +18,9 @@ void write_results(const std::string& file, const std::vector<Measurement>& all)
 /// Reads what write_results() wrote. Throws InputError if the file is missing or of another form.
 OldResults read_results(const std::string& file);
 
-/// Returns the line of a figure in a comparison: its old and new medians, and the ratio new / old
-/// of the geometric means with its interval of 95 %. A star marks a ratio whose interval does not
-/// contain 1.
+/// Returns a line with the old median of a figure, its new median, and the ratio of its geometric
+/// means, new over old. The 95 % confidence interval of the ratio follows in brackets. A star at
+/// the end means that this interval does not contain 1.
 std::string comparison_line(const Measurement& now, const OldResults& old);
 
 }  // namespace pharos::bench

@@ -13,7 +13,7 @@ if [ ! -e "$tbb/lib/libtbb.so.12" ]; then
   # Needs the distribution's sources (a deb-src line); any oneTBB of the same version will do.
   (cd "$tbb" && apt-get source -q onetbb)
   cmake -S "$tbb"/onetbb-* -B "$tbb/build" -G Ninja -D TBB_TEST=OFF -D TBBMALLOC_BUILD=OFF \
-    -D TBB_STRICT=OFF -D CMAKE_BUILD_TYPE=RelWithDebInfo -D CMAKE_C_COMPILER=clang \
+    -D TBB_STRICT=OFF -D CMAKE_BUILD_TYPE=RelWithDebInfo \
     -D CMAKE_CXX_COMPILER=clang++ -D CMAKE_CXX_FLAGS=-fsanitize=thread \
     -D CMAKE_SHARED_LINKER_FLAGS="-fsanitize=thread -Wl,-z,undefs"
   cmake --build "$tbb/build" --target tbb
@@ -22,8 +22,7 @@ if [ ! -e "$tbb/lib/libtbb.so.12" ]; then
   cp -a "$tbb"/build/*/libtbb.so* "$tbb/lib"
 fi
 export LD_LIBRARY_PATH=$tbb/lib${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
-# The symbolizer complains of code without a file (the kernel's), which tests would take for
-# messages of the program.
+# The symbolizer writes errors of its own, which tests would take for messages of the program.
 symbolizer=$build/llvm-symbolizer
 printf '#!/bin/sh\nexec "%s" "$@" 2>/dev/null\n' "$(clang++ -print-prog-name=llvm-symbolizer)" >"$symbolizer"
 chmod +x "$symbolizer"

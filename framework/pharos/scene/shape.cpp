@@ -51,8 +51,9 @@ constexpr float kRounding = 2;
 constexpr float kArithmetic = 8;
 
 /// Distance of positions from edges, in units of SurfacePoint::error. A ray's origin lies one unit
-/// off the surface. At an edge where two triangles enclose an angle, it lies between them if the
-/// position is 1 / tan(angle) units away from the edge. This suffices for angles above 27 degrees.
+/// off its triangle. If the next triangle meets this one at an acute angle, the origin stays
+/// between the two only where the position is at least 1 / tan(angle) units away from their edge.
+/// Two units suffice for angles above 27 degrees.
 constexpr float kEdgeMargin = 2;
 
 float largest(Vec3 v) {
