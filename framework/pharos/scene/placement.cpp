@@ -3,6 +3,7 @@
 
 #include <pharos/core/error.h>
 #include <pharos/scene/placement.h>
+#include <pharos/scene/shape.h>
 
 namespace pharos {
 namespace {
@@ -97,8 +98,8 @@ Placement::LocalRay Placement::to_local(const Ray& ray) const {
 // The component of this error along the local normal n, divided by the length of W^T n, is a
 // distance along the normal in world space. The shape's local error is converted in the same way.
 // If the map stretches or shears, a step of this length along the world normal may lead sideways in
-// local space, towards neighboring triangles at concave edges. `margin` therefore covers the full
-// length of the step, in addition to the error itself.
+// local space, towards neighboring triangles at concave edges. `margin` therefore covers
+// kEdgeMargin times the full length of the step, in addition to the error itself.
 PlacementError Placement::error_at(const SurfacePoint& local) const {
   constexpr float epsilon = std::numeric_limits<float>::epsilon();
   const Transform::Matrix& m = to_world_.matrix();
@@ -114,7 +115,7 @@ PlacementError Placement::error_at(const SurfacePoint& local) const {
   const double along_normal = local.error + dot(abs(local.normal), rounding);
   const float error = static_cast<float>(along_normal / scale);
   const double step = length_of(to_world_.inverse_vector(scaled(normal, 1 / scale))) * error;
-  return {.world = error, .margin = static_cast<float>(step + length_of(rounding))};
+  return {.world = error, .margin = static_cast<float>(kEdgeMargin * step + length_of(rounding))};
 }
 
 SurfacePoint Placement::to_world(const SurfacePoint& local, float error) const {

@@ -50,12 +50,6 @@ constexpr float kEpsilon = std::numeric_limits<float>::epsilon();
 constexpr float kRounding = 2;
 constexpr float kArithmetic = 8;
 
-/// Distance of positions from edges, in units of SurfacePoint::error. A ray's origin lies one unit
-/// off its triangle. If the next triangle meets this one at an acute angle, the origin stays
-/// between the two only where the position is at least 1 / tan(angle) units away from their edge.
-/// Two units suffice for angles above 27 degrees.
-constexpr float kEdgeMargin = 2;
-
 float largest(Vec3 v) {
   return max_component(abs(v));
 }
@@ -64,10 +58,10 @@ float largest(Vec3 v) {
 /// edge. In a narrower triangle the distance is only half the inradius. Points with this distance
 /// form a smaller triangle, each corner of which lies on the way to the center of the inscribed
 /// circle. The step leads to the nearest point on its boundary.
-[[gnu::noinline, gnu::cold]] Vec3 step_off_edges(const std::array<Point3, 3>& p,
-                                                 const std::array<float, 3>& b, float double_area,
-                                                 float margin) {
-  const Vec3 e1 = p[1] - p[0], e2 = p[2] - p[0];
+[[gnu::noinline, gnu::cold]] Vec3 step_off_edges(const TriangleFacts& f,
+                                                 const std::array<float, 3>& b, float margin) {
+  const Vec3 e1 = f.edge1, e2 = f.edge2;
+  const float double_area = length(cross(e1, e2));
   const std::array<Vec3, 3> corners{Vec3{}, e1, e2};  // relative to vertex 0
   const std::array<float, 3> lengths{length(e2 - e1), length(e2), length(e1)};  // opposite edges
   const float perimeter = lengths[0] + lengths[1] + lengths[2];
@@ -84,6 +78,15 @@ float largest(Vec3 v) {
   const Vec3 from = inner((nearest + 1) % 3), edge = inner((nearest + 2) % 3) - from;
   const float along = dot(point - from, edge) / length_squared(edge);
   return from + std::clamp(along, 0.0f, 1.0f) * edge - point;
+}
+
+/// Returns the position of the weights `b`, or the nearest position that is at least `margin` times
+/// the triangle's error away from the edges.
+inline Point3 position_at(const TriangleFacts& f, const std::array<float, 3>& b, float margin) {
+  const Point3 position =
+      to_float(Vec3d(f.origin) + (b[1] * Vec3d(f.edge1) + double{b[2]} * Vec3d(f.edge2)));
+  if (!(std::min(b[0], std::min(b[1], b[2])) < margin * f.edge_weight)) return position;
+  return position + step_off_edges(f, b, margin * f.error);
 }
 
 Frame shading_frame(Vec3 interpolated, Vec3 normal) {
@@ -124,27 +127,17 @@ void TriangleMesh::precompute() {
   for (std::uint32_t i = 0; i < triangles.size(); ++i) facts.push_back(facts_of(i));
 }
 
-inline Point3 TriangleMesh::position_at(std::uint32_t triangle, const std::array<float, 3>& b,
-                                        const TriangleFacts& f, float margin) const {
-  const Point3 position =
-      to_float(Vec3d(f.origin) + (b[1] * Vec3d(f.edge1) + double{b[2]} * Vec3d(f.edge2)));
-  if (!(std::min(b[0], std::min(b[1], b[2])) < margin * f.edge_weight)) return position;
-  const auto [i0, i1, i2] = triangles[triangle];
-  return position + step_off_edges({positions[i0], positions[i1], positions[i2]}, b,
-                                   length(cross(f.edge1, f.edge2)), margin * f.error);
-}
-
 Point3 TriangleMesh::position_off_edges(std::uint32_t triangle, float b1, float b2,
                                         float margin) const {
   const TriangleFacts f = facts.empty() ? facts_of(triangle) : facts[triangle];
-  return position_at(triangle, {1 - b1 - b2, b1, b2}, f, margin / f.error);
+  return position_at(f, {1 - b1 - b2, b1, b2}, margin / f.error);
 }
 
 SurfacePoint TriangleMesh::surface_point(std::uint32_t triangle, float b1, float b2) const {
   const TriangleFacts f = facts.empty() ? facts_of(triangle) : facts[triangle];
   const float b0 = 1 - b1 - b2;
   SurfacePoint point;
-  point.position = position_at(triangle, {b0, b1, b2}, f, kEdgeMargin);
+  point.position = position_at(f, {b0, b1, b2}, kEdgeMargin);
   point.normal = f.normal;
   point.error = f.error;
   point.primitive = triangle;

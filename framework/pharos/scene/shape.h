@@ -13,6 +13,12 @@
 
 namespace pharos {
 
+/// Distance of positions from a triangle's edges, in units of SurfacePoint::error. A ray's origin
+/// lies one unit off its triangle. If the next triangle meets this one at an acute angle, the
+/// origin stays between the two only where the position is at least 1 / tan(angle) units away from
+/// their edge. Two units suffice for angles above 27 degrees.
+inline constexpr float kEdgeMargin = 2;
+
 /// Precomputed data for a hit on a triangle, in one cache line.
 struct alignas(64) TriangleFacts {
   Point3 origin;          ///< vertex 0
@@ -37,9 +43,9 @@ struct TriangleMesh {
 
   /// Returns the surface at barycentric weights (b1, b2) of `triangle`'s vertices 1 and 2. Without
   /// `uvs`, these weights are the texture coordinates. Without `normals`, or if the normals cancel
-  /// out, the shading normal is the geometric one. The position stays at least twice `error` away
-  /// from the edges, so that origin_towards() does not slip past the neighboring triangle at a
-  /// concave edge.
+  /// out, the shading normal is the geometric one. The position stays at least kEdgeMargin *
+  /// `error` away from the edges, so that origin_towards() does not slip past the neighboring
+  /// triangle at a concave edge.
   SurfacePoint surface_point(std::uint32_t triangle, float b1, float b2) const;
   /// Returns the position of surface_point(), but at least `margin` away from the edges [scene
   /// units].
@@ -53,9 +59,6 @@ struct TriangleMesh {
 
  private:
   TriangleFacts facts_of(std::uint32_t triangle) const;
-  /// Keeps the position at least `margin` times the triangle's `error` away from the edges.
-  Point3 position_at(std::uint32_t triangle, const std::array<float, 3>& weights,
-                     const TriangleFacts& f, float margin) const;
 };
 
 /// The hit of a ray on a primitive.

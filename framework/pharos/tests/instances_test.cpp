@@ -138,7 +138,9 @@ TEST_CASE("an instance is met like the same meshes placed one by one") {
       const float cosine = abs_dot(ray.direction, q.normal);
       const float apart = 2 * (p.error + q.error) / std::max(cosine, 1e-3f);
       CHECK(std::abs(t - u) < apart);
-      CHECK(length(p.position - q.position) < apart);
+      // Close to edges, both positions are moved along the triangle.
+      const float moved = 4 * kEdgeMargin * (p.error + q.error);
+      CHECK(length(p.position - q.position) < apart + moved);
       CHECK(abs_dot(p.position - q.position, q.normal) < p.error + q.error);
       // Vertices that were placed one by one are rounded, which causes the largest difference.
       CHECK(length(p.normal - q.normal) < 1e-5f + 100 * q.error);
