@@ -8,6 +8,8 @@
 #include <pharos/scene/emitter.h>
 #include <pharos/scene/texture.h>
 
+#include "front_side.h"
+
 namespace pharos {
 
 /// Declares `radiance` and `scale`, the common parameters of all lights on shapes.
@@ -39,9 +41,11 @@ class AreaLight final : public Light {
         scale_(scale),
         lobe_(lobe),
         shape_(*site.shape),
+        front_(shape_),
         object_(site.object) {}
 
   LightSample sample(Point3 from, Vec2 u) const override {
+    if (front_.excludes(from)) return {};
     ShapeSample on_shape = shape_.sample_from(from, u);
     on_shape.point.object = object_;
     const Vec3 d = on_shape.point.position - from;
@@ -56,7 +60,7 @@ class AreaLight final : public Light {
   }
 
   float pdf_point(Point3 from, const SurfacePoint& point) const override {
-    return shape_.pdf_from(from, point);
+    return front_.excludes(from) ? 0 : shape_.pdf_from(from, point);
   }
 
   Rgb radiance(const SurfacePoint& point, Vec3 direction) const override {
@@ -93,6 +97,7 @@ class AreaLight final : public Light {
   float scale_;
   Lobe lobe_;
   const Shape& shape_;
+  FrontSide front_;
   std::uint32_t object_;
 };
 

@@ -45,7 +45,7 @@ Bitmap::Bitmap(const Settings& settings) : settings_(settings) {
   for (int i = 0; i < 3; ++i) average_[i] = static_cast<float>(sums[i] / n);
 }
 
-Rgb Bitmap::evaluate(const SurfacePoint& point) const {
+Rgb Bitmap::value_at(const SurfacePoint& point) const {
   const float u = wrapped(point.uv.x * settings_.uv_scale.x);
   const float v = wrapped(point.uv.y * settings_.uv_scale.y);
   const float x = u * static_cast<float>(width_), y = (1 - v) * static_cast<float>(height_);

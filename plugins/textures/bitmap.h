@@ -45,7 +45,7 @@ class Bitmap final : public Texture {
   /// not finite.
   explicit Bitmap(const Settings& settings);
 
-  Rgb evaluate(const SurfacePoint& point) const override;
+  Rgb value_at(const SurfacePoint& point) const override;
   Rgb maximum() const override { return maximum_; }
   Rgb average() const override { return average_; }
 

@@ -20,7 +20,7 @@ void Checkerboard::Settings::describe(Schema<Settings>& s) {
   s.example("{ color0: [0.9, 0.1, 0.3], color1: 0, uv_scale: [4, 2.5] }");
 }
 
-Rgb Checkerboard::evaluate(const SurfacePoint& point) const {
+Rgb Checkerboard::value_at(const SurfacePoint& point) const {
   const bool same = in_upper_half(point.uv.x * settings_.uv_scale.x) ==
                     in_upper_half(point.uv.y * settings_.uv_scale.y);
   return same ? settings_.color0 : settings_.color1;

@@ -15,7 +15,7 @@ class Checkerboard final : public Texture {
   };
   explicit Checkerboard(const Settings& settings) : settings_(settings) {}
 
-  Rgb evaluate(const SurfacePoint& point) const override;
+  Rgb value_at(const SurfacePoint& point) const override;
   Rgb maximum() const override { return max(settings_.color0, settings_.color1); }
   Rgb average() const override { return 0.5f * (settings_.color0 + settings_.color1); }
 

@@ -11,9 +11,9 @@ class ConstantTexture final : public Texture {
     Rgb value{0.5f};
     static void describe(Schema<Settings>& s);
   };
-  explicit ConstantTexture(const Settings& settings) : value_(settings.value) {}
+  explicit ConstantTexture(const Settings& settings)
+      : Texture(settings.value), value_(settings.value) {}
 
-  Rgb evaluate(const SurfacePoint&) const override { return value_; }
   Rgb maximum() const override { return value_; }
   Rgb average() const override { return value_; }
 

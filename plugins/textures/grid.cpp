@@ -18,7 +18,7 @@ void GridTexture::Settings::describe(Schema<Settings>& s) {
   s.example("{ color0: [0.9, 0.8, 0.7], color1: 0, line_width: 0.1, uv_scale: [7, 3] }");
 }
 
-Rgb GridTexture::evaluate(const SurfacePoint& point) const {
+Rgb GridTexture::value_at(const SurfacePoint& point) const {
   const bool line =
       on_line(point.uv.x * settings_.uv_scale.x) || on_line(point.uv.y * settings_.uv_scale.y);
   return line ? settings_.color1 : settings_.color0;

@@ -17,7 +17,7 @@ class GridTexture final : public Texture {
   };
   explicit GridTexture(const Settings& settings) : settings_(settings) {}
 
-  Rgb evaluate(const SurfacePoint& point) const override;
+  Rgb value_at(const SurfacePoint& point) const override;
   Rgb maximum() const override { return max(settings_.color0, settings_.color1); }
   Rgb average() const override;
 

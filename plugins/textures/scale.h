@@ -15,7 +15,7 @@ class ScaleTexture final : public Texture {
   };
   explicit ScaleTexture(Settings settings);
 
-  Rgb evaluate(const SurfacePoint& point) const override {
+  Rgb value_at(const SurfacePoint& point) const override {
     return settings_.texture->evaluate(point) * settings_.factor->evaluate(point);
   }
   Rgb maximum() const override {

@@ -26,7 +26,7 @@ UvMapTexture::UvMapTexture(Settings settings) : settings_(std::move(settings)) {
   if (settings_.matrix.size() != 6) throw InputError("uv_map: 'matrix' must have six numbers");
 }
 
-Rgb UvMapTexture::evaluate(const SurfacePoint& point) const {
+Rgb UvMapTexture::value_at(const SurfacePoint& point) const {
   const std::vector<float>& m = settings_.matrix;
   SurfacePoint moved = point;
   moved.uv = {m[0] * point.uv.x + m[1] * point.uv.y + m[2],

@@ -18,7 +18,7 @@ class UvMapTexture final : public Texture {
   /// Throws InputError unless the matrix has six numbers.
   explicit UvMapTexture(Settings settings);
 
-  Rgb evaluate(const SurfacePoint& point) const override;
+  Rgb value_at(const SurfacePoint& point) const override;
   Rgb maximum() const override { return settings_.texture->maximum(); }
   Rgb average() const override { return settings_.texture->average(); }
 

@@ -127,7 +127,7 @@ TEST_CASE("same bits: focal guiding, with the learned model") {
 TEST_CASE("same bits: a scene of 300,000 triangles") {
   const test::TemporaryFolder folder;
   const std::filesystem::path mesh = folder / "field.ply";
-  const std::size_t triangles = write_sphere_field(mesh, 220, 27);
+  const std::size_t triangles = write_sphere_field(mesh, 220, 19);
   CHECK(triangles >= 300'000);
   check_same_bits(fmt::format(R"(
 scene:

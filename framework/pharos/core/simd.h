@@ -73,44 +73,74 @@ inline Float8 sqrt(const Float8& x) {
 #endif
 }
 
-/// Eight doubles in two registers. Operations on the two registers can run at the same time.
+/// Eight doubles, in one register if registers are wide enough. Otherwise they are in two, and
+/// operations on the two can run at the same time.
 struct Double8 {
-  Double4 low, high;
+#if defined(__AVX512F__)
+  using Part = double __attribute__((vector_size(64)));
+#else
+  using Part = Double4;
+#endif
+  static constexpr int kParts = sizeof(Part) == sizeof(Double4) ? 2 : 1;
+  Part parts[kParts];
 
+  /// Makes eight numbers. `compute(k)` returns part k.
+  template <class Compute>
+  static Double8 each(Compute&& compute) {
+    Double8 result;
+    for (int k = 0; k < kParts; ++k) result.parts[k] = compute(k);
+    return result;
+  }
   friend Double8 operator+(const Double8& a, const Double8& b) {
-    return {a.low + b.low, a.high + b.high};
+    return each([&](int k) { return a.parts[k] + b.parts[k]; });
   }
   friend Double8 operator-(const Double8& a, const Double8& b) {
-    return {a.low - b.low, a.high - b.high};
+    return each([&](int k) { return a.parts[k] - b.parts[k]; });
   }
   friend Double8 operator*(const Double8& a, const Double8& b) {
-    return {a.low * b.low, a.high * b.high};
+    return each([&](int k) { return a.parts[k] * b.parts[k]; });
   }
   friend Double8 operator/(const Double8& a, const Double8& b) {
-    return {a.low / b.low, a.high / b.high};
+    return each([&](int k) { return a.parts[k] / b.parts[k]; });
   }
-  friend Double8 operator-(const Double8& a) { return {-a.low, -a.high}; }
+  friend Double8 operator-(const Double8& a) {
+    return each([&](int k) { return -a.parts[k]; });
+  }
 };
 inline Double8 all_doubles8(double x) {
-  return {all4(x), all4(x)};
+  return Double8::each([&](int) { return x - Double8::Part{}; });
 }
 
+#if defined(__AVX512F__)
+/// The mask of all eight lanes. GCC 12 warns of the intrinsics without a mask, because their
+/// definitions use an uninitialized value (GCC bug 105593), and __builtin_convertvector() is
+/// slower.
+inline constexpr __mmask8 kAllLanes = 0xff;
+#endif
+
 inline Double8 widened(const Float8& x) {
-  return {widened(__builtin_shufflevector(x, x, 0, 1, 2, 3)),
-          widened(__builtin_shufflevector(x, x, 4, 5, 6, 7))};
+#if defined(__AVX512F__)
+  return {{_mm512_maskz_cvtps_pd(kAllLanes, x)}};
+#else
+  return {{widened(__builtin_shufflevector(x, x, 0, 1, 2, 3)),
+           widened(__builtin_shufflevector(x, x, 4, 5, 6, 7))}};
+#endif
 }
 
 /// Rounds numbers of double precision to single precision.
-inline Float8 rounded(const Double8& x) {
+inline Float4 rounded(const Double4& x) {
 #if defined(__AVX__)
-  return _mm256_set_m128(_mm256_cvtpd_ps(x.high), _mm256_cvtpd_ps(x.low));
+  return _mm256_cvtpd_ps(x);
 #else
-  Float8 r;
-  for (int i = 0; i < 4; ++i) {
-    r[i] = static_cast<float>(x.low[i]);
-    r[i + 4] = static_cast<float>(x.high[i]);
-  }
-  return r;
+  return __builtin_convertvector(x, Float4);
+#endif
+}
+inline Float8 rounded(const Double8& x) {
+#if defined(__AVX512F__)
+  return _mm512_maskz_cvtpd_ps(kAllLanes, x.parts[0]);
+#else
+  const Float4 low = rounded(x.parts[0]), high = rounded(x.parts[1]);
+  return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
 #endif
 }
 

@@ -9,7 +9,6 @@
 #else
 #include <embree3/rtcore.h>
 #endif
-#include <tbb/task_arena.h>
 
 #include <pharos/core/error.h>
 #include <pharos/scene/accelerator.h>
@@ -161,14 +160,6 @@ void attach(RTCScene scene, RTCGeometry geometry, std::size_t id) {
   rtcReleaseGeometry(geometry);
 }
 
-/// Embree's builders split their work by the concurrency of the task arena, and the order of
-/// primitives depends on the split. In an arena of one thread the hierarchy depends on the scene
-/// alone, and so does the choice between two coinciding surfaces.
-void commit(RTCScene scene) {
-  tbb::task_arena one_thread(1);
-  one_thread.execute([&] { rtcJoinCommitScene(scene); });
-}
-
 /// Stores the first error message of a build.
 void note_error(void* first, RTCError, const char* message) {
   auto& text = *static_cast<std::string*>(first);
@@ -200,7 +191,7 @@ Scene::Accelerator::Accelerator(const SceneParts& parts) : device_(rtcNewDevice(
   scene_ = scene_of(parts.objects);
   world_objects_ = static_cast<std::uint32_t>(geometries_.size());
   add_instances(parts);
-  commit(scene_.get());
+  rtcJoinCommitScene(scene_.get());
   rtcSetDeviceErrorFunction(device_.get(), nullptr, nullptr);
   if (!error.empty()) throw RunError("Embree cannot build the scene: " + error);
 }
@@ -227,7 +218,7 @@ void Scene::Accelerator::add_instances(const SceneParts& parts) {
   for (const SceneGroup& group : parts.groups) {
     first_objects.push_back(static_cast<std::uint32_t>(geometries_.size()));
     groups_.push_back(scene_of(group.objects));
-    commit(groups_.back().get());
+    rtcJoinCommitScene(groups_.back().get());
   }
   instances_.reserve(parts.instances.size());
   for (const SceneInstance& instance : parts.instances) {

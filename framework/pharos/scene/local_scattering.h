@@ -18,16 +18,25 @@ class LocalScattering {
   /// At a surface point. `towards_previous` is the unit direction to the previous path vertex.
   LocalScattering(const SurfacePoint& point, const Bsdf& bsdf, Vec3 towards_previous,
                   Transport transport)
+      : LocalScattering(point, bsdf, bsdf.events(), towards_previous, transport) {}
+  /// The same for a caller that knows `events`, which are those of the BSDF.
+  LocalScattering(const SurfacePoint& point, const Bsdf& bsdf, EventMask events,
+                  Vec3 towards_previous, Transport transport)
       : point_(&point),
         bsdf_(&bsdf),
         wo_(towards_previous),
         wo_local_(point.shading.to_local(towards_previous)),
-        transport_(transport) {}
+        transport_(transport),
+        events_(events) {}
 
   /// At a volume point with scattering coefficient `sigma_s` [1/m].
   LocalScattering(const PhaseFunction& phase, Rgb sigma_s, Vec3 towards_previous,
                   Transport transport)
-      : phase_(&phase), sigma_s_(sigma_s), wo_(towards_previous), transport_(transport) {}
+      : phase_(&phase),
+        sigma_s_(sigma_s),
+        wo_(towards_previous),
+        transport_(transport),
+        events_(mask_of(Event::scatter)) {}
 
   bool is_surface() const { return bsdf_ != nullptr; }
   /// The surface point. Surfaces only.
@@ -37,7 +46,7 @@ class LocalScattering {
   Transport transport() const { return transport_; }
 
   /// All events that are possible here.
-  EventMask events() const { return is_surface() ? bsdf_->events() : mask_of(Event::scatter); }
+  EventMask events() const { return events_; }
   bool purely_discrete() const { return is_empty(events() & EventMask::smooth); }
   /// The smallest roughness (GGX alpha) at surfaces; 1 - |mean cosine| in media.
   float roughness() const {
@@ -72,6 +81,7 @@ class LocalScattering {
   Vec3 wo_;
   Vec3 wo_local_;
   Transport transport_;
+  EventMask events_;
 };
 
 // Every vertex of every path calls these functions. They are inline, so that only the BSDF's own

@@ -66,23 +66,28 @@ Scene::Scene(SceneParts parts)
       accelerator_(std::make_unique<const Accelerator>(parts)),
       has_media_(medium_ != nullptr ||
                  std::any_of(objects_.begin(), objects_.end(), bounds_media)) {
+  for (const SceneObject& o : objects_) facts_.push_back(facts_of(o));
+  has_boundaries_ = std::any_of(facts_.begin(), facts_.end(),
+                                [](const ObjectFacts& facts) { return facts.is_boundary; });
   place_lights();
-  for (const SceneObject& o : objects_) object_is_boundary_.push_back(only_bounds_media(o) ? 1 : 0);
-  has_boundaries_ = std::count(object_is_boundary_.begin(), object_is_boundary_.end(), 1) > 0;
 }
 
 Scene::~Scene() = default;
 
+Scene::ObjectFacts Scene::facts_of(const SceneObject& object) {
+  return {.bsdf = object.bsdf.get(),
+          .events = object.bsdf->events(),
+          .is_boundary = only_bounds_media(object)};
+}
+
 void Scene::place_lights() {
   EmitterSite site = site_around(geometry_bounds_);
-  object_lights_.assign(objects_.size(), nullptr);
-  object_light_index_.assign(objects_.size(), -1);
   for (const SceneObject& object : objects_) {
     if (object.emitter != nullptr) {
       site.shape = object.shape.get();
       lights_.push_back(object.emitter->place(site));
-      object_lights_[site.object] = lights_.back().get();
-      object_light_index_[site.object] = static_cast<int>(lights_.size()) - 1;
+      facts_[site.object].light = lights_.back().get();
+      facts_[site.object].light_index = static_cast<int>(lights_.size()) - 1;
     }
     ++site.object;
   }

@@ -1,6 +1,9 @@
 #include <algorithm>
+#include <cstddef>
+#include <cstring>
 #include <limits>
 
+#include <pharos/core/simd.h>
 #include <pharos/scene/shape.h>
 
 namespace pharos {
@@ -80,11 +83,22 @@ float largest(Vec3 v) {
   return from + std::clamp(along, 0.0f, 1.0f) * edge - point;
 }
 
+/// Returns the vector at an offset within facts, followed by the float after it.
+inline Double4 widened_member(const TriangleFacts& f, std::size_t offset) {
+  static_assert(offsetof(TriangleFacts, edge2) + sizeof(Float4) <= sizeof(TriangleFacts));
+  Float4 four;
+  std::memcpy(&four, reinterpret_cast<const std::byte*>(&f) + offset, sizeof four);
+  return widened(four);
+}
+
 /// Returns the position of the weights `b`, or the nearest position that is at least `margin` times
 /// the triangle's error away from the edges.
 inline Point3 position_at(const TriangleFacts& f, const std::array<float, 3>& b, float margin) {
-  const Point3 position =
-      to_float(Vec3d(f.origin) + (b[1] * Vec3d(f.edge1) + double{b[2]} * Vec3d(f.edge2)));
+  // Each product is exact, because two floats have fewer digits than a double.
+  const Float4 sum = rounded(widened_member(f, offsetof(TriangleFacts, origin)) +
+                             (double{b[1]} * widened_member(f, offsetof(TriangleFacts, edge1)) +
+                              double{b[2]} * widened_member(f, offsetof(TriangleFacts, edge2))));
+  const Point3 position{sum[0], sum[1], sum[2]};
   if (!(std::min(b[0], std::min(b[1], b[2])) < margin * f.edge_weight)) return position;
   return position + step_off_edges(f, b, margin * f.error);
 }
@@ -134,7 +148,13 @@ Point3 TriangleMesh::position_off_edges(std::uint32_t triangle, float b1, float 
 }
 
 SurfacePoint TriangleMesh::surface_point(std::uint32_t triangle, float b1, float b2) const {
-  const TriangleFacts f = facts.empty() ? facts_of(triangle) : facts[triangle];
+  if (facts.empty()) [[unlikely]]
+    return surface_point(facts_of(triangle), triangle, b1, b2);
+  return surface_point(facts[triangle], triangle, b1, b2);
+}
+
+inline SurfacePoint TriangleMesh::surface_point(const TriangleFacts& f, std::uint32_t triangle,
+                                                float b1, float b2) const {
   const float b0 = 1 - b1 - b2;
   SurfacePoint point;
   point.position = position_at(f, {b0, b1, b2}, kEdgeMargin);

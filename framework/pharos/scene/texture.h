@@ -13,14 +13,28 @@ class Texture : public Component {
  public:
   static constexpr std::string_view contract_name = "texture";
 
-  /// The value at a surface point, which is finite. Reflectance must lie in [0, 1], radiance
-  /// [W/(m^2 sr)] in [0, inf).
-  virtual Rgb evaluate(const SurfacePoint& point) const = 0;
+  /// Returns the value at a surface point, which is finite. Reflectance must lie in [0, 1],
+  /// radiance [W/(m^2 sr)] in [0, inf). A constant texture costs no virtual call.
+  Rgb evaluate(const SurfacePoint& point) const {
+    return is_constant_ ? constant_ : value_at(point);
+  }
 
   /// The largest value of each channel over the texture, or a bound close to it; for range checks.
   virtual Rgb maximum() const = 0;
   /// The average over texture space; for light selection and albedo.
   virtual Rgb average() const = 0;
+
+ protected:
+  Texture() = default;
+  /// A texture with the same value everywhere.
+  explicit Texture(Rgb constant) : is_constant_(true), constant_(constant) {}
+
+ private:
+  /// Returns what evaluate() promises. Textures that vary override it.
+  virtual Rgb value_at(const SurfacePoint&) const { return constant_; }
+
+  bool is_constant_ = false;
+  Rgb constant_;
 };
 
 }  // namespace pharos

@@ -51,7 +51,7 @@ class FileTexture final : public Texture {
   explicit FileTexture(const Settings& settings) : settings_(settings) {
     if (!std::filesystem::exists(settings.file)) throw InputError("there is no such file");
   }
-  Rgb evaluate(const SurfacePoint&) const override {
+  Rgb value_at(const SurfacePoint&) const override {
     return Rgb(settings_.mode == Mode::odd ? 2.0f : settings_.dark ? 0.0f : 1.0f);
   }
   Rgb maximum() const override { return Rgb(1); }

@@ -238,7 +238,7 @@ class FaultyTexture final : public Texture {
  public:
   using Settings = FaultSettings<TextureFault>;
   explicit FaultyTexture(const Settings&) : fault_(Settings::planted) {}
-  Rgb evaluate(const SurfacePoint& p) const override {
+  Rgb value_at(const SurfacePoint& p) const override {
     if (fault_ == TextureFault::nan && std::abs(p.uv.x) > 1e20f)
       return Rgb(std::sqrt(-std::abs(p.uv.x)));
     const float x = p.uv.x - std::floor(p.uv.x);

@@ -15,7 +15,7 @@ class Gray : public Texture {
     static void describe(Schema<Settings>& s) { s.field("value", &Settings::value, "Value"); }
   };
   explicit Gray(Settings settings) : value_(settings.value) {}
-  Rgb evaluate(const SurfacePoint&) const override { return Rgb(value_); }
+  Rgb value_at(const SurfacePoint&) const override { return Rgb(value_); }
   Rgb maximum() const override { return Rgb(value_); }
   Rgb average() const override { return Rgb(value_); }
 

@@ -186,7 +186,7 @@ TEST_CASE("which of several coinciding surfaces is hit does not depend on the nu
                                     static_cast<std::size_t>(threads));
     tbb::task_arena arena(threads);
     std::unique_ptr<const Scene> scene;
-    arena.execute([&] { scene = std::make_unique<const Scene>(test::parts_of(soup(20'000, 3))); });
+    arena.execute([&] { scene = std::make_unique<const Scene>(test::parts_of(soup(3000, 40))); });
     RandomStream random(9);
     std::vector<std::uint32_t> objects;
     for (int i = 0; i < 5000; ++i) {

@@ -133,7 +133,8 @@ class CameraWalk {
     if (light.kind == VertexKind::environment) {
       light.point.position = scene_.environment_point(path.here().position(), light.direction);
     }
-    if (light.pdf > 0) add_light_sample(flight, scattering, guidance, emitter, index, light);
+    if (!(light.pdf > 0) || is_black(light.radiance)) return;
+    add_light_sample(flight, scattering, guidance, emitter, index, light);
   }
 
  private:

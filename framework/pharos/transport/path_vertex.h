@@ -28,7 +28,9 @@ struct PathVertex {
 
   /// Returns the scattering at a surface or volume vertex. The result refers to this vertex.
   LocalScattering scattering(const Scene& scene, Vec3 towards_previous, Transport transport) const {
-    if (is_on_surface()) return {surface, scene.bsdf(surface), towards_previous, transport};
+    if (is_on_surface()) {
+      return {surface, scene.bsdf(surface), scene.events(surface), towards_previous, transport};
+    }
     return {medium->phase_function(), medium->scattering(position()), towards_previous, transport};
   }
 

@@ -19,7 +19,7 @@ class UniformTexture final : public Texture {
     static void describe(Schema<Settings>& s);
   };
   explicit UniformTexture(const Settings& settings) : value_(settings.value) {}
-  Rgb evaluate(const SurfacePoint&) const override { return value_; }
+  Rgb value_at(const SurfacePoint&) const override { return value_; }
   Rgb maximum() const override { return value_; }
   Rgb average() const override { return value_; }
 

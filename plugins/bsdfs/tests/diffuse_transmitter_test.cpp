@@ -17,7 +17,7 @@ DiffuseTransmitter sheet(Rgb transmittance, Rgb reflectance) {
 /// A texture with one color on the left and another on the right.
 class Halves final : public Texture {
  public:
-  Rgb evaluate(const SurfacePoint& point) const override {
+  Rgb value_at(const SurfacePoint& point) const override {
     return point.uv.x < 0.5f ? Rgb(0.6f, 0.2f, 0) : Rgb(0.6f, 0.4f, 0);
   }
   Rgb maximum() const override { return {0.6f, 0.4f, 0}; }

@@ -21,7 +21,7 @@ namespace {
 class Ramp final : public Texture {
  public:
   explicit Ramp(Vec2 slope) : slope_(slope) {}
-  Rgb evaluate(const SurfacePoint& point) const override {
+  Rgb value_at(const SurfacePoint& point) const override {
     return Rgb(4 + slope_.x * point.uv.x + slope_.y * point.uv.y);
   }
   Rgb maximum() const override { return Rgb(8); }

@@ -14,7 +14,7 @@ namespace {
 /// A texture that is red in one half and blue in the other.
 class TwoColors : public Texture {
  public:
-  Rgb evaluate(const SurfacePoint& p) const override {
+  Rgb value_at(const SurfacePoint& p) const override {
     return p.uv.x < 0.5f ? Rgb(4, 0, 0) : Rgb(0, 0, 2);
   }
   Rgb maximum() const override { return {4, 0, 2}; }

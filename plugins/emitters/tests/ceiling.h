@@ -11,7 +11,7 @@ namespace pharos {
 class OneColor final : public Texture {
  public:
   explicit OneColor(Rgb color) : color_(color) {}
-  Rgb evaluate(const SurfacePoint&) const override { return color_; }
+  Rgb value_at(const SurfacePoint&) const override { return color_; }
   Rgb maximum() const override { return color_; }
   Rgb average() const override { return color_; }
 

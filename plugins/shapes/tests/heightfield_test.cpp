@@ -15,7 +15,7 @@ template <class Formula>
 class FormulaTexture : public Texture {
  public:
   explicit FormulaTexture(Formula formula) : formula_(formula) {}
-  Rgb evaluate(const SurfacePoint& point) const override {
+  Rgb value_at(const SurfacePoint& point) const override {
     const float v = formula_(point.uv);
     return {v - 0.1f, v, v + 0.1f};
   }

@@ -20,7 +20,7 @@ namespace {
 /// A texture of gentle hills.
 class Hills final : public Texture {
  public:
-  Rgb evaluate(const SurfacePoint& point) const override {
+  Rgb value_at(const SurfacePoint& point) const override {
     return Rgb(1 + 0.5f * std::sin(5 * point.uv.x) * std::cos(4 * point.uv.y));
   }
   Rgb maximum() const override { return Rgb(1.5f); }

@@ -10,7 +10,7 @@ namespace {
 /// A texture whose color is the coordinates of the point.
 class Coordinates final : public Texture {
  public:
-  Rgb evaluate(const SurfacePoint& point) const override {
+  Rgb value_at(const SurfacePoint& point) const override {
     return {point.uv.x, point.uv.y, point.position.z};
   }
   Rgb maximum() const override { return Rgb(7); }
