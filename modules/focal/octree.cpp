@@ -54,14 +54,14 @@ Octree::Octree(const Box& box, std::vector<Node> nodes)
     Warp& warp = warps_[i];
     double column[4], slice[2];
     for (unsigned k = 0; k < 4; ++k) {
-      warp.z[k] = static_cast<float>(ratio(m[k], m[k + 4]));
+      warp.z[k] = ratio(m[k], m[k + 4]);
       column[k] = m[k] + m[k + 4];
     }
     for (unsigned k = 0; k < 2; ++k) {
-      warp.y[k] = static_cast<float>(ratio(column[k], column[k + 2]));
+      warp.y[k] = ratio(column[k], column[k + 2]);
       slice[k] = column[k] + column[k + 2];
     }
-    warp.x = static_cast<float>(ratio(slice[0], slice[1]));
+    warp.x = ratio(slice[0], slice[1]);
     masses[i] = slice[0] + slice[1];
   }
   mass_ = masses[0] * box_.volume();

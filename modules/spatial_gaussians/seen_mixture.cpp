@@ -63,7 +63,7 @@ struct Components8 {
   void read(const SpatialGaussian* eight, Point3 origin) {
     const Components4 a(eight), b(eight + 4);
     const auto both = [](const Float4& low, const Float4& high) {
-      return Double8{widened(low), widened(high)};
+      return widened(__builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7));
     };
     weight = both(a.first.rows[0], b.first.rows[0]);
     mu.x = both(a.first.rows[1], b.first.rows[1]) - all_doubles8(origin.x);
