@@ -24,12 +24,22 @@ using Benchmark = std::function<std::vector<Measurement>(int repeats)>;
 std::vector<Measurement> bench_rays(int repeats);
 std::vector<Measurement> bench_threads(int repeats);
 std::vector<Measurement> bench_startup(int repeats);
-std::vector<Measurement> bench_guiding(int repeats);
 std::vector<Measurement> bench_samplers(int repeats);
 std::vector<Measurement> bench_growth(int repeats);
+std::vector<Measurement> bench_guiding_growth(int repeats);
 std::vector<Measurement> bench_aligned(int repeats);
 std::vector<Measurement> bench_gaussians(int repeats);
 std::vector<Measurement> bench_baselines(int repeats);
-std::vector<Measurement> bench_triplets(int repeats);
+
+/// A group with the name by which `--filter` selects it.
+struct Group {
+  std::string name;
+  Benchmark run;
+};
+/// Returns a group for every registered pair of a learner and a guider whose models match.
+std::vector<Group> guiding_groups();
+/// Returns a group for the parts of vertex triplets and one for each scene. Renders of the scenes
+/// have a budget of `seconds`.
+std::vector<Group> triplets_groups(double seconds);
 
 }  // namespace pharos::bench

@@ -15,9 +15,8 @@ std::string scene_entry(const std::string& name) {
   return fmt::format("scene: {}/{}/scene.yaml\n", PHAROS_SCENES, name);
 }
 
-SphereField::SphereField() {
-  testing::write_sphere_field(folder_ / kMesh, 220, 27);
-}
+SphereField::SphereField(int spheres, int rings)
+    : triangles_(testing::write_sphere_field(folder_ / kMesh, spheres, rings)) {}
 
 std::string SphereField::entry() const {
   return fmt::format(R"(

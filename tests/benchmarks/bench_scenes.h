@@ -10,16 +10,20 @@ namespace pharos::bench {
 /// its folder.
 std::string scene_entry(const std::string& name);
 
-/// A scene of 300,000 triangles: a field of spheres, lit by a lamp and a sky. The mesh file exists
-/// as long as this object.
+/// A field of spheres, lit by a lamp and a sky. The mesh file exists as long as this object.
 class SphereField {
  public:
-  SphereField();
+  /// A field of 300,000 triangles.
+  SphereField() : SphereField(220, 19) {}
+  /// A field of spheres with 4 * `rings` * (`rings` - 1) triangles each.
+  SphereField(int spheres, int rings);
   /// Returns the entry `scene: …` of a config.
   std::string entry() const;
+  std::size_t triangles() const { return triangles_; }
 
  private:
   test::TemporaryFolder folder_;
+  std::size_t triangles_;
 };
 
 }  // namespace pharos::bench

@@ -4,6 +4,7 @@
 // each.
 
 #include <cstdio>
+#include <memory>
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>
@@ -87,9 +88,10 @@ std::vector<Measurement> measure_answers(const GuidePair& pair, const Trained& t
   return {pdf, sample, query, allocations};
 }
 
-std::vector<Measurement> measure_render(const GuidePair& pair, const std::string& scene,
+/// `ending` is added to the names of the figures.
+std::vector<Measurement> measure_render(const GuidePair& pair, const std::string& ending,
                                         const Trained& trained, int repeats) {
-  const auto named = [&](const char* what) { return pair.name + "." + what + "." + scene; };
+  const auto named = [&](const char* what) { return pair.name + "." + what + ending; };
   const RenderTimes& times = trained.result().times;
   const Measurement share{
       named("update_share"), "1", {times.update / (times.training + times.update)}};
@@ -116,9 +118,23 @@ std::vector<Measurement> measure_pair(const GuidePair& pair, const SphereField& 
   for (const auto& [name, entry] : scenes) {
     const Trained trained(pair, entry, registry);
     if (all.empty()) add(measure_answers(pair, trained, repeats));
-    add(measure_render(pair, name, trained, repeats));
+    add(measure_render(pair, "." + name, trained, repeats));
   }
   return all;
+}
+
+/// Returns nothing, and says why, for a pair that cannot be measured.
+std::vector<Measurement> measure_or_leave_out(const GuidePair& pair, const Registry& registry,
+                                              int repeats) {
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, kThreads);
+  tbb::task_arena arena(kThreads);
+  const SphereField field;
+  try {
+    return arena.execute([&] { return measure_pair(pair, field, registry, repeats); });
+  } catch (const Error& e) {
+    fmt::print(stderr, "{} is left out: {}\n", pair.name, e.what());
+    return {};
+  }
 }
 
 /// Measures how the cost of focal guiding grows as its octrees become finer (Rath et al. 2023, fig.
@@ -126,12 +142,12 @@ std::vector<Measurement> measure_pair(const GuidePair& pair, const SphereField& 
 std::vector<Measurement> measure_growth(const Registry& registry, int repeats) {
   std::vector<Measurement> all;
   for (const char* gamma : {"1e-1", "1e-2", "1e-3", "1e-4", "1e-5"}) {
-    const GuidePair pair{.name = fmt::format("focal.gamma-{}", gamma),
+    const GuidePair pair{.name = fmt::format("growth.focal-gamma.{}", gamma),
                          .learner = fmt::format("{{ type: focal, split_threshold: {} }}", gamma),
                          .guider = "focal"};
     const Trained trained(pair, scene_entry(kGrowthScene), registry);
-    for (const auto& some : {measure_answers(pair, trained, repeats),
-                             measure_render(pair, kGrowthScene, trained, repeats)}) {
+    for (const auto& some :
+         {measure_answers(pair, trained, repeats), measure_render(pair, "", trained, repeats)}) {
       all.insert(all.end(), some.begin(), some.end());
     }
   }
@@ -140,29 +156,22 @@ std::vector<Measurement> measure_growth(const Registry& registry, int repeats) {
 
 }  // namespace
 
-std::vector<Measurement> bench_growth(int repeats) {
+std::vector<Measurement> bench_guiding_growth(int repeats) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, kThreads);
   tbb::task_arena arena(kThreads);
   const Registry registry = load_default_modules();
   return arena.execute([&] { return measure_growth(registry, repeats); });
 }
 
-std::vector<Measurement> bench_guiding(int repeats) {
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, kThreads);
-  tbb::task_arena arena(kThreads);
-  const Registry registry = load_default_modules();
-  const SphereField field;
-  std::vector<Measurement> all;
-  for (const GuidePair& pair : guide_pairs(registry)) {
-    try {
-      arena.execute([&] {
-        for (Measurement& m : measure_pair(pair, field, registry, repeats)) all.push_back(m);
-      });
-    } catch (const Error& e) {
-      fmt::print(stderr, "{} is left out: {}\n", pair.name, e.what());
-    }
+std::vector<Group> guiding_groups() {
+  const auto registry = std::make_shared<const Registry>(load_default_modules());
+  std::vector<Group> groups;
+  for (const GuidePair& pair : guide_pairs(*registry)) {
+    groups.push_back({"guiding." + pair.name, [registry, pair](int repeats) {
+                        return measure_or_leave_out(pair, *registry, repeats);
+                      }});
   }
-  return all;
+  return groups;
 }
 
 }  // namespace pharos::bench

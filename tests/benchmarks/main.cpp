@@ -12,6 +12,7 @@
 #include <pharos/core/error.h>
 
 #include "bench.h"
+#include "growth_plots.h"
 #include "results_file.h"
 
 namespace pharos::bench {
@@ -35,7 +36,9 @@ struct Options {
   std::string json;
   std::string compare;
   std::string filter;
+  std::string plots;
   int repeats = 5;
+  double training_seconds = 10;
 };
 
 std::string line(const Measurement& m) {
@@ -43,15 +46,22 @@ std::string line(const Measurement& m) {
                      m.unit, m.low(), m.high(), m.runs.size());
 }
 
+std::vector<Group> all_groups(const Options& options) {
+  std::vector<Group> groups{{"startup", bench_startup},    {"rays", bench_rays},
+                            {"threads", bench_threads},    {"samplers", bench_samplers},
+                            {"growth", bench_growth},      {"guiding_growth", bench_guiding_growth},
+                            {"aligned", bench_aligned},    {"gaussians", bench_gaussians},
+                            {"baselines", bench_baselines}};
+  for (const auto& more : {guiding_groups(), triplets_groups(options.training_seconds)}) {
+    groups.insert(groups.end(), more.begin(), more.end());
+  }
+  return groups;
+}
+
 int run(const Options& options) {
-  const std::vector<std::pair<std::string, Benchmark>> benchmarks{
-      {"startup", bench_startup},  {"rays", bench_rays},           {"threads", bench_threads},
-      {"guiding", bench_guiding},  {"samplers", bench_samplers},   {"growth", bench_growth},
-      {"aligned", bench_aligned},  {"gaussians", bench_gaussians}, {"baselines", bench_baselines},
-      {"triplets", bench_triplets}};
   const OldResults old = options.compare.empty() ? OldResults() : read_results(options.compare);
   std::vector<Measurement> all;
-  for (const auto& [name, benchmark] : benchmarks) {
+  for (const auto& [name, benchmark] : all_groups(options)) {
     if (!options.filter.empty() && name.find(options.filter) == std::string::npos) continue;
     const auto start = std::chrono::steady_clock::now();
     for (Measurement& m : benchmark(options.repeats)) {
@@ -63,6 +73,7 @@ int run(const Options& options) {
     fmt::print(stderr, "group {}: {:.0f} s\n", name, taken.count());
   }
   if (!options.json.empty()) write_results(options.json, all);
+  if (!options.plots.empty()) write_growth_plots(options.plots, all);
   return 0;
 }
 
@@ -78,8 +89,14 @@ int main(int argc, char** argv) {
                  "results that --json has written")
       ->check(CLI::ExistingFile);
   app.add_option("--filter", options.filter, "Only groups whose name contains this");
+  app.add_option("--plots", options.plots,
+                 "Draw the figures named growth.PARAMETER.VALUE.FIGURE as SVG files in this folder")
+      ->check(CLI::ExistingDirectory);
   app.add_option("--repeats", options.repeats, "How often to measure each figure")
       ->check(CLI::Range(1, 100));
+  app.add_option("--training-seconds", options.training_seconds,
+                 "Budget of each render of vertex triplets, training included [s]")
+      ->check(CLI::PositiveNumber);
   CLI11_PARSE(app, argc, argv);
   try {
     return pharos::bench::run(options);

@@ -71,7 +71,7 @@ std::vector<Measurement> bench_scene(const std::string& name, const std::string&
 
 const std::string kPath = R"(
 film: { width: 256, height: 256, filter: box }
-budget: { spp: 64 }
+budget: { spp: 32 }
 sampler: independent
 integrator: { type: path, max_depth: 10, roulette: off }
 )";

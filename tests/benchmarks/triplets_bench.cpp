@@ -1,9 +1,10 @@
 // Costs of vertex triplets: the time of one step of expectation-maximization, and the time of a
-// guide's answers by the number of components, both on one thread. Renders of half a minute, on two
-// threads, give the share of learning in training, rays per second relative to an unguided render,
+// guide's answers by the number of components, both on one thread. Renders on two threads
+// give the share of learning in training, rays per second relative to an unguided render,
 // and memory, in scenes for which the method was made.
 
 #include <chrono>
+#include <memory>
 #include <vertex_triplets/expectation_maximization.h>
 #include <vertex_triplets/guider.h>
 #include <vertex_triplets/model.h>
@@ -113,18 +114,19 @@ std::vector<Measurement> answers(const Registry& registry, int count, int repeat
   return {query, sample, pdf, allocations};
 }
 
-/// Measures shares and sizes of a render of half a minute.
-std::vector<Measurement> render(const std::string& scene, const Registry& registry, int repeats) {
+/// Measures shares and sizes of a render with a budget of `seconds`.
+std::vector<Measurement> render(const std::string& scene, double seconds, const Registry& registry,
+                                int repeats) {
   const std::string config = fmt::format(R"({}
 film: {{ width: 240, height: 160, filter: box }}
-budget: {{ seconds: 30 }}
+budget: {{ seconds: {} }}
 sampler: sobol
 integrator:
   type: path
   max_depth: 12
   guiding: {{ learner: vertex_triplets, guider: vertex_triplets, training: {{ schedule: geometric, images: discard }} }}
 )",
-                                         scene_entry(scene));
+                                         scene_entry(scene), seconds);
   const LoadedConfig loaded = build_render_config(parse_yaml(config, "benchmark"), registry);
   RenderJob job(loaded.config);
   const RenderResult result = job.run();
@@ -152,19 +154,26 @@ integrator:
 
 }  // namespace
 
-std::vector<Measurement> bench_triplets(int repeats) {
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, kThreads);
-  tbb::task_arena arena(kThreads);
-  const Registry registry = load_default_modules();
-  std::vector<Measurement> all{em_step(repeats)};
-  const auto add = [&](const std::vector<Measurement>& some) {
-    all.insert(all.end(), some.begin(), some.end());
-  };
-  for (const int count : {8, 32, 128}) add(answers(registry, count, repeats));
+std::vector<Group> triplets_groups(double seconds) {
+  const auto registry = std::make_shared<const Registry>(load_default_modules());
+  std::vector<Group> groups{{"triplets.parts", [registry](int repeats) {
+                               std::vector<Measurement> all{em_step(repeats)};
+                               for (const int count : {8, 32, 128}) {
+                                 for (Measurement& m : answers(*registry, count, repeats)) {
+                                   all.push_back(std::move(m));
+                                 }
+                               }
+                               return all;
+                             }}};
   for (const char* scene : {"metalwork", "mirror-chamber", "pool", "haze", "volume-caustics"}) {
-    arena.execute([&] { add(render(scene, registry, repeats)); });
+    groups.push_back(
+        {fmt::format("triplets.{}", scene), [=](int repeats) {
+           const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, kThreads);
+           tbb::task_arena arena(kThreads);
+           return arena.execute([&] { return render(scene, seconds, *registry, repeats); });
+         }});
   }
-  return all;
+  return groups;
 }
 
 }  // namespace pharos::bench

@@ -6,8 +6,8 @@
 namespace pharos::testing {
 
 /// Writes a binary PLY with `spheres` spheres at random positions in [-1,1]^3. Each sphere has
-/// about 2 * `rings` * (`rings` - 1) triangles. The same seed gives the same mesh. Returns the
-/// number of triangles.
+/// 4 * `rings` * (`rings` - 1) triangles. The same seed gives the same mesh. Returns the number of
+/// triangles.
 std::size_t write_sphere_field(const std::filesystem::path& path, int spheres, int rings,
                                std::uint64_t seed = 1);
 
