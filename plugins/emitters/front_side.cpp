@@ -13,8 +13,8 @@ FrontSide::FrontSide(const Shape& shape) {
   for (const TriangleFacts& f : mesh->facts) {
     if (max_component(abs(f.normal - first.normal)) > kSameNormal) return;
     for (const Vec3 corner : {Vec3{}, f.edge1, f.edge2}) {
-      const float off = dot(f.origin + corner - first.origin, first.normal);
-      error = std::max(error, std::abs(off) + f.error);
+      const Vec3 way = f.origin + corner - first.origin;
+      error = std::max(error, std::abs(dot(way, first.normal)) + f.error + rounding(way));
     }
   }
   point_ = first.origin;

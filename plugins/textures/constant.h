@@ -11,14 +11,11 @@ class ConstantTexture final : public Texture {
     Rgb value{0.5f};
     static void describe(Schema<Settings>& s);
   };
-  explicit ConstantTexture(const Settings& settings)
-      : Texture(settings.value), value_(settings.value) {}
+  explicit ConstantTexture(const Settings& settings) : Texture(settings.value) {}
 
-  Rgb maximum() const override { return value_; }
-  Rgb average() const override { return value_; }
-
- private:
-  Rgb value_;
+  Rgb value_at(const SurfacePoint&) const override { return constant(); }
+  Rgb maximum() const override { return constant(); }
+  Rgb average() const override { return constant(); }
 };
 
 }  // namespace pharos

@@ -1,8 +1,11 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
+
+#include <pharos/config/registry.h>
 
 namespace pharos::bench {
 
@@ -37,9 +40,9 @@ struct Group {
   Benchmark run;
 };
 /// Returns a group for every registered pair of a learner and a guider whose models match.
-std::vector<Group> guiding_groups();
+std::vector<Group> guiding_groups(const std::shared_ptr<const Registry>& registry);
 /// Returns a group for the parts of vertex triplets and one for each scene. Renders of the scenes
 /// have a budget of `seconds`.
-std::vector<Group> triplets_groups(double seconds);
+std::vector<Group> triplets_groups(const std::shared_ptr<const Registry>& registry, double seconds);
 
 }  // namespace pharos::bench

@@ -2,7 +2,6 @@
 // number of lights, and the depth of paths. Figures are named growth.PARAMETER.VALUE.FIGURE, so
 // that growth_plots.h can draw them.
 
-#include <array>
 #include <chrono>
 #include <fstream>
 

@@ -128,7 +128,7 @@ std::vector<Measurement> measure_or_leave_out(const GuidePair& pair, const Regis
                                               int repeats) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, kThreads);
   tbb::task_arena arena(kThreads);
-  const SphereField field;
+  static const SphereField field;
   try {
     return arena.execute([&] { return measure_pair(pair, field, registry, repeats); });
   } catch (const Error& e) {
@@ -163,8 +163,7 @@ std::vector<Measurement> bench_guiding_growth(int repeats) {
   return arena.execute([&] { return measure_growth(registry, repeats); });
 }
 
-std::vector<Group> guiding_groups() {
-  const auto registry = std::make_shared<const Registry>(load_default_modules());
+std::vector<Group> guiding_groups(const std::shared_ptr<const Registry>& registry) {
   std::vector<Group> groups;
   for (const GuidePair& pair : guide_pairs(*registry)) {
     groups.push_back({"guiding." + pair.name, [registry, pair](int repeats) {

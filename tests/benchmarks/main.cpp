@@ -5,10 +5,12 @@
 #include <chrono>
 #include <cstdio>
 #include <exception>
+#include <memory>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <pharos/config/module_loader.h>
 #include <pharos/core/error.h>
 
 #include "bench.h"
@@ -38,7 +40,7 @@ struct Options {
   std::string filter;
   std::string plots;
   int repeats = 5;
-  double training_seconds = 10;
+  double triplets_seconds = 10;
 };
 
 std::string line(const Measurement& m) {
@@ -52,7 +54,9 @@ std::vector<Group> all_groups(const Options& options) {
                             {"growth", bench_growth},      {"guiding_growth", bench_guiding_growth},
                             {"aligned", bench_aligned},    {"gaussians", bench_gaussians},
                             {"baselines", bench_baselines}};
-  for (const auto& more : {guiding_groups(), triplets_groups(options.training_seconds)}) {
+  const auto registry = std::make_shared<const Registry>(load_default_modules());
+  for (const auto& more :
+       {guiding_groups(registry), triplets_groups(registry, options.triplets_seconds)}) {
     groups.insert(groups.end(), more.begin(), more.end());
   }
   return groups;
@@ -94,7 +98,7 @@ int main(int argc, char** argv) {
       ->check(CLI::ExistingDirectory);
   app.add_option("--repeats", options.repeats, "How often to measure each figure")
       ->check(CLI::Range(1, 100));
-  app.add_option("--training-seconds", options.training_seconds,
+  app.add_option("--triplets-seconds", options.triplets_seconds,
                  "Budget of each render of vertex triplets, training included [s]")
       ->check(CLI::PositiveNumber);
   CLI11_PARSE(app, argc, argv);

@@ -89,9 +89,8 @@ scene:
   sensor: { type: perspective, fov: 40, to_world: { look_at: { origin: [0, 1.6, 5], target: [0, 0.8, 0], up: [0, 1, 0] } } }
 )";
 
-/// Six dark walls. The only lamp is behind one of them and faces away, so every light sample is
-/// black before a shadow ray is traced: the time of a vertex is the time of a radiance ray and of
-/// scattering.
+/// Six dark walls. The only lamp is behind one of them and faces away, so no shadow ray is traced:
+/// the time of a vertex is the time of a radiance ray and of scattering.
 const std::string kDarkRoom = R"(
 scene:
   materials: { wall: { type: diffuse, reflectance: [0.4, 0.3, 0.26] } }

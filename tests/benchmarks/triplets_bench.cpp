@@ -154,8 +154,8 @@ integrator:
 
 }  // namespace
 
-std::vector<Group> triplets_groups(double seconds) {
-  const auto registry = std::make_shared<const Registry>(load_default_modules());
+std::vector<Group> triplets_groups(const std::shared_ptr<const Registry>& registry,
+                                   double seconds) {
   std::vector<Group> groups{{"triplets.parts", [registry](int repeats) {
                                std::vector<Measurement> all{em_step(repeats)};
                                for (const int count : {8, 32, 128}) {

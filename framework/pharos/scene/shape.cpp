@@ -94,7 +94,8 @@ inline Double4 widened_member(const TriangleFacts& f, std::size_t offset) {
 /// Returns the position of the weights `b`, or the nearest position that is at least `margin` times
 /// the triangle's error away from the edges.
 inline Point3 position_at(const TriangleFacts& f, const std::array<float, 3>& b, float margin) {
-  // Each product is exact, because two floats have fewer digits than a double.
+  // Each product is exact, because it has at most 48 of the 53 digits of a double. Fused operations
+  // therefore give the same bits.
   const Float4 sum = rounded(widened_member(f, offsetof(TriangleFacts, origin)) +
                              (double{b[1]} * widened_member(f, offsetof(TriangleFacts, edge1)) +
                               double{b[2]} * widened_member(f, offsetof(TriangleFacts, edge2))));
@@ -109,6 +110,31 @@ Frame shading_frame(Vec3 interpolated, Vec3 normal) {
   const bool usable = side != 0 && size > 0 && std::isfinite(size);
   if (!usable) return Frame::from_normal(normal);
   return Frame::from_normal(std::copysign(1 / size, side) * interpolated);
+}
+
+/// Returns TriangleMesh::surface_point() for a triangle with these facts.
+inline SurfacePoint point_on(const TriangleMesh& mesh, const TriangleFacts& f,
+                             std::uint32_t triangle, float b1, float b2) {
+  const float b0 = 1 - b1 - b2;
+  SurfacePoint point;
+  point.position = position_at(f, {b0, b1, b2}, kEdgeMargin);
+  point.normal = f.normal;
+  point.error = f.error;
+  point.primitive = triangle;
+  point.uv = {b1, b2};
+  const std::vector<Vec3>& normals = mesh.normals;
+  const std::vector<Vec2>& uvs = mesh.uvs;
+  if (normals.empty() && uvs.empty()) {
+    point.shading = Frame::from_normal(f.normal);
+    return point;
+  }
+  const auto [i0, i1, i2] = mesh.triangles[triangle];
+  point.shading =
+      normals.empty()
+          ? Frame::from_normal(f.normal)
+          : shading_frame(b0 * normals[i0] + b1 * normals[i1] + b2 * normals[i2], f.normal);
+  if (!uvs.empty()) point.uv = b0 * uvs[i0] + b1 * uvs[i1] + b2 * uvs[i2];
+  return point;
 }
 
 }  // namespace
@@ -149,30 +175,8 @@ Point3 TriangleMesh::position_off_edges(std::uint32_t triangle, float b1, float 
 
 SurfacePoint TriangleMesh::surface_point(std::uint32_t triangle, float b1, float b2) const {
   if (facts.empty()) [[unlikely]]
-    return surface_point(facts_of(triangle), triangle, b1, b2);
-  return surface_point(facts[triangle], triangle, b1, b2);
-}
-
-inline SurfacePoint TriangleMesh::surface_point(const TriangleFacts& f, std::uint32_t triangle,
-                                                float b1, float b2) const {
-  const float b0 = 1 - b1 - b2;
-  SurfacePoint point;
-  point.position = position_at(f, {b0, b1, b2}, kEdgeMargin);
-  point.normal = f.normal;
-  point.error = f.error;
-  point.primitive = triangle;
-  point.uv = {b1, b2};
-  if (normals.empty() && uvs.empty()) {
-    point.shading = Frame::from_normal(f.normal);
-    return point;
-  }
-  const auto [i0, i1, i2] = triangles[triangle];
-  point.shading =
-      normals.empty()
-          ? Frame::from_normal(f.normal)
-          : shading_frame(b0 * normals[i0] + b1 * normals[i1] + b2 * normals[i2], f.normal);
-  if (!uvs.empty()) point.uv = b0 * uvs[i0] + b1 * uvs[i1] + b2 * uvs[i2];
-  return point;
+    return point_on(*this, facts_of(triangle), triangle, b1, b2);
+  return point_on(*this, facts[triangle], triangle, b1, b2);
 }
 
 UvTangents TriangleMesh::uv_tangents(std::uint32_t triangle) const {

@@ -59,8 +59,6 @@ struct TriangleMesh {
 
  private:
   TriangleFacts facts_of(std::uint32_t triangle) const;
-  SurfacePoint surface_point(const TriangleFacts& f, std::uint32_t triangle, float b1,
-                             float b2) const;
 };
 
 /// The hit of a ray on a primitive.

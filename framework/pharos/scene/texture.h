@@ -26,12 +26,13 @@ class Texture : public Component {
 
  protected:
   Texture() = default;
-  /// A texture with the same value everywhere.
+  /// A texture with the same value everywhere, which constant() returns.
   explicit Texture(Rgb constant) : is_constant_(true), constant_(constant) {}
+  Rgb constant() const { return constant_; }
 
  private:
-  /// Returns what evaluate() promises. Textures that vary override it.
-  virtual Rgb value_at(const SurfacePoint&) const { return constant_; }
+  /// Returns what evaluate() promises.
+  virtual Rgb value_at(const SurfacePoint& point) const = 0;
 
   bool is_constant_ = false;
   Rgb constant_;

@@ -22,7 +22,7 @@ class Stripes final : public pharos::Texture {
   };
   explicit Stripes(Settings settings) : settings_(settings) {}
 
-  pharos::Rgb evaluate(const pharos::SurfacePoint& point) const override {
+  pharos::Rgb value_at(const pharos::SurfacePoint& point) const override {
     const float stripe = std::floor(point.uv.x * settings_.count);
     const bool odd = std::fmod(stripe, 2.0f) != 0;
     return odd ? settings_.second : settings_.first;
