@@ -71,6 +71,11 @@ double round_number(double value, bool up) {
   return power * (up ? *found : *(found - 1));
 }
 
+/// Returns a number with all digits before the point, or with two digits if it is large or small.
+std::string short_number(double value) {
+  return value >= 1 && value < 1e5 ? fmt::format("{:.0f}", value) : fmt::format("{:.2g}", value);
+}
+
 std::string text(double x, double y, const char* anchor, const std::string& content) {
   return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>\n", x, y, anchor,
                      content);
@@ -101,7 +106,7 @@ std::string svg_of(const Curve& curve) {
   for (const Point& p : curve.points) {
     way += fmt::format("{:.1f},{:.1f} ", x.at(p.x), y.at(p.y));
     svg += line(x.at(p.x), kBottom, x.at(p.x), kBottom + 4, "#444");
-    svg += text(x.at(p.x), kBottom + 18, "middle", fmt::format("{:.2g}", p.x));
+    svg += text(x.at(p.x), kBottom + 18, "middle", short_number(p.x));
     svg += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3\" fill=\"#1f5fa8\"/>\n",
                        x.at(p.x), y.at(p.y));
   }

@@ -40,7 +40,7 @@ struct Options {
   std::string filter;
   std::string plots;
   int repeats = 5;
-  double triplets_seconds = 10;
+  double triplets_seconds = 6;
 };
 
 std::string line(const Measurement& m) {

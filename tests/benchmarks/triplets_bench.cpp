@@ -3,6 +3,7 @@
 // give the share of learning in training, rays per second relative to an unguided render,
 // and memory, in scenes for which the method was made.
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <vertex_triplets/expectation_maximization.h>
@@ -135,7 +136,7 @@ integrator:
   const auto& guider = *loaded.config.integrator->guiding()->resolved_methods().front().guider;
   const GuidingFrame frame = conformance::frame_of(guider, result.model);
   const RenderRate rate(loaded.config, job.scene());
-  const GuidedSpeed speed = guided_speed(rate, frame, repeats);
+  const GuidedSpeed speed = guided_speed(rate, frame, std::min(repeats, 3));
   const ModelInfo info = result.model->info();
   std::vector<Measurement> all{
       {named("learn_share"),

@@ -9,6 +9,7 @@
 #else
 #include <embree3/rtcore.h>
 #endif
+#include <tbb/task_arena.h>
 
 #include <pharos/core/error.h>
 #include <pharos/scene/accelerator.h>
@@ -160,6 +161,14 @@ void attach(RTCScene scene, RTCGeometry geometry, std::size_t id) {
   rtcReleaseGeometry(geometry);
 }
 
+/// Embree flushes denormal numbers to zero while it builds. A thread's own arena would take this
+/// mode over if it were first used here, and keep it for all later tasks of the thread. The results
+/// of a render would then depend on what was run before. A separate arena keeps the mode to itself.
+void commit(RTCScene scene) {
+  tbb::task_arena arena;
+  arena.execute([&] { rtcJoinCommitScene(scene); });
+}
+
 /// Stores the first error message of a build.
 void note_error(void* first, RTCError, const char* message) {
   auto& text = *static_cast<std::string*>(first);
@@ -191,7 +200,7 @@ Scene::Accelerator::Accelerator(const SceneParts& parts) : device_(rtcNewDevice(
   scene_ = scene_of(parts.objects);
   world_objects_ = static_cast<std::uint32_t>(geometries_.size());
   add_instances(parts);
-  rtcJoinCommitScene(scene_.get());
+  commit(scene_.get());
   rtcSetDeviceErrorFunction(device_.get(), nullptr, nullptr);
   if (!error.empty()) throw RunError("Embree cannot build the scene: " + error);
 }
@@ -218,7 +227,7 @@ void Scene::Accelerator::add_instances(const SceneParts& parts) {
   for (const SceneGroup& group : parts.groups) {
     first_objects.push_back(static_cast<std::uint32_t>(geometries_.size()));
     groups_.push_back(scene_of(group.objects));
-    rtcJoinCommitScene(groups_.back().get());
+    commit(groups_.back().get());
   }
   instances_.reserve(parts.instances.size());
   for (const SceneInstance& instance : parts.instances) {

@@ -1,7 +1,12 @@
+#include <atomic>
+#include <limits>
+#include <thread>
+
 #include <doctest/doctest.h>
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
+#include <pharos/core/parallel.h>
 #include <pharos/scene/scene.h>
 
 #include "scene_fixtures.h"
@@ -199,6 +204,20 @@ TEST_CASE("which of several coinciding surfaces is hit does not depend on the nu
   const std::vector<std::uint32_t> alone = objects_hit(1);
   CHECK(alone == objects_hit(2));
   CHECK(alone == objects_hit(7));
+}
+
+TEST_CASE("building a scene does not make later tasks flush denormal numbers") {
+  // A new thread, because the first use of TBB by a thread decides about its tasks.
+  std::atomic<int> flushed = 0;
+  std::thread([&] {
+    const Scene scene(test::parts_of(soup(20'000, 1)));
+    parallel_for(200, [&](std::size_t) {
+      volatile float small = std::numeric_limits<float>::min();
+      small = small / 2;
+      if (small == 0) ++flushed;
+    });
+  }).join();
+  CHECK(flushed == 0);
 }
 
 TEST_CASE("lights stand where their emitters were given, numbered objects first") {
