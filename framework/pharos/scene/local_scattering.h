@@ -19,7 +19,7 @@ class LocalScattering {
   LocalScattering(const SurfacePoint& point, const Bsdf& bsdf, Vec3 towards_previous,
                   Transport transport)
       : LocalScattering(point, bsdf, bsdf.events(), towards_previous, transport) {}
-  /// The same for a caller that knows `events`, which are those of the BSDF.
+  /// The same, for a caller that already knows Bsdf::events().
   LocalScattering(const SurfacePoint& point, const Bsdf& bsdf, EventMask events,
                   Vec3 towards_previous, Transport transport)
       : point_(&point),

@@ -109,7 +109,7 @@ class Scene {
 
  private:
   class Accelerator;
-  /// What paths ask of the object of every hit, in half a cache line.
+  /// The properties of an object that paths need at every hit, in half a cache line.
   struct alignas(32) ObjectFacts {
     const Bsdf* bsdf;
     const Light* light = nullptr;

@@ -16,7 +16,6 @@ struct Vec3d {
   explicit Vec3d(Vec3 v) : x(v.x), y(v.y), z(v.z) {}
   Vec3d(double a, double b, double c) : x(a), y(b), z(c) {}
 
-  friend Vec3d operator+(Vec3d a, Vec3d b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
   friend Vec3d operator-(Vec3d a, Vec3d b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
   friend Vec3d operator*(double s, Vec3d v) { return {s * v.x, s * v.y, s * v.z}; }
 };
