@@ -30,6 +30,7 @@ using namespace vertex_triplets;
 
 constexpr std::size_t kVertices = 20'000;
 constexpr int kThreads = 2;
+constexpr int kMostRenders = 3;  ///< runs of whole renders, which take seconds each
 
 float between(float low, float high, RandomStream& random) {
   return low + (high - low) * random.next_1d();
@@ -136,7 +137,7 @@ integrator:
   const auto& guider = *loaded.config.integrator->guiding()->resolved_methods().front().guider;
   const GuidingFrame frame = conformance::frame_of(guider, result.model);
   const RenderRate rate(loaded.config, job.scene());
-  const GuidedSpeed speed = guided_speed(rate, frame, std::min(repeats, 3));
+  const GuidedSpeed speed = guided_speed(rate, frame, std::min(repeats, kMostRenders));
   const ModelInfo info = result.model->info();
   std::vector<Measurement> all{
       {named("learn_share"),

@@ -161,9 +161,9 @@ void attach(RTCScene scene, RTCGeometry geometry, std::size_t id) {
   rtcReleaseGeometry(geometry);
 }
 
-/// Embree flushes denormal numbers to zero while it builds. A thread's own arena would take this
-/// mode over if it were first used here, and keep it for all later tasks of the thread. The results
-/// of a render would then depend on what was run before. A separate arena keeps the mode to itself.
+/// Embree flushes denormal numbers to zero while it builds. If the first TBB task of a thread ran
+/// in the build, TBB would use this mode for all later tasks of the thread, and the bits of a
+/// render would depend on whether TBB was used before. A separate arena prevents this.
 void commit(RTCScene scene) {
   tbb::task_arena arena;
   arena.execute([&] { rtcJoinCommitScene(scene); });
