@@ -51,21 +51,14 @@ DistanceSample HomogeneousMedium::sample(const Ray& ray, Rgb shares, float u_cha
   return {t, t < ray.t_max};
 }
 
-float HomogeneousMedium::scatter_pdf(const Ray&, Rgb shares, float t) const {
-  if (!scatters()) return 0;
-  float sum = 0;
-  for (int c = 0; c < 3; ++c) sum += shares[c] * extinction_[c] * left_after(extinction_[c], t);
-  return sum;
-}
-
-float HomogeneousMedium::pass_probability(const Ray& ray, Rgb shares, float t) const {
-  if (!scatters()) return 1;
-  const Rgb left = shares * transmittance(ray, t);
-  return left.r + left.g + left.b;
-}
-
-Rgb HomogeneousMedium::transmittance(const Ray&, float t) const {
-  return {left_after(extinction_.r, t), left_after(extinction_.g, t), left_after(extinction_.b, t)};
+MediumLeg HomogeneousMedium::leg(const Ray&, Rgb shares, float t) const {
+  MediumLeg result{.transmittance = {left_after(extinction_.r, t), left_after(extinction_.g, t),
+                                     left_after(extinction_.b, t)}};
+  if (!scatters()) return result;
+  const Rgb left = shares * result.transmittance;
+  result.pass_probability = left.r + left.g + left.b;
+  result.scatter_pdf = left.r * extinction_.r + left.g * extinction_.g + left.b * extinction_.b;
+  return result;
 }
 
 }  // namespace pharos

@@ -18,9 +18,7 @@ class HomogeneousMedium final : public Medium {
 
   DistanceSample sample(const Ray& ray, Rgb shares, float u_channel,
                         float u_distance) const override;
-  float scatter_pdf(const Ray& ray, Rgb shares, float t) const override;
-  float pass_probability(const Ray& ray, Rgb shares, float t) const override;
-  Rgb transmittance(const Ray& ray, float t) const override;
+  MediumLeg leg(const Ray& ray, Rgb shares, float t) const override;
   Rgb scattering(Point3) const override { return scattering_; }
   const PhaseFunction& phase_function() const override { return *phase_; }
 

@@ -32,11 +32,10 @@ class GrayMedium final : public Medium {
     const float t = -std::log1p(-u) / sigma_;
     return {t, t < ray.t_max};
   }
-  float scatter_pdf(const Ray&, Rgb, float t) const override {
-    return sigma_ * std::exp(-sigma_ * t);
+  MediumLeg leg(const Ray&, Rgb, float t) const override {
+    const float left = std::exp(-sigma_ * t);
+    return {Rgb(left), left, sigma_ * left};
   }
-  float pass_probability(const Ray&, Rgb, float t) const override { return std::exp(-sigma_ * t); }
-  Rgb transmittance(const Ray&, float t) const override { return Rgb(std::exp(-sigma_ * t)); }
   Rgb scattering(Point3) const override { return Rgb(sigma_); }
   const PhaseFunction& phase_function() const override { return phase_; }
 

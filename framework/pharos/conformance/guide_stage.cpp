@@ -201,7 +201,7 @@ ResolvedVertex StageVertex::surface_along(Vec3 direction, Event event) const {
     vertex.position = scene_.environment_point(ray.origin, direction);
   }
   if (medium_ != nullptr)
-    vertex.medium_density = medium_->pass_probability(ray, channel_shares(Rgb(1)), distance);
+    vertex.medium_density = medium_->leg(ray, channel_shares(Rgb(1)), distance).pass_probability;
   return vertex;
 }
 

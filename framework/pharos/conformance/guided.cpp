@@ -47,7 +47,7 @@ ResolvedVertex Guided::stopped(ResolvedVertex v, float distance) const {
   v.distance = distance;
   v.position = ray.at(distance);
   v.kind = VertexKind::volume;
-  v.medium_density = vertex_.medium()->scatter_pdf(ray, channel_shares(Rgb(1)), distance);
+  v.medium_density = vertex_.medium()->leg(ray, channel_shares(Rgb(1)), distance).scatter_pdf;
   return v;
 }
 

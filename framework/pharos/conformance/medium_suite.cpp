@@ -48,14 +48,14 @@ float scale_of(const Medium& medium) {
   return distances[500] < ray.t_max && distances[500] > 0 ? distances[500] : 1;
 }
 
-/// Returns the integral of scatter_pdf() over [a, b] by Simpson's rule.
+/// Returns the integral of MediumLeg::scatter_pdf over [a, b] by Simpson's rule.
 double scattered_between(const Medium& medium, const Ray& ray, Rgb shares, double a, double b) {
   constexpr int kHalves = 16;
   const double h = (b - a) / (2 * kHalves);
   double sum = 0;
   for (int i = 0; i <= 2 * kHalves; ++i) {
     const double weight = i == 0 || i == 2 * kHalves ? 1 : i % 2 == 1 ? 4 : 2;
-    sum += weight * medium.scatter_pdf(ray, shares, static_cast<float>(a + i * h));
+    sum += weight * medium.leg(ray, shares, static_cast<float>(a + i * h)).scatter_pdf;
   }
   return sum * h / 3;
 }
@@ -84,7 +84,7 @@ void check_distances(const Medium& medium, Suite& suite) {
       expected[static_cast<std::size_t>(i)] =
           kDraws * scattered_between(medium, ray, shares, i * step, (i + 1) * step);
     }
-    expected[kBins] = kDraws * double{medium.pass_probability(ray, shares, ray.t_max)};
+    expected[kBins] = kDraws * double{medium.leg(ray, shares, ray.t_max).pass_probability};
     double total = 0;
     for (double& e : expected) total += e;
     integral.expect(std::abs(total / kDraws - 1) < 2e-3, [&] {
@@ -95,6 +95,10 @@ void check_distances(const Medium& medium, Suite& suite) {
   }
 }
 
+Rgb transmittance(const Medium& medium, const Ray& ray, float t) {
+  return medium.leg(ray, stage_shares(0), t).transmittance;
+}
+
 /// Checks that transmittance is a fraction in each channel that multiplies along a ray.
 void check_transmittance(const Medium& medium, Suite& suite) {
   Check& check = suite.check("transmittance");
@@ -103,10 +107,10 @@ void check_transmittance(const Medium& medium, Suite& suite) {
     const float a = scale * 0.1f * static_cast<float>(i), b = scale * 0.7f;
     const Ray whole = stage_ray(i, a + b);
     const Ray rest{whole.at(a), whole.direction, b};
-    const Rgb left = medium.transmittance(whole, a + b);
+    const Rgb left = transmittance(medium, whole, a + b);
     check.expect(is_non_negative(left) && max_component(left) <= 1.0001f,
                  [&] { return text(whole) + ": not a share of the light"; });
-    const Rgb product = medium.transmittance(whole, a) * medium.transmittance(rest, b);
+    const Rgb product = transmittance(medium, whole, a) * transmittance(medium, rest, b);
     check.expect(close(left, product, 1e-3, 1e-6), [&] {
       return fmt::format("{}: what is left is not the product of both parts", text(whole));
     });
@@ -120,8 +124,9 @@ void check_support(const Medium& medium, Suite& suite) {
   for (int i = 0; i < 20; ++i) {
     const Ray ray = stage_ray(i, 3 * scale);
     const float t = ray.t_max * (static_cast<float>(i) + 0.5f) / 20;
-    const bool scatters = !is_black(medium.scattering(ray.at(t)) * medium.transmittance(ray, t));
-    check.expect(!scatters || medium.scatter_pdf(ray, stage_shares(0), t) > 0, [&] {
+    const MediumLeg leg = medium.leg(ray, stage_shares(0), t);
+    const bool scatters = !is_black(medium.scattering(ray.at(t)) * leg.transmittance);
+    check.expect(!scatters || leg.scatter_pdf > 0, [&] {
       return fmt::format("{}: light scatters at {:.4g}, where no draw ends", text(ray), t);
     });
     check.expect(is_non_negative(medium.scattering(ray.at(t))),
@@ -133,16 +138,15 @@ void check_finite(const Medium& medium, Suite& suite) {
   Check& check = suite.check("finite");
   for (const float t : {0.0f, 1e-38f, 1.0f, 1e20f, std::numeric_limits<float>::infinity()}) {
     const Ray ray = stage_ray(0, t);
-    const std::array values{medium.scatter_pdf(ray, stage_shares(1), t),
-                            medium.pass_probability(ray, stage_shares(1), t)};
-    for (const float v : values) {
+    const MediumLeg leg = medium.leg(ray, stage_shares(1), t);
+    for (const float v : {leg.scatter_pdf, leg.pass_probability}) {
       check.expect(is_non_negative(v), [&] {
         return fmt::format("a density at {} is negative or not finite: {}", t, v);
       });
     }
-    check.expect(is_non_negative(medium.transmittance(ray, t)),
+    check.expect(is_non_negative(leg.transmittance),
                  [&] { return fmt::format("the transmittance for {} is not finite", t); });
-    check.expect(medium.pass_probability(ray, stage_shares(2), t) <= 1.0001f,
+    check.expect(medium.leg(ray, stage_shares(2), t).pass_probability <= 1.0001f,
                  [&] { return fmt::format("more than all rays pass {}", t); });
     for (const float u : {0.0f, 0.5f, 0.99999994f}) {
       const DistanceSample s = medium.sample(ray, stage_shares(0), u, u);

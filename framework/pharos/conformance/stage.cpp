@@ -163,13 +163,10 @@ class Fog final : public Medium {
     const float t = -std::log1p(-u) / density_;
     return {t, t > 0 && t < ray.t_max};
   }
-  float scatter_pdf(const Ray&, Rgb, float t) const override {
-    return density_ * std::exp(-density_ * t);
+  MediumLeg leg(const Ray&, Rgb, float t) const override {
+    const float left = std::exp(-density_ * t);
+    return {Rgb(left), left, density_ * left};
   }
-  float pass_probability(const Ray&, Rgb, float t) const override {
-    return std::exp(-density_ * t);
-  }
-  Rgb transmittance(const Ray&, float t) const override { return Rgb(std::exp(-density_ * t)); }
   Rgb scattering(Point3) const override { return Rgb(density_); }
   const PhaseFunction& phase_function() const override { return phase_; }
 

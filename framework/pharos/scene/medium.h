@@ -31,6 +31,13 @@ struct DistanceSample {
   bool scattered = false;  ///< false: the ray reaches its end
 };
 
+/// What a ray meets in a medium up to a distance.
+struct MediumLeg {
+  Rgb transmittance{1};        ///< fraction of light that is left [1]
+  float pass_probability = 1;  ///< probability that Medium::sample() gets there [1]
+  float scatter_pdf = 0;       ///< density with which Medium::sample() scatters there [1/m]
+};
+
 /// Returns the probability with which each color channel decides on a distance. The shares are
 /// proportional to the path's throughput and add up to one, so every channel that still carries
 /// light can be chosen. A black throughput gives three equal shares.
@@ -46,16 +53,12 @@ class Medium : public Component {
  public:
   static constexpr std::string_view contract_name = "medium";
 
-  /// Draws whether and where the ray scatters before `ray.t_max`.
+  /// Draws whether and where the ray scatters before `ray.t_max`, which may be infinite.
   virtual DistanceSample sample(const Ray& ray, Rgb shares, float u_channel,
                                 float u_distance) const = 0;
-  /// The density [1/m] with which sample() scatters at distance t < ray.t_max.
-  virtual float scatter_pdf(const Ray& ray, Rgb shares, float t) const = 0;
-  /// The probability [1] with which sample() reaches distance t without scattering.
-  virtual float pass_probability(const Ray& ray, Rgb shares, float t) const = 0;
+  /// Returns what the ray meets up to distance `t`, which may be infinite.
+  virtual MediumLeg leg(const Ray& ray, Rgb shares, float t) const = 0;
 
-  /// The fraction of light that is left after distance t [1].
-  virtual Rgb transmittance(const Ray& ray, float t) const = 0;
   /// The scattering coefficient at a point [1/m].
   virtual Rgb scattering(Point3 position) const = 0;
   virtual const PhaseFunction& phase_function() const = 0;

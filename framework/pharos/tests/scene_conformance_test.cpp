@@ -347,28 +347,24 @@ class FaultyMedium final : public Medium {
     const float t = -std::log1p(-u) / kSigma[channel];
     return {t, t < ray.t_max || fault_ == MediumFault::beyond};
   }
-  float scatter_pdf(const Ray&, Rgb shares, float t) const override {
-    float sum = 0;
-    for (int c = 0; c < 3; ++c) sum += shares[c] * kSigma[c] * left(c, t);
-    return fault_ == MediumFault::never ? 0
-                                        : (fault_ == MediumFault::scatter_pdf ? 1.03f : 1) * sum;
-  }
-  float pass_probability(const Ray&, Rgb shares, float t) const override {
-    if (fault_ == MediumFault::never) return 1;
-    return shares.r * left(0, t) + shares.g * left(1, t) + shares.b * left(2, t);
-  }
-  Rgb transmittance(const Ray&, float t) const override {
-    const float factor = fault_ == MediumFault::transmittance ? 0.97f : 1;
-    return factor * Rgb(left(0, t), left(1, t), left(2, t));
+  MediumLeg leg(const Ray&, Rgb shares, float t) const override {
+    MediumLeg result;
+    for (int c = 0; c < 3; ++c) {
+      result.transmittance[c] = kSigma[c] > 0 ? std::exp(-kSigma[c] * t) : 1.0f;
+    }
+    if (fault_ == MediumFault::never) return result;
+    const Rgb left = shares * result.transmittance, scattered = left * kSigma;
+    result.pass_probability = left.r + left.g + left.b;
+    result.scatter_pdf = scattered.r + scattered.g + scattered.b;
+    if (fault_ == MediumFault::scatter_pdf) result.scatter_pdf *= 1.03f;
+    if (fault_ == MediumFault::transmittance) result.transmittance *= 0.97f;
+    return result;
   }
   Rgb scattering(Point3) const override { return kSigma; }
   const PhaseFunction& phase_function() const override { std::abort(); }
 
  private:
   static constexpr Rgb kSigma{1, 3, 0};
-  static float left(int channel, float t) {
-    return kSigma[channel] > 0 ? std::exp(-kSigma[channel] * t) : 1.0f;
-  }
   MediumFault fault_;
 };
 

@@ -93,9 +93,7 @@ class ClearMedium : public Medium {
   using Settings = NoSettings;
   explicit ClearMedium(Settings = {}) {}
   DistanceSample sample(const Ray&, Rgb, float, float) const override { return {}; }
-  float scatter_pdf(const Ray&, Rgb, float) const override { return 0; }
-  float pass_probability(const Ray&, Rgb, float) const override { return 1; }
-  Rgb transmittance(const Ray&, float) const override { return Rgb(1); }
+  MediumLeg leg(const Ray&, Rgb, float) const override { return {}; }
   Rgb scattering(Point3) const override { return {}; }
   const PhaseFunction& phase_function() const override { std::abort(); }
 };

@@ -101,8 +101,8 @@ class LightWalk {
     // Light from the environment crosses media from infinity.
     Rgb before_scene(1);
     if (emission.kind == VertexKind::environment && path.here().medium != nullptr) {
-      before_scene = path.here().medium->transmittance(
-          {path.here().position(), -emission.direction}, kInfinity);
+      const Ray ray{path.here().position(), -emission.direction};
+      before_scene = path.here().medium->leg(ray, channel_shares(Rgb(1)), kInfinity).transmittance;
     }
     path.throughput = before_scene * emission.weight / chosen;
     kernel_.begin(path);

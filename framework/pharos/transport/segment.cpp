@@ -5,7 +5,7 @@
 namespace pharos {
 namespace {
 
-/// Returns where a step ends on one leg of a segment in a medium. The leg has length `ray.t_max`.
+/// Returns where a step ends on one leg of a segment in a medium if no surface is in the way.
 DistanceSample stop_on_leg(const Medium& medium, const Ray& ray, Rgb shares,
                            const ScatterStep& step, float traveled, std::uint16_t leg,
                            const VertexStream& numbers) {
@@ -14,7 +14,7 @@ DistanceSample stop_on_leg(const Medium& medium, const Ray& ray, Rgb shares,
       return medium.sample(ray, shares, numbers.get_1d(Purpose::distance_choice, leg),
                            numbers.get_1d(Purpose::distance, leg));
     case Proposal::Reach::distance:
-      return {.t = step.distance - traveled, .scattered = step.distance < traveled + ray.t_max};
+      return {.t = step.distance - traveled, .scattered = true};
     default:
       return {};
   }
@@ -28,21 +28,25 @@ bool SegmentTracer::trace_through(Ray ray, const Medium* medium, const ScatterSt
   const Ray whole = ray;
   for (std::uint16_t leg = 0;; ++leg) {
     ++counters_.rays;
-    ray.t_max = scene_.intersect(ray, end);
+    Rgb shares;
+    DistanceSample stop;
     if (medium != nullptr) {
-      const Rgb shares = channel_shares(throughput * segment.passage.transmittance);
-      const DistanceSample stop =
-          stop_on_leg(*medium, ray, shares, step, segment.length, leg, numbers);
-      if (stop.scattered) {
-        segment.passage.transmittance *= medium->transmittance(ray, stop.t);
-        segment.passage.medium_density *= medium->scatter_pdf(ray, shares, stop.t);
-        ray.t_max = stop.t;
-        segment.kind = VertexKind::volume;
-        end = {};
-        end.position = ray.at(stop.t);
-      } else {
-        add_leg(*medium, ray, throughput, segment.passage);
-      }
+      shares = channel_shares(throughput * segment.passage.transmittance);
+      stop = stop_on_leg(*medium, ray, shares, step, segment.length, leg, numbers);
+      // The ray need not look farther, which saves much time in dense media.
+      if (stop.scattered) ray.t_max = stop.t;
+    }
+    const float hit = scene_.intersect(ray, end);
+    if (stop.scattered && std::isinf(hit)) {
+      const MediumLeg passed = medium->leg(ray, shares, stop.t);
+      segment.passage.transmittance *= passed.transmittance;
+      segment.passage.medium_density *= passed.scatter_pdf;
+      segment.kind = VertexKind::volume;
+      end = {};
+      end.position = ray.at(stop.t);
+    } else {
+      ray.t_max = hit;
+      if (medium != nullptr) add_leg(*medium, ray, shares, segment.passage);
     }
     segment.length += ray.t_max;
     segment.medium = medium;
@@ -72,7 +76,9 @@ bool SegmentTracer::pass_through(Ray ray, const Medium* medium, Rgb throughput,
     const bool arrives = std::isinf(t);
     if (!arrives && !scene_.is_boundary(at)) return false;
     if (!arrives) ray.t_max = t;
-    if (medium != nullptr) add_leg(*medium, ray, throughput, passage);
+    if (medium != nullptr) {
+      add_leg(*medium, ray, channel_shares(throughput * passage.transmittance), passage);
+    }
     if (arrives) return true;
     medium = scene_.medium_after(at, ray.direction, medium);
     ray.origin = at.origin_towards(ray.direction);

@@ -54,7 +54,7 @@ class SegmentTracer {
     if (scene_.has_boundaries()) return pass_through(ray, medium, throughput, passage);
     ++counters_.rays;
     if (scene_.occluded(ray)) return false;
-    if (medium != nullptr) add_leg(*medium, ray, throughput, passage);
+    if (medium != nullptr) add_leg(*medium, ray, channel_shares(throughput), passage);
     return true;
   }
 
@@ -63,10 +63,10 @@ class SegmentTracer {
                      const VertexStream& numbers, Segment& segment, SurfacePoint& end) const;
   bool pass_through(Ray ray, const Medium* medium, Rgb throughput, Passage& passage) const;
 
-  static void add_leg(const Medium& medium, const Ray& ray, Rgb throughput, Passage& passage) {
-    const Rgb shares = channel_shares(throughput * passage.transmittance);
-    passage.medium_density *= medium.pass_probability(ray, shares, ray.t_max);
-    passage.transmittance *= medium.transmittance(ray, ray.t_max);
+  static void add_leg(const Medium& medium, const Ray& ray, Rgb shares, Passage& passage) {
+    const MediumLeg passed = medium.leg(ray, shares, ray.t_max);
+    passage.medium_density *= passed.pass_probability;
+    passage.transmittance *= passed.transmittance;
   }
   void arrive_at_environment(const Ray& ray, Segment& segment, SurfacePoint& end) const {
     segment.kind = VertexKind::environment;

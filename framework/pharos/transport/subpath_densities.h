@@ -41,8 +41,9 @@ struct Way {
 inline float white_medium_density(const PathVertex& target, Vec3 direction, Rgb transmittance) {
   const float arrives = mean(transmittance);
   if (target.kind != VertexKind::volume) return arrives;
-  return arrives * target.medium->scatter_pdf({target.position(), direction},
-                                              channel_shares(transmittance), 0);
+  const MediumLeg there =
+      target.medium->leg({target.position(), direction}, channel_shares(transmittance), 0);
+  return arrives * there.scatter_pdf;
 }
 
 inline Way way_to(const PathVertex& target, Vec3 direction, float distance, Rgb transmittance) {
