@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstring>
 
+#include <pharos/core/lanes3.h>
 #include <pharos/core/warp.h>
 #include <pharos/guiding/toolkit/ray_integrals.h>
 
@@ -13,11 +14,6 @@ namespace {
 
 constexpr std::size_t kGroup = 8;
 constexpr double kOverTwoPi = 0.15915494309189535;
-
-template <typename Number>
-struct Lanes3 {
-  Number x, y, z;
-};
 
 Double8 scaled(double factor, const Double8& x) {
   return all_doubles8(factor) * x;
@@ -103,14 +99,6 @@ Whitening8<Double8> whitening_of(const Components8& c, const Double8& over_deter
 
 Whitening8<Float8> rounded_whitening(const Whitening8<Double8>& w) {
   return {rounded(w.r10), rounded(w.r11), rounded(w.r20), rounded(w.r21), rounded(w.r22)};
-}
-
-/// Returns two unit vectors perpendicular to `n` and to each other (Duff et al. 2017).
-std::array<Lanes3<Float8>, 2> perpendicular(const Lanes3<Float8>& n) {
-  const Float8 one = all8(1), sign = n.z < 0 ? -one : one;
-  const Float8 a = -one / (sign + n.z), b = n.x * n.y * a;
-  return {Lanes3<Float8>{one + sign * n.x * n.x * a, sign * b, -sign * n.x},
-          Lanes3<Float8>{b, sign + n.y * n.y * a, -n.y}};
 }
 
 void set_row(SeenGroup& group, int row, const Lanes3<Float8>& values) {

@@ -30,8 +30,8 @@ Bounds3 box_around(const SpatialGaussian& gaussian) {
 CameraMixture::CameraMixture(std::vector<FirstVertex> components)
     : components_(std::move(components)) {
   if (components_.empty()) return;
-  nodes_.push_back({});
-  build(0, 0, static_cast<std::uint32_t>(components_.size()));
+  Bounds3 box;
+  build({0, static_cast<std::uint32_t>(components_.size())}, box);
   double total = 0, sum = 0;
   for (const FirstVertex& component : components_) total += component.gaussian.weight;
   for (FirstVertex& component : components_) {
@@ -41,29 +41,64 @@ CameraMixture::CameraMixture(std::vector<FirstVertex> components)
   }
 }
 
-void CameraMixture::build(std::uint32_t node, std::uint32_t begin, std::uint32_t end) {
-  constexpr std::uint32_t kMostInLeaf = 4;
-  Bounds3 box, means;
-  for (std::uint32_t i = begin; i < end; ++i) {
-    box.add(box_around(components_[i].gaussian));
-    means.add(components_[i].gaussian.mean);
-  }
-  if (end - begin <= kMostInLeaf) {
-    nodes_[node] = {box, begin, end - begin};
-    return;
-  }
+CameraMixture::Node::Node() {
+  const Float8 most = all8(kInfinity);
+  low = {most, most, most};
+  high = {-most, -most, -most};
+}
+
+void CameraMixture::Node::set(unsigned lane, const Bounds3& box, std::uint32_t child) {
+  low.x[lane] = box.low.x;
+  low.y[lane] = box.low.y;
+  low.z[lane] = box.low.z;
+  high.x[lane] = box.high.x;
+  high.y[lane] = box.high.y;
+  high.z[lane] = box.high.z;
+  children[lane] = child;
+}
+
+std::uint32_t CameraMixture::bisect(Range range) {
+  Bounds3 means;
+  for (std::uint32_t i = range.begin; i < range.end; ++i) means.add(components_[i].gaussian.mean);
   const Vec3 e = means.extent();
   const int axis = e.x >= e.y && e.x >= e.z ? 0 : e.y >= e.z ? 1 : 2;
-  const std::uint32_t middle = (begin + end) / 2;
-  std::stable_sort(components_.begin() + begin, components_.begin() + end,
+  std::stable_sort(components_.begin() + range.begin, components_.begin() + range.end,
                    [&](const FirstVertex& a, const FirstVertex& b) {
                      return order_along(axis, a.gaussian) < order_along(axis, b.gaussian);
                    });
-  const auto first = static_cast<std::uint32_t>(nodes_.size());
-  nodes_.resize(nodes_.size() + 2);
-  nodes_[node] = {box, first, 0};
-  build(first, begin, middle);
-  build(first + 1, middle, end);
+  return (range.begin + range.end) / 2;
+}
+
+std::uint32_t CameraMixture::build(Range range, Bounds3& box) {
+  std::vector<Range> parts{range};
+  for (int level = 0; level < 3; ++level) {
+    std::vector<Range> halves;
+    for (const Range& part : parts) {
+      if (part.size() < 2) {
+        halves.push_back(part);
+        continue;
+      }
+      const std::uint32_t middle = bisect(part);
+      halves.push_back({part.begin, middle});
+      halves.push_back({middle, part.end});
+    }
+    parts = std::move(halves);
+  }
+  const auto index = static_cast<std::uint32_t>(nodes_.size());
+  nodes_.emplace_back();
+  for (unsigned lane = 0; lane < parts.size(); ++lane) {
+    const Range& part = parts[lane];
+    Bounds3 inside;
+    std::uint32_t child = part.begin | kComponent;
+    if (part.size() == 1) {
+      inside = box_around(components_[part.begin].gaussian);
+    } else {
+      child = build(part, inside);
+    }
+    nodes_[index].set(lane, inside, child);
+    box.add(inside);
+  }
+  return index;
 }
 
 std::size_t CameraMixture::choose(float u) const {

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <array>
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include <pharos/core/bounds.h>
+#include <pharos/core/lanes3.h>
 #include <pharos/guiding/contract/spatial_mixture.h>
 #include <pharos/scene/events.h>
 
@@ -38,18 +41,18 @@ class CameraMixture {
   template <class Visit>
   void for_each_around(Point3 point, Visit&& visit) const {
     if (nodes_.empty()) return;
-    std::uint32_t stack[kMostLevels];
+    std::uint32_t stack[kMostWaiting];
     int waiting = 0;
     stack[waiting++] = 0;
     while (waiting > 0) {
       const Node& node = nodes_[stack[--waiting]];
-      if (!node.box.contains(point)) continue;
-      if (node.count == 0) {
-        stack[waiting++] = node.first;
-        stack[waiting++] = node.first + 1;
-      }
-      for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-        if (boxes_[i].contains(point)) visit(i);
+      for (unsigned left = bits_of(node.contain(point)); left != 0; left &= left - 1) {
+        const std::uint32_t child = node.children[std::countr_zero(left)];
+        if ((child & kComponent) != 0) {
+          visit(child ^ kComponent);
+        } else {
+          stack[waiting++] = child;
+        }
       }
     }
   }
@@ -58,14 +61,35 @@ class CameraMixture {
   void archive(Archive& archive);
 
  private:
-  static constexpr int kMostLevels = 64;  ///< 33 suffice to bisect 2^32 components
+  /// Eight children per level: 11 levels suffice for 2^32 components.
+  static constexpr int kMostWaiting = 7 * 11 + 1;
+  static constexpr std::uint32_t kComponent = 0x80000000u;  ///< marks children that are components
 
-  /// An inner node (count 0) with two children from `first` on, or a leaf with components.
+  /// Up to eight children with their boxes, each a node or a component. The boxes of missing
+  /// children are empty.
   struct Node {
-    Bounds3 box;
-    std::uint32_t first, count;
+    Node();
+    void set(unsigned lane, const Bounds3& box, std::uint32_t child);
+    /// Returns the children whose boxes contain the point.
+    Mask8 contain(Point3 p) const {
+      return (low.x <= p.x) & (p.x <= high.x) & (low.y <= p.y) & (p.y <= high.y) & (low.z <= p.z) &
+             (p.z <= high.z);
+    }
+
+    Lanes3<Float8> low, high;
+    std::array<std::uint32_t, 8> children{};
   };
-  void build(std::uint32_t node, std::uint32_t begin, std::uint32_t end);
+  /// The components from `begin` up to, but without, `end`.
+  struct Range {
+    std::uint32_t begin, end;
+
+    std::uint32_t size() const { return end - begin; }
+  };
+
+  /// Returns the middle of a range after sorting it along the longest extent of the means.
+  std::uint32_t bisect(Range range);
+  /// Adds a node for a range, and all nodes below. Returns its index. Fills in `box`.
+  std::uint32_t build(Range range, Bounds3& box);
 
   std::vector<FirstVertex> components_;  ///< in the order of the leaves
   std::vector<Bounds3> boxes_;

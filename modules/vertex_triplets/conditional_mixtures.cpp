@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "truncated_normal.h"
+
 namespace pharos::vertex_triplets {
 namespace {
 
@@ -30,8 +32,22 @@ struct ConditionalMixtures<P>::Weighed {
 
   std::array<Float8, P> white;
   Float8 log2_weight;
-  std::uint32_t run, first_next;
+  std::uint32_t run, group;
 };
+
+template <int P>
+std::size_t ConditionalMixtures<P>::add_group() {
+  Group& group = groups_.emplace_back();
+  group.mean.fill(Float8{});
+  group.factor.fill(Float8{});
+  group.log2_weight = all8(kNever);
+  NextPart& next = next_parts_.emplace_back();
+  next.weight = Float8{};
+  next.mean.fill(Float8{});
+  next.gain.fill(Float8{});
+  for (int i = 0; i < 6; ++i) next.cholesky[i] = all8(SpatialGaussian{}.cholesky[i]);
+  return groups_.size() - 1;
+}
 
 template <int P>
 void ConditionalMixtures<P>::add_cell(Point3 center, std::span<const Run> runs) {
@@ -39,19 +55,14 @@ void ConditionalMixtures<P>::add_cell(Point3 center, std::span<const Run> runs) 
             static_cast<std::uint32_t>(runs.size()), 0};
   for (const Run& run : runs) {
     runs_.push_back({run.mode, static_cast<std::uint32_t>(groups_.size()),
-                     static_cast<std::uint32_t>(next_.size()),
                      static_cast<std::uint32_t>(run.components.size())});
+    cell.group_count += runs_.back().group_count();
+    component_count_ += run.components.size();
     for (std::size_t i = 0; i < run.components.size(); ++i) {
       const Component<P>& c = run.components[i];
-      if (i % 8 == 0) {
-        Group& group = groups_.emplace_back();
-        group.mean.fill(Float8{});
-        group.factor.fill(Float8{});
-        group.log2_weight = all8(kNever);
-        ++cell.group_count;
-      }
-      Group& group = groups_.back();
       const std::size_t lane = i % 8;
+      const std::size_t index = lane == 0 ? add_group() : groups_.size() - 1;
+      Group& group = groups_[index];
       float log2_weight = std::log2(c.weight);
       for (int row = 0; row < P; ++row) {
         group.mean[row][lane] = c.mean[row];
@@ -59,12 +70,14 @@ void ConditionalMixtures<P>::add_cell(Point3 center, std::span<const Run> runs) 
       }
       for (int j = 0; j < triangle(P); ++j) group.factor[j][lane] = c.factor[j];
       group.log2_weight[lane] = log2_weight;
-      Next& next = next_.emplace_back();
-      next.weight = c.weight;
+      NextPart& next = next_parts_[index];
+      next.weight[lane] = c.weight;
       for (int row = 0, j = triangle(P), l = 0; row < 3; ++row) {
-        next.mean[row] = c.mean[P + row];
-        for (int column = 0; column < P; ++column) next.gain[row * P + column] = c.factor[j++];
-        for (int column = 0; column <= row; ++column) next.cholesky[l++] = c.factor[j++];
+        next.mean[row][lane] = c.mean[P + row];
+        for (int column = 0; column < P; ++column) {
+          next.gain[row * P + column][lane] = c.factor[j++];
+        }
+        for (int column = 0; column <= row; ++column) next.cholesky[l++][lane] = c.factor[j++];
       }
     }
   }
@@ -79,16 +92,19 @@ auto ConditionalMixtures<P>::runs(std::size_t index) const -> std::vector<Run> {
     const ModeRun& run = runs_[r];
     Run& copy = result.emplace_back(Run{run.mode, {}});
     for (std::uint32_t i = 0; i < run.count; ++i) {
+      const std::uint32_t lane = i % 8;
       const Group& group = groups_[run.first_group + i / 8];
-      const Next& next = next_[run.first_next + i];
+      const NextPart& next = next_parts_[run.first_group + i / 8];
       Component<P>& c = copy.components.emplace_back();
-      c.weight = next.weight;
-      for (int row = 0; row < P; ++row) c.mean[row] = group.mean[row][i % 8];
-      for (int j = 0; j < triangle(P); ++j) c.factor[j] = group.factor[j][i % 8];
+      c.weight = next.weight[lane];
+      for (int row = 0; row < P; ++row) c.mean[row] = group.mean[row][lane];
+      for (int j = 0; j < triangle(P); ++j) c.factor[j] = group.factor[j][lane];
       for (int row = 0, j = triangle(P), l = 0; row < 3; ++row) {
-        c.mean[P + row] = next.mean[row];
-        for (int column = 0; column < P; ++column) c.factor[j++] = next.gain[row * P + column];
-        for (int column = 0; column <= row; ++column) c.factor[j++] = next.cholesky[l++];
+        c.mean[P + row] = next.mean[row][lane];
+        for (int column = 0; column < P; ++column) {
+          c.factor[j++] = next.gain[row * P + column][lane];
+        }
+        for (int column = 0; column <= row; ++column) c.factor[j++] = next.cholesky[l++][lane];
       }
     }
   }
@@ -98,7 +114,7 @@ auto ConditionalMixtures<P>::runs(std::size_t index) const -> std::vector<Run> {
 template <int P>
 std::size_t ConditionalMixtures<P>::size_bytes() const {
   return cells_.size() * sizeof(Cell) + runs_.size() * sizeof(ModeRun) +
-         groups_.size() * sizeof(Group) + next_.size() * sizeof(Next);
+         groups_.size() * (sizeof(Group) + sizeof(NextPart));
 }
 
 template <int P>
@@ -114,82 +130,80 @@ bool ConditionalMixtures<P>::admits(const Mode& mode, const PathPrefix& prefix) 
 }
 
 template <int P>
-NextVertex ConditionalMixtures<P>::next_of(const Weighed& weighed, int lane, Point3 center) const {
-  const ModeRun& run = runs_[weighed.run];
-  const Next& next = next_[weighed.first_next + static_cast<std::uint32_t>(lane)];
-  NextVertex result;
-  result.event = run.mode.event;
-  result.kind = direction_ == Direction::from_sensor ? run.mode.after : run.mode.before;
-  result.gaussian.weight = weighed.log2_weight[lane];  // given() has made it a share
-  for (int row = 0; row < 3; ++row) {
-    float mean = next.mean[row];
-    for (int column = 0; column < P; ++column) {
-      mean += next.gain[row * P + column] * weighed.white[column][lane];
+void ConditionalMixtures<P>::weigh(const Group& group, const std::array<float, P>& prefix,
+                                   Weighed& weighed) const {
+  Float8 squared{}, farthest{};
+  for (int row = 0; row < P; ++row) {
+    const int begin = triangle(row);
+    Float8 rest = prefix[row] - group.mean[row];
+    for (int column = 0; column < row; ++column) {
+      rest -= group.factor[begin + column] * weighed.white[column];
     }
-    result.gaussian.mean[row] = center[row] + mean;
+    weighed.white[row] = rest * group.factor[begin + row];
+    squared += weighed.white[row] * weighed.white[row];
+    farthest = larger(farthest, absolute(weighed.white[row]));
   }
-  std::copy(next.cholesky.begin(), next.cholesky.end(), result.gaussian.cholesky);
-  return result;
+  const Float8 log2_weight = group.log2_weight - (0.5f * kLog2E) * squared;
+  weighed.log2_weight = farthest <= kTruncation ? log2_weight : all8(kNever);
+}
+
+/// Fills in the Gaussians of the next vertex (eq. 18).
+template <int P>
+void ConditionalMixtures<P>::fill_next(const Weighed& weighed, Point3 center,
+                                       NextGroup& next) const {
+  const NextPart& part = next_parts_[weighed.group];
+  Float8 mean[3];
+  for (int row = 0; row < 3; ++row) {
+    mean[row] = part.mean[row];
+    for (int column = 0; column < P; ++column) {
+      mean[row] += part.gain[row * P + column] * weighed.white[column];
+    }
+  }
+  next.mean = {center.x + mean[0], center.y + mean[1], center.z + mean[2]};
+  std::copy(part.cholesky.begin(), part.cholesky.end(), next.cholesky);
+  const Mode& mode = runs_[weighed.run].mode;
+  next.event = mode.event;
+  next.kind = direction_ == Direction::from_sensor ? mode.after : mode.before;
 }
 
 template <int P>
-std::span<const NextVertex> ConditionalMixtures<P>::given(std::size_t index,
-                                                          const PathPrefix& prefix,
-                                                          Arena& arena) const {
+std::span<const NextGroup> ConditionalMixtures<P>::given(std::size_t index,
+                                                         const PathPrefix& prefix,
+                                                         Arena& arena) const {
   const Cell& cell = cells_[index];
   if (cell.group_count == 0) return {};
   const std::array<float, P> x = coordinates<P>(prefix, cell.center);
   Weighed* weighed = arena.make_array<Weighed>(cell.group_count);
-  std::size_t groups = 0;
+  std::size_t count = 0;
   Float8 largest8 = all8(kNever);
   for (std::uint32_t r = cell.first_run; r < cell.first_run + cell.run_count; ++r) {
     const ModeRun& run = runs_[r];
     if (!admits(run.mode, prefix)) continue;
-    for (std::uint32_t i = 0; i < run.count; i += 8) {
-      const Group& group = groups_[run.first_group + i / 8];
-      Weighed& w = weighed[groups++];
-      Float8 squared{}, farthest{};
-      for (int row = 0; row < P; ++row) {
-        const int begin = triangle(row);
-        Float8 rest = x[row] - group.mean[row];
-        for (int column = 0; column < row; ++column) {
-          rest -= group.factor[begin + column] * w.white[column];
-        }
-        w.white[row] = rest * group.factor[begin + row];
-        squared += w.white[row] * w.white[row];
-        farthest = larger(farthest, absolute(w.white[row]));
-      }
-      const Float8 log2_weight = group.log2_weight - (0.5f * kLog2E) * squared;
-      w.log2_weight = farthest <= kTruncation ? log2_weight : all8(kNever);
+    for (std::uint32_t g = run.first_group; g < run.first_group + run.group_count(); ++g) {
+      Weighed& w = weighed[count++];
       w.run = r;
-      w.first_next = run.first_next + i;
+      w.group = g;
+      weigh(groups_[g], x, w);
       largest8 = larger(largest8, w.log2_weight);
     }
   }
   float largest = kNever;
   for (int lane = 0; lane < 8; ++lane) largest = std::max(largest, largest8[lane]);
   if (largest == kNever) return {};
-  Float8 total8{};
+  NextGroup* result = arena.make_array<NextGroup>(count);
   std::size_t survivors = 0;
-  for (std::size_t i = 0; i < groups; ++i) {
-    const Float8 below = weighed[i].log2_weight - largest;
-    weighed[i].log2_weight = below >= kLeastLog2 ? exp2(below) : Float8{};
-    total8 += weighed[i].log2_weight;
-    for (int lane = 0; lane < 8; ++lane) survivors += weighed[i].log2_weight[lane] > 0 ? 1 : 0;
+  Float8 total{};
+  for (std::size_t i = 0; i < count; ++i) {
+    const Mask8 matters = weighed[i].log2_weight - largest >= kLeastLog2;
+    if (!any(matters)) continue;
+    NextGroup& next = result[survivors++];
+    next.share = matters ? exp2(weighed[i].log2_weight - largest) : Float8{};
+    total += next.share;
+    fill_next(weighed[i], cell.center, next);
   }
-  const float to_share = 1 / sum(total8);
-  NextVertex* result = arena.make_array<NextVertex>(survivors);
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < groups; ++i) {
-    if (!any(weighed[i].log2_weight > 0)) continue;
-    weighed[i].log2_weight *= to_share;
-    for (int lane = 0; lane < 8; ++lane) {
-      if (weighed[i].log2_weight[lane] > 0) {
-        result[count++] = next_of(weighed[i], lane, cell.center);
-      }
-    }
-  }
-  return {result, count};
+  const float to_share = 1 / sum(total);
+  for (std::size_t i = 0; i < survivors; ++i) result[i].share *= to_share;
+  return {result, survivors};
 }
 
 template class ConditionalMixtures<3>;

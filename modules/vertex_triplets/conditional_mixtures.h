@@ -10,7 +10,7 @@
 #include <pharos/guiding/contract/spatial_mixture.h>
 
 #include "component.h"
-#include "truncated_normal.h"
+#include "next_group.h"
 
 namespace pharos::vertex_triplets {
 
@@ -20,14 +20,6 @@ struct PathPrefix {
   Point3 previous, current;  ///< environment vertices are at EnvironmentShell::at()
   VertexKind previous_kind = VertexKind::surface;
   EventMask events = EventMask::all;  ///< events that are possible at `current`
-};
-
-/// A component given the prefix: a truncated Gaussian of the next vertex, the event at the current
-/// vertex, and the kind of the next one. The weight is the component's share.
-struct NextVertex {
-  SpatialGaussian gaussian;
-  Event event = Event::none;
-  VertexKind kind = VertexKind::surface;
 };
 
 /// Mixtures over a prefix of P dimensions and the next vertex, one for each cell. Components of the
@@ -60,13 +52,13 @@ class ConditionalMixtures {
   Point3 center(std::size_t cell) const { return cells_[cell].center; }
   /// Returns the mixture of a cell as it was added.
   std::vector<Run> runs(std::size_t cell) const;
-  std::size_t component_count() const { return next_.size(); }
+  std::size_t component_count() const { return component_count_; }
   std::size_t size_bytes() const;
 
   /// Returns the mixture of the next vertex given the prefix (eq. 18, 21), allocated in `arena`.
   /// Components are left out if their mode contradicts the prefix or their support does not contain
   /// it. The shares of the others add up to one. Returns an empty span if no component is left.
-  std::span<const NextVertex> given(std::size_t cell, const PathPrefix& prefix, Arena& arena) const;
+  std::span<const NextGroup> given(std::size_t cell, const PathPrefix& prefix, Arena& arena) const;
 
  private:
   /// The parts of eight components that concern the prefix.
@@ -75,16 +67,18 @@ class ConditionalMixtures {
     std::array<Float8, triangle(P)> factor;  ///< as in Component
     Float8 log2_weight;  ///< includes the factor of the density that is independent of the prefix
   };
-  /// The part of one component that concerns the next vertex.
-  struct Next {
-    float weight;
-    std::array<float, 3> mean;
-    std::array<float, 3 * P> gain;  ///< L21 by rows
-    std::array<float, 6> cholesky;  ///< L22, as in SpatialGaussian
+  /// The parts of eight components that concern the next vertex.
+  struct NextPart {
+    Float8 weight;
+    std::array<Float8, 3> mean;
+    std::array<Float8, 3 * P> gain;  ///< L21 by rows
+    std::array<Float8, 6> cholesky;  ///< L22, as in SpatialGaussian
   };
   struct ModeRun {
     Mode mode;
-    std::uint32_t first_group, first_next, count;
+    std::uint32_t first_group, count;
+
+    std::uint32_t group_count() const { return (count + 7) / 8; }
   };
   struct Cell {
     Point3 center;
@@ -93,13 +87,17 @@ class ConditionalMixtures {
   struct Weighed;
 
   bool admits(const Mode& mode, const PathPrefix& prefix) const;
-  NextVertex next_of(const Weighed& weighed, int lane, Point3 center) const;
+  /// Adds a group without components and returns its index.
+  std::size_t add_group();
+  void weigh(const Group& group, const std::array<float, P>& prefix, Weighed& weighed) const;
+  void fill_next(const Weighed& weighed, Point3 center, NextGroup& next) const;
 
   Direction direction_;
   std::vector<Cell> cells_;
   std::vector<ModeRun> runs_;
   std::vector<Group> groups_;
-  std::vector<Next> next_;
+  std::vector<NextPart> next_parts_;  ///< indexed like groups_
+  std::size_t component_count_ = 0;
 };
 
 }  // namespace pharos::vertex_triplets

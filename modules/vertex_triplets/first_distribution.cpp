@@ -1,5 +1,6 @@
 #include "first_distribution.h"
 
+#include "projections.h"
 #include "truncated_normal.h"
 
 namespace pharos::vertex_triplets {
@@ -13,9 +14,12 @@ std::optional<Proposal> FirstDistribution::propose(const VertexStream& stream) c
   if (in_volume) {
     to = truncated_point(component.gaussian, u, stream.get_1d(Purpose::guide_distance)) - lens_;
   } else {
-    const Projection projection(component.gaussian, lens_);
-    if (!projection.is_possible(0)) return std::nullopt;
-    to = projection.sample(u);
+    NextGroup alone;
+    alone.clear();
+    alone.set(0, component.gaussian);
+    const Projections projection(alone, lens_);
+    if (projection.possible(0)[0] == 0) return std::nullopt;
+    to = projection.sample(0, u);
   }
   const float distance = length(to);
   if (!(distance > 0)) return std::nullopt;
@@ -27,18 +31,26 @@ std::optional<Proposal> FirstDistribution::propose(const VertexStream& stream) c
 }
 
 float FirstDistribution::density(const ResolvedVertex& vertex) const {
-  float total = 0;
+  const bool in_volume = vertex.kind == VertexKind::volume;
+  Float8 total{};
+  NextGroup group;
+  group.clear();
+  unsigned count = 0;
+  const auto add_group = [&] {
+    total += group.share *
+             (in_volume ? truncated_densities(group, vertex.position) * square(vertex.distance)
+                        : Projections(group, lens_).densities(vertex.direction));
+    group.clear();
+    count = 0;
+  };
   mixture_.for_each_around(vertex.position, [&](std::size_t k) {
     const FirstVertex& component = mixture_[k];
     if (component.kind != vertex.kind) return;
-    const SpatialGaussian& g = component.gaussian;
-    if (vertex.kind == VertexKind::volume) {
-      total += g.weight * truncated_density(g, vertex.position) * square(vertex.distance);
-    } else if (const Projection projection(g, lens_); projection.is_possible(0)) {
-      total += g.weight * projection.density(vertex.direction);
-    }
+    group.set(count++, component.gaussian);
+    if (count == NextGroup::kLanes) add_group();
   });
-  return total;
+  add_group();
+  return sum(total);
 }
 
 }  // namespace pharos::vertex_triplets

@@ -43,7 +43,7 @@ const GuidingDistribution* VertexTripletsGuider::query(const VertexTripletsModel
   if (query.current.kind == VertexKind::sensor) {
     return arena.make<FirstDistribution>(model.camera(), query.current.position);
   }
-  const std::span<const NextVertex> next =
+  const std::span<const NextGroup> next =
       model.next_vertices(query, possible_events(*query.scattering), arena);
   if (next.empty()) return nullptr;
   constexpr float kLeastDistance = 1e-6f;  // relative to the cell's edge

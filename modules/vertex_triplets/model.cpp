@@ -93,9 +93,9 @@ double VertexTripletsModel::density(Point3 point, const Vec3* direction) const {
   return direction == nullptr ? density_of_points(point) : density_of_directions(point, *direction);
 }
 
-std::span<const NextVertex> VertexTripletsModel::next_vertices(const GuidingQuery& query,
-                                                               EventMask events,
-                                                               Arena& arena) const {
+std::span<const NextGroup> VertexTripletsModel::next_vertices(const GuidingQuery& query,
+                                                              EventMask events,
+                                                              Arena& arena) const {
   const bool from_lights = query.transport == Transport::importance;
   if (query.previous == nullptr || (from_lights && !kind_.both_ways)) return {};
   const Point3 current = query.current.position;
@@ -113,11 +113,16 @@ std::span<const NextVertex> VertexTripletsModel::next_vertices(const GuidingQuer
 
 std::span<const SpatialGaussian> VertexTripletsModel::mixture_at(const GuidingQuery& query,
                                                                  Arena& arena) const {
-  const std::span<const NextVertex> next =
+  const std::span<const NextGroup> next =
       next_vertices(query, query.scattering->events() & EventMask::smooth, arena);
-  SpatialGaussian* components = arena.make_array<SpatialGaussian>(next.size());
-  for (std::size_t i = 0; i < next.size(); ++i) components[i] = next[i].gaussian;
-  return {components, next.size()};
+  SpatialGaussian* components = arena.make_array<SpatialGaussian>(NextGroup::kLanes * next.size());
+  std::size_t count = 0;
+  for (const NextGroup& group : next) {
+    for (unsigned lane = 0; lane < NextGroup::kLanes; ++lane) {
+      if (group.share[lane] > 0) components[count++] = group.gaussian(lane);
+    }
+  }
+  return {components, count};
 }
 
 template <class Visit>

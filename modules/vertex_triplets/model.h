@@ -57,8 +57,8 @@ class VertexTripletsModel final : public GuidingModel, public SpatialMixture {
 
   /// Returns the mixture over the next vertex, for events among `events`, allocated in `arena`. It
   /// is empty if nothing is known.
-  std::span<const NextVertex> next_vertices(const GuidingQuery& query, EventMask events,
-                                            Arena& arena) const;
+  std::span<const NextGroup> next_vertices(const GuidingQuery& query, EventMask events,
+                                           Arena& arena) const;
   const CameraMixture& camera() const { return camera_; }
   const ModelKind& kind() const { return kind_; }
   std::size_t component_count() const {

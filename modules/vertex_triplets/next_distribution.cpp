@@ -5,6 +5,8 @@
 
 #include <pharos/guiding/toolkit/seen_gaussian.h>
 
+#include "truncated_normal.h"
+
 namespace pharos::vertex_triplets {
 namespace {
 
@@ -21,33 +23,44 @@ TargetMask mask_of(VertexKind kind) {
                                            : TargetMask::surface;
 }
 
-}  // namespace
-
-const NextDistribution* NextDistribution::make(std::span<const NextVertex> vertices,
-                                               const LocalScattering& scattering, Point3 origin,
-                                               const StepRules& rules, float least, Arena& arena) {
-  Branch* branches = arena.make_array<Branch>(vertices.size());
-  std::size_t count = 0;
-  float total = 0;
-  for (const NextVertex& vertex : vertices) {
-    Branch& branch = branches[count];
-    branch.vertex = vertex;
-    const bool projects = vertex.kind != VertexKind::volume && !is_discrete(vertex.event) &&
-                          rules.technique == SurfaceTechnique::projected;
-    if (projects) {
-      branch.projection = Projection(vertex.gaussian, origin);
-      if (!branch.projection.is_possible(least)) continue;
-    }
-    total += vertex.gaussian.weight;
-    ++count;
+/// Returns the result of `compute(lane)` in all lanes with a component, and 0 in the others.
+template <class Compute>
+Float8 by_lane(const Float8& share, Compute&& compute) {
+  Float8 result{};
+  for (unsigned lane = 0; lane < NextGroup::kLanes; ++lane) {
+    if (share[lane] > 0) result[lane] = compute(lane);
   }
-  if (count == 0) return nullptr;
-  for (std::size_t i = 0; i < count; ++i) branches[i].vertex.gaussian.weight /= total;
-  return arena.make<NextDistribution>(std::span<const Branch>(branches, count), scattering, origin,
-                                      rules);
+  return result;
 }
 
-NextDistribution::NextDistribution(std::span<const Branch> branches,
+}  // namespace
+
+const NextDistribution* NextDistribution::make(std::span<const NextGroup> groups,
+                                               const LocalScattering& scattering, Point3 origin,
+                                               const StepRules& rules, float least, Arena& arena) {
+  Branches* branches = arena.make_array<Branches>(groups.size());
+  Float8 total{};
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    const NextGroup& group = groups[i];
+    Branches& branch = branches[i];
+    branch.next = &group;
+    branch.share = group.share;
+    const bool projects = group.kind != VertexKind::volume && !is_discrete(group.event) &&
+                          rules.technique == SurfaceTechnique::projected;
+    if (projects) {
+      branch.projection = Projections(group, origin);
+      branch.share = branch.projection.possible(least) ? branch.share : Float8{};
+    }
+    total += branch.share;
+  }
+  const float mass = sum(total);
+  if (!(mass > 0)) return nullptr;
+  for (std::size_t i = 0; i < groups.size(); ++i) branches[i].share *= 1 / mass;
+  return arena.make<NextDistribution>(std::span<const Branches>(branches, groups.size()),
+                                      scattering, origin, rules);
+}
+
+NextDistribution::NextDistribution(std::span<const Branches> branches,
                                    const LocalScattering& scattering, Point3 origin,
                                    const StepRules& rules)
     : branches_(branches),
@@ -56,29 +69,33 @@ NextDistribution::NextDistribution(std::span<const Branch> branches,
       technique_(rules.technique),
       by_scattering_(scattering_share(scattering, rules.specular_roughness)) {}
 
-Vec3 NextDistribution::direction_to(const Branch& branch, Vec2 u, float v) const {
-  const SpatialGaussian& g = branch.vertex.gaussian;
-  if (branch.vertex.kind == VertexKind::volume) {
-    return truncated_point(g, u, v) - origin_;
+auto NextDistribution::choose(float u) const -> Branch {
+  Branch chosen{};
+  for (const Branches& branches : branches_) {
+    for (unsigned lane = 0; lane < NextGroup::kLanes; ++lane) {
+      const float share = branches.share[lane];
+      if (!(share > 0)) continue;
+      chosen = {&branches, lane};  // the last one with a share, if rounding leaves a rest of `u`
+      if (u < share) return chosen;
+      u -= share;
+    }
   }
-  if (technique_ == SurfaceTechnique::projected) return branch.projection.sample(u);
+  return chosen;
+}
+
+Vec3 NextDistribution::direction_to(const Branch& branch, Vec2 u, float v) const {
+  const NextGroup& next = *branch.group->next;
+  const bool in_volume = next.kind == VertexKind::volume;
+  if (!in_volume && technique_ == SurfaceTechnique::projected) {
+    return branch.group->projection.sample(branch.lane, u);
+  }
+  const SpatialGaussian g = next.gaussian(branch.lane);
+  if (in_volume) return truncated_point(g, u, v) - origin_;
   const Vec3 aim = g.mean - origin_;
   const Vec3 to =
       aim + spread(g, {warp::fast_normal_from_unit(u.x), warp::fast_normal_from_unit(u.y),
                        warp::fast_normal_from_unit(v)});
   return technique_ == SurfaceTechnique::p1 && dot(to, aim) < 0 ? -to : to;
-}
-
-float NextDistribution::direction_density(const Branch& branch, Vec3 direction) const {
-  const SpatialGaussian& g = branch.vertex.gaussian;
-  switch (technique_) {
-    case SurfaceTechnique::p0:
-      return static_cast<float>(exact_density(g, origin_, direction));
-    case SurfaceTechnique::p1:
-      return static_cast<float>(flipped_density(g, origin_, direction));
-    default:
-      return branch.projection.density(direction);
-  }
 }
 
 Vec3 NextDistribution::scattered_direction(Event event, const VertexStream& stream) const {
@@ -95,13 +112,8 @@ Vec3 NextDistribution::scattered_direction(Event event, const VertexStream& stre
 }
 
 std::optional<Proposal> NextDistribution::propose(const VertexStream& stream) const {
-  float u = stream.get_1d(Purpose::guide_choice);
-  std::size_t i = 0;
-  while (i + 1 < branches_.size() && u >= branches_[i].vertex.gaussian.weight) {
-    u -= branches_[i++].vertex.gaussian.weight;
-  }
-  const Branch& branch = branches_[i];
-  const NextVertex& next = branch.vertex;
+  const Branch branch = choose(stream.get_1d(Purpose::guide_choice));
+  const NextGroup& next = *branch.group->next;
   const bool in_volume = next.kind == VertexKind::volume;
   const float v = stream.get_1d(Purpose::guide_distance);
   const bool scatters = stream.get_1d(Purpose::guide_choice, 1) < by_scattering(next.event);
@@ -115,7 +127,7 @@ std::optional<Proposal> NextDistribution::propose(const VertexStream& stream) co
                     .distance = distance,
                     .targets = mask_of(next.kind)};
   if (scatters && in_volume) {
-    const DistancesAlong distances(next.gaussian, origin_, proposal.direction);
+    const DistancesAlong distances(next.gaussian(branch.lane), origin_, proposal.direction);
     if (!distances.is_possible()) return std::nullopt;
     proposal.distance = distances.sample(v);
     if (!(proposal.distance > 0)) return std::nullopt;
@@ -123,23 +135,35 @@ std::optional<Proposal> NextDistribution::propose(const VertexStream& stream) co
   return proposal;
 }
 
-float NextDistribution::density(const Branch& branch, const ResolvedVertex& vertex,
-                                float scattering_pdf) const {
+Float8 NextDistribution::direction_densities(const Branches& branches, Vec3 direction) const {
+  if (technique_ == SurfaceTechnique::projected) return branches.projection.densities(direction);
+  const auto density = technique_ == SurfaceTechnique::p0 ? exact_density : flipped_density;
+  return by_lane(branches.share, [&](unsigned lane) {
+    return static_cast<float>(density(branches.next->gaussian(lane), origin_, direction));
+  });
+}
+
+Float8 NextDistribution::distance_densities(const Branches& branches,
+                                            const ResolvedVertex& vertex) const {
+  return by_lane(branches.share, [&](unsigned lane) {
+    const DistancesAlong distances(branches.next->gaussian(lane), origin_, vertex.direction);
+    return distances.density(vertex.distance);
+  });
+}
+
+Float8 NextDistribution::densities(const Branches& branches, const ResolvedVertex& vertex,
+                                   float scattering_pdf) const {
   const float scatters = by_scattering(vertex.event);
-  const SpatialGaussian& g = branch.vertex.gaussian;
   const bool in_volume = vertex.kind == VertexKind::volume;
-  float density = 0;
+  Float8 density{};
   if (scatters > 0 && scattering_pdf > 0) {
-    density = scatters * scattering_pdf;
-    if (in_volume) {
-      const DistancesAlong distances(g, origin_, vertex.direction);
-      density *= distances.is_possible() ? distances.density(vertex.distance) : 0;
-    }
+    density = all8(scatters * scattering_pdf);
+    if (in_volume) density *= distance_densities(branches, vertex);
   }
   if (scatters < 1) {
-    const float of_point = in_volume
-                               ? truncated_density(g, vertex.position) * square(vertex.distance)
-                               : direction_density(branch, vertex.direction);
+    const Float8 of_point =
+        in_volume ? truncated_densities(*branches.next, vertex.position) * square(vertex.distance)
+                  : direction_densities(branches, vertex.direction);
     density += (1 - scatters) * of_point;
   }
   return density;
@@ -152,12 +176,12 @@ float NextDistribution::density(const ResolvedVertex& vertex) const {
       : by_scattering_ > 0
           ? scattering_.evaluate(vertex.direction, pharos::mask_of(vertex.event)).pdf
           : 0.0f;
-  float total = 0;
-  for (const Branch& branch : branches_) {
-    if (branch.vertex.event != vertex.event || branch.vertex.kind != vertex.kind) continue;
-    total += branch.vertex.gaussian.weight * density(branch, vertex, scattering_pdf);
+  Float8 total{};
+  for (const Branches& branches : branches_) {
+    if (branches.next->event != vertex.event || branches.next->kind != vertex.kind) continue;
+    total += branches.share * densities(branches, vertex, scattering_pdf);
   }
-  return total;
+  return sum(total);
 }
 
 }  // namespace pharos::vertex_triplets

@@ -9,8 +9,8 @@
 #include <pharos/guiding/contract/distribution.h>
 #include <pharos/scene/local_scattering.h>
 
-#include "conditional_mixtures.h"
-#include "truncated_normal.h"
+#include "next_group.h"
+#include "projections.h"
 
 namespace pharos::vertex_triplets {
 
@@ -37,39 +37,54 @@ struct StepRules {
 /// its direction, is sampled.
 class NextDistribution final : public GuidingDistribution {
  public:
-  /// A component with precomputed values for its density.
-  struct Branch {
-    NextVertex vertex;
-    Projection projection;  ///< of components on surfaces, for `projected`
+  /// A group of components with precomputed values for its densities.
+  struct Branches {
+    Branches() {}  // leaves the members uninitialized, so that arrays of it are not cleared
+
+    const NextGroup* next;
+    Float8 share;            ///< probability of choosing the component [1]
+    Projections projection;  ///< of components on surfaces, for `projected`
   };
 
   /// Makes the distribution in `arena`. Returns null if no component can be sampled. For
-  /// `projected`, components whose mean is nearer than `least` [scene units] are left out.
-  static const NextDistribution* make(std::span<const NextVertex> vertices,
+  /// `projected`, components whose mean is nearer than `least` [scene units] are left out. The
+  /// groups must live as long as the distribution.
+  static const NextDistribution* make(std::span<const NextGroup> groups,
                                       const LocalScattering& scattering, Point3 origin,
                                       const StepRules& rules, float least, Arena& arena);
 
-  NextDistribution(std::span<const Branch> branches, const LocalScattering& scattering,
+  NextDistribution(std::span<const Branches> branches, const LocalScattering& scattering,
                    Point3 origin, const StepRules& rules);
 
   std::optional<Proposal> propose(const VertexStream& stream) const override;
   float density(const ResolvedVertex& vertex) const override;
 
  private:
+  /// One component.
+  struct Branch {
+    const Branches* group;
+    unsigned lane;
+  };
+
+  /// Chooses a component in proportion to its share.
+  Branch choose(float u) const;
   /// Samples a vector to a point of a component. It is not normalized; in media its length is the
   /// distance.
   Vec3 direction_to(const Branch& branch, Vec2 u, float v) const;
-  /// Returns the density of direction_to() for a component on surfaces or the environment [1/sr].
-  float direction_density(const Branch& branch, Vec3 direction) const;
   /// Samples a direction of the BSDF or phase function for the event; returns zero if there is
   /// none.
   Vec3 scattered_direction(Event event, const VertexStream& stream) const;
-  /// Returns the density of one component, in the measure of the vertex.
-  float density(const Branch& branch, const ResolvedVertex& vertex, float scattering_pdf) const;
+  /// Returns the densities of the components of a group, in the measure of the vertex.
+  Float8 densities(const Branches& branches, const ResolvedVertex& vertex,
+                   float scattering_pdf) const;
+  /// Returns the densities of direction_to() for components on surfaces or the environment [1/sr].
+  Float8 direction_densities(const Branches& branches, Vec3 direction) const;
+  /// Returns the densities of distances along a direction [1/scene unit].
+  Float8 distance_densities(const Branches& branches, const ResolvedVertex& vertex) const;
   /// Returns the probability that the BSDF or phase function samples the direction (eq. 23).
   float by_scattering(Event event) const { return is_discrete(event) ? 1.0f : by_scattering_; }
 
-  std::span<const Branch> branches_;
+  std::span<const Branches> branches_;
   const LocalScattering& scattering_;
   Point3 origin_;
   SurfaceTechnique technique_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <pharos/core/simd.h>
 #include <pharos/core/vec.h>
 #include <pharos/core/warp.h>
 #include <pharos/guiding/contract/spatial_mixture.h>
@@ -23,25 +24,17 @@ inline float truncated_normal(float u) {
   return std::clamp(z, -kTruncation, kTruncation);
 }
 
-/// The density of truncated_normal() [1].
-inline float truncated_normal_density(float z) {
-  constexpr double kRootTwoPi = 2.5066282746310005;
-  constexpr auto kScale = static_cast<float>(1 / (kRootTwoPi * kTruncatedMass));
-  return std::abs(z) <= kTruncation ? kScale * std::exp(-0.5f * z * z) : 0.0f;
+/// The density of truncated_normal() at 0 [1].
+inline constexpr auto kTruncatedPeak = static_cast<float>(0.3989422804014327 / kTruncatedMass);
+
+/// Returns where the density of truncated_normal() is not zero.
+inline Mask8 within_truncation(const Float8& z) {
+  return absolute(z) <= kTruncation;
 }
 
 /// Samples a point of a truncated Gaussian from numbers in [0, 1).
 inline Point3 truncated_point(const SpatialGaussian& g, Vec2 u, float v) {
   return g.mean + spread(g, {truncated_normal(u.x), truncated_normal(u.y), truncated_normal(v)});
-}
-
-/// The density of truncated_point() [1/scene unit^3].
-inline float truncated_density(const SpatialGaussian& g, Point3 point) {
-  const Vec3 d = point - g.mean;
-  const std::array<double, 3> z = whitened(g, {d.x, d.y, d.z});
-  double density = 1 / root_determinant(g);
-  for (const double along : z) density *= truncated_normal_density(static_cast<float>(along));
-  return static_cast<float>(density);
 }
 
 /// The distribution of a unit normal number within [low, high], for finite limits. It exists if the
@@ -75,14 +68,16 @@ class DistancesAlong {
       : DistancesAlong(whitened(g, {direction.x, direction.y, direction.z}),
                        whitened_offset(g, origin)) {}
 
-  bool is_possible() const { return within_.is_possible(); }
+  /// Returns whether the ray passes through the truncated conditional. sample() requires it.
+  bool is_possible() const { return within().is_possible(); }
   /// Samples a distance from u in [0, 1) [scene units].
-  float sample(float u) const { return static_cast<float>(mean_ + deviation_ * within_.at(u)); }
-  /// The density of sample() [1/scene unit].
+  float sample(float u) const { return static_cast<float>(mean_ + deviation_ * within().at(u)); }
+  /// The density of sample() [1/scene unit]; 0 if nothing is possible.
   float density(float distance) const {
     const double z = (distance - mean_) / deviation_;
-    const bool is_within = distance > 0 && std::abs(z) <= kTruncation;
-    return is_within ? static_cast<float>(within_.density(z) / deviation_) : 0.0f;
+    if (!(distance > 0 && std::abs(z) <= kTruncation)) return 0;
+    const NormalWithin along = within();
+    return along.is_possible() ? static_cast<float>(along.density(z) / deviation_) : 0.0f;
   }
 
  private:
@@ -90,8 +85,12 @@ class DistancesAlong {
 
   DistancesAlong(const Double3& direction, const Double3& mean)
       : deviation_(1 / std::sqrt(dot3(direction, direction))),
-        mean_(dot3(direction, mean) * deviation_ * deviation_),
-        within_(std::clamp<double>(-mean_ / deviation_, -kTruncation, kTruncation), kTruncation) {}
+        mean_(dot3(direction, mean) * deviation_ * deviation_) {}
+
+  /// Returns the limits of the whitened distance. They take time, so they are found when needed.
+  NormalWithin within() const {
+    return {std::clamp<double>(-mean_ / deviation_, -kTruncation, kTruncation), kTruncation};
+  }
 
   static double dot3(const Double3& a, const Double3& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -102,26 +101,6 @@ class DistancesAlong {
   }
 
   double deviation_, mean_;  ///< [scene units]
-  NormalWithin within_;
-};
-
-/// The distribution of directions to the points of a truncated Gaussian, projected on the plane
-/// through its mean that is orthogonal to the line of sight (section 5.2).
-class Projection {
- public:
-  Projection() = default;
-  Projection(const SpatialGaussian& g, Point3 origin);
-
-  /// Returns false if the mean is not farther than `least`, because there is no line of sight then.
-  bool is_possible(float least) const { return distance_ > least; }
-  Vec3 sample(Vec2 u) const;
-  /// The density of sample() [1/sr]: q(y) d^2 / cos^3.
-  float density(Vec3 direction) const;
-
- private:
-  Vec3 towards_, across_[2];
-  float distance_ = 0;
-  float cholesky_[3] = {};  ///< of the projected covariance: l00, l10, l11
 };
 
 }  // namespace pharos::vertex_triplets

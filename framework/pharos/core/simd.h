@@ -163,15 +163,19 @@ inline Float8 absolute(const Float8& x) {
   return larger(x, -x);
 }
 
+/// Returns a bit mask of the elements that are set.
+inline unsigned bits_of(const Mask8& mask) {
+#if defined(__AVX__)
+  return static_cast<unsigned>(_mm256_movemask_ps(std::bit_cast<__m256>(mask)));
+#else
+  unsigned bits = 0;
+  for (int i = 0; i < 8; ++i) bits |= (mask[i] != 0 ? 1u : 0u) << i;
+  return bits;
+#endif
+}
 /// Returns whether any element of the mask is set.
 inline bool any(const Mask8& mask) {
-#if defined(__AVX__)
-  return _mm256_movemask_ps(std::bit_cast<__m256>(mask)) != 0;
-#else
-  std::int32_t bits = 0;
-  for (int i = 0; i < 8; ++i) bits |= mask[i];
-  return bits != 0;
-#endif
+  return bits_of(mask) != 0;
 }
 
 /// Returns the sum of all elements. The order of the additions is fixed.

@@ -4,6 +4,7 @@
 
 #include "../conditional_mixtures.h"
 #include "test_gaussians.h"
+#include "test_next_vertices.h"
 
 namespace pharos::vertex_triplets {
 namespace {
@@ -73,7 +74,7 @@ TEST_CASE("conditional: the joint density over its integral, found by summing it
     Vector<9> x = (gaussians[0].mean + gaussians[1].mean + gaussians[2].mean) / 3;
     x.head<6>() += 0.05 * normal_vector<6>(random);
     Arena arena;
-    const auto next = mixtures.given(0, {vertex(x, 0), vertex(x, 1)}, arena);
+    const auto next = vertices_of(mixtures.given(0, {vertex(x, 0), vertex(x, 1)}, arena));
     double shares = 0;
     for (const NextVertex& v : next) shares += v.gaussian.weight;
     if (next.size() < 3) continue;
@@ -111,7 +112,7 @@ TEST_CASE("conditional: mean and covariance of appendix A") {
   for (int i = 0; i < 20; ++i) {
     const Vector<9> x = g.mean + 0.3 * (point_of(g, random) - g.mean);
     Arena arena;
-    const auto next = mixtures.given(0, {vertex(x, 0), vertex(x, 1)}, arena);
+    const auto next = vertices_of(mixtures.given(0, {vertex(x, 0), vertex(x, 1)}, arena));
     REQUIRE(next.size() == 1);
     const Eigen::Matrix<double, 3, 6> gain =
         g.covariance.bottomLeftCorner<3, 6>() * g.covariance.topLeftCorner<6, 6>().inverse();
@@ -146,8 +147,8 @@ TEST_CASE("conditional: backwards it is that of the triplets turned around") {
   for (int i = 0; i < 50; ++i) {
     const Vector<9> x = point_of(gaussians[i % 4], random);
     Arena a, b;
-    const auto from = backwards.given(0, {vertex(x, 2), vertex(x, 1)}, a);
-    const auto expected = turned.given(0, {vertex(x, 2), vertex(x, 1)}, b);
+    const auto from = vertices_of(backwards.given(0, {vertex(x, 2), vertex(x, 1)}, a));
+    const auto expected = vertices_of(turned.given(0, {vertex(x, 2), vertex(x, 1)}, b));
     if (from.size() != expected.size()) continue;  // the prefix is at the edge of a support
     ++answers;
     CHECK(density_of(from, vertex(x, 0)) ==
@@ -166,7 +167,7 @@ TEST_CASE("conditional: beyond four standard deviations nothing is known") {
       Point3 within = kCenter, beyond = kCenter;
       within[axis] += sign * 3.999f;
       beyond[axis] += sign * 4.001f;
-      CHECK(mixtures.given(0, {within, within}, arena).size() == 1);
+      CHECK(vertices_of(mixtures.given(0, {within, within}, arena)).size() == 1);
       CHECK(mixtures.given(0, {kCenter, beyond}, arena).empty());
       CHECK(mixtures.given(0, {beyond, kCenter}, arena).empty());
     }
@@ -201,7 +202,7 @@ TEST_CASE("conditional: components that contradict the path are left out") {
   CHECK(count(backward, light, EventMask::all) == 1);
   CHECK(count(backward, environment, EventMask::all) == 0);  // no step can hit the sensor
   CHECK(count(backward, volume, EventMask::all) == 1);
-  const auto next = forward.given(0, {a, b, surface, EventMask::transmit}, arena);
+  const auto next = vertices_of(forward.given(0, {a, b, surface, EventMask::transmit}, arena));
   CHECK(next[0].kind == volume);
   CHECK(next[0].event == Event::smooth_transmit);
   CHECK(next[0].gaussian.weight == doctest::Approx(1));
@@ -240,8 +241,8 @@ TEST_CASE("conditional: pairs do not ask where the path comes from") {
   const Point3 here = kCenter + Vec3{static_cast<float>(g.mean[0]), static_cast<float>(g.mean[1]),
                                      static_cast<float>(g.mean[2])};
   Arena arena;
-  const auto near = mixtures.given(0, {here, here, VertexKind::sensor}, arena);
-  const auto far = mixtures.given(0, {{100, 0, 0}, here, VertexKind::volume}, arena);
+  const auto near = vertices_of(mixtures.given(0, {here, here, VertexKind::sensor}, arena));
+  const auto far = vertices_of(mixtures.given(0, {{100, 0, 0}, here, VertexKind::volume}, arena));
   REQUIRE(near.size() == 1);
   REQUIRE(far.size() == 1);
   CHECK(near[0].gaussian.mean == far[0].gaussian.mean);

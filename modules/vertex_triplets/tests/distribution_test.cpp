@@ -8,6 +8,8 @@
 
 #include "../camera_mixture.h"
 #include "../next_distribution.h"
+#include "../truncated_normal.h"
+#include "test_next_vertices.h"
 #include "test_proposals.h"
 
 namespace pharos::vertex_triplets {
@@ -41,13 +43,13 @@ NextVertex next_vertex(const Gaussian<3>& g, float share, Event event, VertexKin
 
 /// The distribution at the origin, in a medium of roughness 1 - g.
 struct InMedium {
-  InMedium(std::vector<NextVertex> next, float mean_cosine, StepRules rules = {})
-      : vertices(std::move(next)),
+  InMedium(const std::vector<NextVertex>& next, float mean_cosine, StepRules rules = {})
+      : groups(groups_of(next)),
         phase(mean_cosine),
         scattering(phase, Rgb(1), kBack, Transport::radiance),
-        guide(NextDistribution::make(vertices, scattering, {}, rules, 0, arena)) {}
+        guide(NextDistribution::make(groups, scattering, {}, rules, 0, arena)) {}
 
-  std::vector<NextVertex> vertices;
+  std::vector<NextGroup> groups;
   Cone phase;
   LocalScattering scattering;
   Arena arena;
@@ -232,6 +234,10 @@ TEST_CASE("truncated Gaussians: points follow their density, which integrates to
     const std::vector<double> expected(observed.size(),
                                        kDraws / static_cast<double>(observed.size()));
     CHECK(statistics::chi_square_test(observed, expected).p_value > 1e-4);
+    NextGroup group;
+    group.clear();
+    group.set(3, g);
+    const auto density_at = [&](Point3 p) { return truncated_densities(group, p)[3]; };
     constexpr int kSteps = 80;
     constexpr double kStep = 2.0 * kTruncation / kSteps;
     double integral = 0;
@@ -240,10 +246,10 @@ TEST_CASE("truncated Gaussians: points follow their density, which integrates to
         return static_cast<float>((rest % kSteps + 0.5) * kStep - kTruncation);
       };
       const Point3 p = g.mean + spread(g, {z(i), z(i / kSteps), z(i / kSteps / kSteps)});
-      integral += truncated_density(g, p) * root_determinant(g) * kStep * kStep * kStep;
+      integral += density_at(p) * root_determinant(g) * kStep * kStep * kStep;
     }
     CHECK(integral == doctest::Approx(1).epsilon(1e-4));
-    CHECK(truncated_density(g, g.mean + spread(g, {0, 4.001f, 0})) == 0);
+    CHECK(density_at(g.mean + spread(g, {0, 4.001f, 0})) == 0);
   }
 }
 
@@ -305,12 +311,13 @@ TEST_CASE("discrete events: each as often as its components' shares, distances i
       next_vertex(gaussians[0], 0.35f, Event::discrete_reflect, VertexKind::surface),
       next_vertex(gaussians[1], 0.25f, Event::discrete_reflect, VertexKind::surface),
       next_vertex(gaussians[2], 0.4f, Event::discrete_transmit, VertexKind::volume)};
+  const std::vector<NextGroup> groups = groups_of(next);
   const Pane pane;
   const SurfacePoint surface{.normal = {0, 0, -1}, .shading = Frame::from_normal({0, 0, -1})};
   const Vec3 back = normalize(Vec3{0.1f, -0.15f, -1});
   const LocalScattering scattering(surface, pane, back, Transport::radiance);
   Arena arena;
-  const auto* guide = NextDistribution::make(next, scattering, {}, {}, 0, arena);
+  const auto* guide = NextDistribution::make(groups, scattering, {}, {}, 0, arena);
   REQUIRE(guide != nullptr);
   const auto reflected = guide->density(
       {.distance = 1, .kind = VertexKind::surface, .event = Event::discrete_reflect});
@@ -333,12 +340,12 @@ TEST_CASE("discrete events: each as often as its components' shares, distances i
 
 TEST_CASE("projections: seen from their own means there is no direction") {
   const SpatialGaussian g = spatial({Vector<3>(0, 0, 0), Matrix<3>::Identity()});
-  const std::vector<NextVertex> next{{g, Event::scatter, VertexKind::surface}};
+  const std::vector<NextGroup> groups = groups_of({{g, Event::scatter, VertexKind::surface}});
   const Cone phase(0);
   const LocalScattering scattering(phase, Rgb(1), kBack, Transport::radiance);
   Arena arena;
-  CHECK(NextDistribution::make(next, scattering, {}, {}, 1e-6f, arena) == nullptr);
-  CHECK(NextDistribution::make(next, scattering, {}, {.technique = SurfaceTechnique::p0}, 1e-6f,
+  CHECK(NextDistribution::make(groups, scattering, {}, {}, 1e-6f, arena) == nullptr);
+  CHECK(NextDistribution::make(groups, scattering, {}, {.technique = SurfaceTechnique::p0}, 1e-6f,
                                arena) != nullptr);
 }
 

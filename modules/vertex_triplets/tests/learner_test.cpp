@@ -11,6 +11,7 @@
 
 #include "../model.h"
 #include "../sample.h"
+#include "test_next_vertices.h"
 
 namespace pharos::vertex_triplets {
 namespace {
@@ -239,8 +240,8 @@ double mirror_error(const VertexTripletsModel& model) {
                              .region = model.place(current).region};
     Arena arena;
     const Vec3 in = floor - lens;
-    for (const NextVertex& next :
-         model.next_vertices(query, mask_of(Event::smooth_reflect), arena)) {
+    for (const testing::NextVertex& next :
+         testing::vertices_of(model.next_vertices(query, mask_of(Event::smooth_reflect), arena))) {
       const Point3 ceiling = floor + Vec3{in.x, in.y, 1};
       sum += next.gaussian.weight * length(next.gaussian.mean - ceiling);
       answers += 1;
