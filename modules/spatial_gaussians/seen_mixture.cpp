@@ -74,19 +74,6 @@ struct Components8 {
   }
 };
 
-/// The lower triangle of l00 L^-1.
-template <typename Number>
-struct Whitening8 {
-  Lanes3<Number> operator()(const Lanes3<Number>& v) const {
-    return {v.x, r10 * v.x + r11 * v.y, r20 * v.x + r21 * v.y + r22 * v.z};
-  }
-  /// Returns the row vector v^T l00 L^-1.
-  Lanes3<Number> row(const Lanes3<Number>& v) const {
-    return {v.x + v.y * r10 + v.z * r20, v.y * r11 + v.z * r21, v.z * r22};
-  }
-  Number r10, r11, r20, r21, r22;
-};
-
 /// Returns l00 L^-1 in double precision, because terms of off-diagonal entries may nearly cancel.
 Whitening8<Double8> whitening_of(const Components8& c, const Double8& over_determinant) {
   const Double8 over_l11 = over_determinant * c.l22;
@@ -101,15 +88,8 @@ Whitening8<Float8> rounded_whitening(const Whitening8<Double8>& w) {
   return {rounded(w.r10), rounded(w.r11), rounded(w.r20), rounded(w.r21), rounded(w.r22)};
 }
 
-void set_row(SeenGroup& group, int row, const Lanes3<Float8>& values) {
-  group.rows[row][0] = values.x;
-  group.rows[row][1] = values.y;
-  group.rows[row][2] = values.z;
-}
-
 Float8 cosine_factor(const CosineRule& rule, const SeenGroup& group) {
-  const Float8 cosine =
-      group.aim[0] * rule.normal.x + group.aim[1] * rule.normal.y + group.aim[2] * rule.normal.z;
+  const Float8 cosine = dot(group.aim, all8(rule.normal));
   return larger(rule.both_sides ? absolute(cosine) : cosine, all8(rule.least));
 }
 
@@ -117,16 +97,17 @@ Float8 cosine_factor(const CosineRule& rule, const SeenGroup& group) {
 /// for distance 0. The length of an aim may be off by a rounding error, but its direction is exact
 /// to twice the precision.
 Float8 aim_at(const Lanes3<Double8>& mu, Technique technique, SeenGroup& group) {
-  const Float8 x = rounded(mu.x), y = rounded(mu.y), z = rounded(mu.z);
-  const Float8 squared = x * x + y * y + z * z;
+  const Lanes3<Float8> near{rounded(mu.x), rounded(mu.y), rounded(mu.z)};
+  const Float8 squared = dot(near, near);
   const Float8 over = squared > 0 ? 1 / sqrt(squared) : Float8{};
-  const Double8 wide = widened(over);
-  const Double8* from[3] = {&mu.x, &mu.y, &mu.z};
-  for (int i = 0; i < 3; ++i) {
-    const Double8 aim = *from[i] * wide;
-    group.aim[i] = rounded(aim);
-    group.aim_rest[i] = rounded(aim - widened(group.aim[i]));
-    if (technique == Technique::plane) group.wide_aim[i] = aim;
+  const Lanes3<Double8> aim = widened(over) * mu;
+  group.aim = {rounded(aim.x), rounded(aim.y), rounded(aim.z)};
+  group.aim_rest = {rounded(aim.x - widened(group.aim.x)), rounded(aim.y - widened(group.aim.y)),
+                    rounded(aim.z - widened(group.aim.z))};
+  if (technique == Technique::plane) {
+    group.wide_aim[0] = aim.x;
+    group.wide_aim[1] = aim.y;
+    group.wide_aim[2] = aim.z;
   }
   return over;
 }
@@ -134,8 +115,7 @@ Float8 aim_at(const Lanes3<Double8>& mu, Technique technique, SeenGroup& group) 
 /// The means in whitened space: their lengths times l00, and their directions. The direction of a
 /// zero mean is the x axis.
 struct WhitenedMeans8 {
-  explicit WhitenedMeans8(const Lanes3<Double8>& m)
-      : length(sqrt(rounded(m.x * m.x + m.y * m.y + m.z * m.z))) {
+  explicit WhitenedMeans8(const Lanes3<Double8>& m) : length(sqrt(rounded(dot(m, m)))) {
     const Mask8 any = length > 0;
     const Float8 over = any ? 1 / length : Float8{};
     direction = {any ? rounded(m.x) * over : all8(1), rounded(m.y) * over, rounded(m.z) * over};
@@ -151,11 +131,8 @@ void see_group(std::span<const SpatialGaussian> components, Point3 origin, const
   const Double8 over_determinant = all_doubles8(1) / (c.l11 * c.l22);
   const Whitening8<Double8> exact_whitening = whitening_of(c, over_determinant);
   const WhitenedMeans8 m(exact_whitening(c.mu));
-  const Whitening8<Float8> whitening = rounded_whitening(exact_whitening);
-  const std::array<Lanes3<Float8>, 2> across = perpendicular(m.direction);
-  set_row(group, 0, whitening.row(m.direction));
-  set_row(group, 1, whitening.row(across[0]));
-  set_row(group, 2, whitening.row(across[1]));
+  group.whitening = rounded_whitening(exact_whitening);
+  group.towards = m.direction;
   const Float8 over_distance = aim_at(c.mu, technique, group);
   const Mask8 is_outside = over_distance > 0;
   group.ahead = m.length * over_distance;
@@ -180,10 +157,6 @@ void see_group(std::span<const SpatialGaussian> components, Point3 origin, const
   group.far = exp(-0.5f * group.reach * group.reach);
 }
 
-Float8 dot8(const Float8 (&a)[3], const Float8 (&b)[3]) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 /// Returns the cosines between the means and a direction, in double precision: they are cubed, so
 /// their relative errors near the horizon matter.
 Float8 exact_cosine(const SeenGroup& group, Vec3 direction) {
@@ -196,16 +169,14 @@ Float8 exact_cosine(const SeenGroup& group, Vec3 direction) {
 template <Technique technique>
 Float8 densities(const SeenGroup& group, Vec3 direction) {
   // Differences from the aims; exact if they are small.
-  const Float8 off[3] = {(direction.x - group.aim[0]) - group.aim_rest[0],
-                         (direction.y - group.aim[1]) - group.aim_rest[1],
-                         (direction.z - group.aim[2]) - group.aim_rest[2]};
-  const Float8 y = dot8(group.rows[1], off), z = dot8(group.rows[2], off);
-  const Float8 across = y * y + z * z;
+  const Lanes3<Float8> off = (all8(direction) - group.aim) - group.aim_rest;
+  const Lanes3<Float8> white = group.whitening(off);
+  // The part of the whitened direction that is perpendicular to the whitened mean. The aim has no
+  // such part.
+  const Lanes3<Float8> moment = cross(white, group.towards);
+  const Float8 across = dot(moment, moment);
   // The exponent to base 2: -log2(e) / 2 times the squared distance.
   const Float8 miss = group.reach * group.reach * (-0.5f * kLog2E) * across;
-  const auto cosine_to_mean = [&] {
-    return group.aim[0] * direction.x + group.aim[1] * direction.y + group.aim[2] * direction.z;
-  };
   if constexpr (technique == Technique::plane) {
     const Float8 x = exact_cosine(group, direction);
     constexpr float kLeast = 1e-10f;  // its cube is still in the range of floats
@@ -214,12 +185,12 @@ Float8 densities(const SeenGroup& group, Vec3 direction) {
     const Float8 value = group.weight * exp2(miss * (over * over));
     return x > kLeast ? value * over * over * over : Float8{};
   } else {
-    const Float8 x = group.ahead + dot8(group.rows[0], off);
+    const Float8 x = group.ahead + dot(group.towards, white);
     const Float8 a = x * x + across, over = 1 / a, over_root = over * sqrt(a);
     const Rays8 rays{group.reach * x * over_root, miss * over};
     const Float8 scale = group.weight * (over * over_root);
     if constexpr (technique == Technique::flipped) {
-      return cosine_to_mean() < 0 ? Float8{} : scale * rays.line_integral();
+      return dot(group.aim, all8(direction)) < 0 ? Float8{} : scale * rays.line_integral();
     } else {
       // The components are so far away that rays that point away from them have density 0.
       if (!any(group.far > 0)) return x < 0 ? Float8{} : scale * rays.line_integral();

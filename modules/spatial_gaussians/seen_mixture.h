@@ -5,6 +5,7 @@
 #include <span>
 
 #include <pharos/core/arena.h>
+#include <pharos/core/lanes3.h>
 #include <pharos/core/simd.h>
 #include <pharos/core/vec.h>
 #include <pharos/guiding/contract/spatial_mixture.h>
@@ -26,22 +27,31 @@ struct CosineRule {
   float least = 0.01f;      ///< lower bound of the cosine, also below the horizon
 };
 
-/// Eight components as seen from one point. `rows` map a unit direction omega to the whitened
-/// direction, in a frame whose first axis points at the whitened mean. They include the factor l00,
-/// which keeps floats in range. The last two rows map `aim` to zero. They are therefore applied to
-/// omega - aim, so small angles from the mean keep their digits.
+/// The lower triangle of l00 L^-1, for eight components. The factor l00 keeps floats in range.
+template <typename Number>
+struct Whitening8 {
+  /// Returns the whitened vectors, times l00.
+  Lanes3<Number> operator()(const Lanes3<Number>& v) const {
+    return {v.x, r10 * v.x + r11 * v.y, r20 * v.x + r21 * v.y + r22 * v.z};
+  }
+  Number r10, r11, r20, r21, r22;
+};
+
+/// Eight components as seen from one point. A direction omega is whitened as omega - aim, so that
+/// small angles from the mean keep their digits.
 struct SeenGroup {
   SeenGroup() {}  // leaves the members uninitialized, so that arrays of groups are not cleared
 
-  Float8 rows[3][3];
-  Float8 ahead;         ///< the first row times `aim`
-  Float8 aim[3];        ///< unit direction to the mean; zero if seen from the mean itself
-  Float8 aim_rest[3];   ///< rounding error of `aim`
-  Double8 wide_aim[3];  ///< `aim` before rounding; for `plane` only
-  Float8 share;         ///< probability of choosing the component
-  Float8 weight;        ///< factor of the density that does not depend on the direction
-  Float8 reach;         ///< |L^-1 mu|; for `plane` |mu| / l00
-  Float8 far;           ///< e^(-reach^2 / 2)
+  Whitening8<Float8> whitening;
+  Lanes3<Float8> towards;   ///< unit direction to the whitened mean; x axis if that is zero
+  Float8 ahead;             ///< length of the whitened `aim`, times l00
+  Lanes3<Float8> aim;       ///< unit direction to the mean; zero if seen from the mean itself
+  Lanes3<Float8> aim_rest;  ///< rounding error of `aim`
+  Double8 wide_aim[3];      ///< `aim` before rounding; for `plane` only
+  Float8 share;             ///< probability of choosing the component
+  Float8 weight;            ///< factor of the density that does not depend on the direction
+  Float8 reach;             ///< |L^-1 mu|; for `plane` |mu| / l00
+  Float8 far;               ///< e^(-reach^2 / 2)
 };
 
 /// A mixture of Gaussians as seen from one point: a distribution over directions. The weight of
