@@ -13,7 +13,7 @@ class FocalDistribution final : public GuidingDistribution {
         origin_, stream.get_1d(Purpose::guide_choice), stream.get_2d(Purpose::guide_direction),
         stream.get_1d(Purpose::guide_distance));
     if (!direction) return std::nullopt;
-    return Proposal{.direction = *direction};
+    return propose_direction(*direction);
   }
 
   float density(const ResolvedVertex& vertex) const override {

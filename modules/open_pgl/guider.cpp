@@ -11,8 +11,7 @@ class OpenPglDistribution final : public GuidingDistribution {
       : model_(model), query_(query) {}
 
   std::optional<Proposal> propose(const VertexStream& stream) const override {
-    return Proposal{.direction =
-                        model_.at(query_)->sample(stream.get_2d(Purpose::guide_direction))};
+    return propose_direction(model_.at(query_)->sample(stream.get_2d(Purpose::guide_direction)));
   }
   float density(const ResolvedVertex& vertex) const override {
     return model_.at(query_)->pdf(vertex.direction);

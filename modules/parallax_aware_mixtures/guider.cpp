@@ -10,8 +10,8 @@ class ParallaxAwareMixturesDistribution final : public GuidingDistribution {
   explicit ParallaxAwareMixturesDistribution(const SeenLobes& lobes) : lobes_(lobes) {}
 
   std::optional<Proposal> propose(const VertexStream& stream) const override {
-    return Proposal{.direction = lobes_.sample(stream.get_1d(Purpose::guide_choice),
-                                               stream.get_2d(Purpose::guide_direction))};
+    return propose_direction(lobes_.sample(stream.get_1d(Purpose::guide_choice),
+                                           stream.get_2d(Purpose::guide_direction)));
   }
   float density(const ResolvedVertex& vertex) const override {
     return lobes_.density(vertex.direction);

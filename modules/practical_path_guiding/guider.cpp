@@ -11,7 +11,7 @@ class PracticalPathGuidingDistribution final : public GuidingDistribution {
 
   std::optional<Proposal> propose(const VertexStream& stream) const override {
     const Vec2 p = density_.sample(stream.get_2d(Purpose::guide_direction));
-    return Proposal{.direction = warp::sphere_from_square(p)};
+    return propose_direction(warp::sphere_from_square(p));
   }
   float density(const ResolvedVertex& vertex) const override {
     return density_.at(warp::square_from_sphere(vertex.direction)) * warp::sphere_pdf();

@@ -12,7 +12,7 @@ class SeenDistribution final : public GuidingDistribution {
                                                           stream.get_2d(Purpose::guide_direction),
                                                           stream.get_1d(Purpose::guide_distance));
     if (!direction) return std::nullopt;
-    return Proposal{.direction = *direction};
+    return propose_direction(*direction);
   }
   float density(const ResolvedVertex& vertex) const override {
     return mixture_.density(vertex.direction);

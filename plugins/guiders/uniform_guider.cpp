@@ -14,7 +14,7 @@ namespace {
 class UniformDistribution final : public GuidingDistribution {
  public:
   std::optional<Proposal> propose(const VertexStream& stream) const override {
-    return Proposal{.direction = warp::sphere_from_square(stream.get_2d(Purpose::guide_direction))};
+    return propose_direction(warp::sphere_from_square(stream.get_2d(Purpose::guide_direction)));
   }
 
   /// Returns the density of propose() for any vertex, whichever technique found the vertex. In

@@ -5,11 +5,12 @@ namespace {
 
 /// Fills in the step of a guide's proposal. Returns false if the step has value zero.
 bool accept(const LocalScattering& scattering, const Proposal& proposal, ScatterStep& step) {
-  step = {.direction = proposal.direction,
-          .reach = proposal.reach,
-          .distance = proposal.distance,
-          .targets = proposal.targets,
-          .within = proposal.within};
+  step.direction = proposal.direction;
+  step.reach = proposal.reach;
+  step.distance = proposal.distance;
+  step.targets = proposal.targets;
+  step.within = proposal.within;
+  step.continuation = 1;
   if (is_empty(proposal.events & EventMask::smooth)) {
     for (const DiscreteOutcome& outcome : scattering.discrete()) {
       if (!contains(proposal.events, outcome.event)) continue;

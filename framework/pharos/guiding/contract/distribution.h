@@ -61,6 +61,14 @@ struct Proposal {
   }
 };
 
+/// Returns a proposal of a direction alone. It is constructed in place, because a copy would read
+/// at once what was written in parts, which stalls the walks.
+inline std::optional<Proposal> propose_direction(Vec3 direction) {
+  std::optional<Proposal> proposal(std::in_place);
+  proposal->direction = direction;
+  return proposal;
+}
+
 /// A next vertex as it was found: by tracing a proposal or an unguided sample, by next event
 /// estimation, or by the other end of a bidirectional path.
 struct ResolvedVertex {
