@@ -268,7 +268,7 @@ TEST_CASE("serialized: whatever a stream holds, it is a mesh or an InputError") 
     std::string changed = plain;
     for (int k = 0; k < 3; ++k) {
       const auto at = static_cast<std::size_t>(random.next_1d() * static_cast<float>(plain.size()));
-      changed[at] = static_cast<char>(random.next_1d() * 256);
+      changed[at] = static_cast<char>(static_cast<unsigned char>(random.next_1d() * 256));
     }
     try {
       read(file_of({bytes<std::uint16_t>({0x041c, 4}) + packed(changed)}));

@@ -7,9 +7,15 @@
 namespace pharos::laboratory {
 namespace {
 
+/// Returns sqrt(r^2 - t^2) for |t| <= r. The product is never negative, unlike the difference of
+/// squares, of which one may be rounded and the other not.
+double half_chord(double t, double r) {
+  return std::sqrt((r - t) * (r + t));
+}
+
 /// Returns the integral of sqrt(r^2 - s^2) over s from 0 to `t`, |t| <= r.
 double under_arc(double t, double r) {
-  const double height = std::sqrt(std::max(0.0, r * r - t * t));
+  const double height = half_chord(t, r);
   return 0.5 * (t * height + r * r * std::asin(std::clamp(t / r, -1.0, 1.0)));
 }
 
@@ -20,7 +26,7 @@ double under_arc(double t, double r) {
 double area_below(double x, double y, double r) {
   x = std::clamp(x, -r, r);
   y = std::clamp(y, -r, r);
-  const double a = std::sqrt(r * r - y * y), reach = std::clamp(x, -a, a);
+  const double a = half_chord(y, r), reach = std::clamp(x, -a, a);
   double sum = under_arc(reach, r) - under_arc(-a, r) + y * (reach + a);
   if (y > 0) {
     sum += 2 * (under_arc(std::min(x, -a), r) - under_arc(-r, r));
