@@ -41,6 +41,9 @@ struct Group {
 };
 /// Returns a group for every registered pair of a learner and a guider whose models match.
 std::vector<Group> guiding_groups(const std::shared_ptr<const Registry>& registry);
+/// Returns a group with the share of updates in the training of each learner, in renders with a
+/// budget of `seconds`.
+Group learning_group(const std::shared_ptr<const Registry>& registry, double seconds);
 /// Returns a group for the parts of vertex triplets and one for each scene. Renders of the scenes
 /// have a budget of `seconds`.
 std::vector<Group> triplets_groups(const std::shared_ptr<const Registry>& registry, double seconds);
