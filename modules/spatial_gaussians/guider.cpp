@@ -49,8 +49,9 @@ const GuidingDistribution* MixtureGuider::query(const SpatialMixture& model,
                                                 const GuidingQuery& query, Arena& arena) const {
   const std::span<const SpatialGaussian> components = model.mixture_at(query, arena);
   if (components.empty()) return nullptr;
-  const SeenMixture* seen = SeenMixture::make(components, query.current.position,
-                                              rule_at(query, settings_), technique_, arena);
+  const SeenMixture* seen =
+      SeenMixture::make(components, query.current.position, rule_at(query, settings_), technique_,
+                        arena, model.whitened_at(query));
   return seen == nullptr ? nullptr : arena.make<SeenDistribution>(*seen);
 }
 

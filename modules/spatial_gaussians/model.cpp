@@ -47,7 +47,7 @@ double density_at(const SpatialGaussian& g, Point3 point) {
 }  // namespace
 
 SpatialGaussiansModel::SpatialGaussiansModel(KdTree tree, const std::vector<Cell>& cells)
-    : tree_(std::move(tree)), first_{0} {
+    : tree_(std::move(tree)), first_{0}, first_whitened_{0} {
   samples_.clear();
   for (const Cell& cell : cells) add(cell);
 }
@@ -55,6 +55,10 @@ SpatialGaussiansModel::SpatialGaussiansModel(KdTree tree, const std::vector<Cell
 void SpatialGaussiansModel::add(const Cell& cell) {
   components_.insert(components_.end(), cell.components.begin(), cell.components.end());
   first_.push_back(static_cast<std::uint32_t>(components_.size()));
+  for (std::size_t i = 0; i < cell.components.size(); i += WhitenedGroup::kLanes) {
+    whitened_.emplace_back(std::span(cell.components).subspan(i));
+  }
+  first_whitened_.push_back(static_cast<std::uint32_t>(whitened_.size()));
   samples_.push_back(cell.samples);
 }
 
@@ -80,7 +84,8 @@ ModelInfo SpatialGaussiansModel::info() const {
   return {.name = std::string(kName),
           .version = 2,
           .bytes = tree_.size_bytes() + components_.size() * sizeof(SpatialGaussian) +
-                   samples_.size() * (sizeof(float) + sizeof(std::uint32_t)),
+                   whitened_.size() * sizeof(WhitenedGroup) +
+                   samples_.size() * (sizeof(float) + 2 * sizeof(std::uint32_t)),
           .regions = tree_.cell_count(),
           .facts = {{"cells", fmt::format("{}, {} levels of planes, {} know something",
                                           tree_.cell_count(), tree_.depth(), known)},

@@ -36,6 +36,10 @@ class SpatialGaussiansModel final : public GuidingModel, public SpatialMixture {
   std::span<const SpatialGaussian> mixture_at(const GuidingQuery& query, Arena&) const override {
     return mixture(query.region);
   }
+  std::span<const WhitenedGroup> whitened_at(const GuidingQuery& query) const override {
+    return {whitened_.data() + first_whitened_[query.region],
+            whitened_.data() + first_whitened_[query.region + 1]};
+  }
 
   /// Returns the mixture of a cell.
   std::span<const SpatialGaussian> mixture(std::uint32_t cell) const {
@@ -52,6 +56,8 @@ class SpatialGaussiansModel final : public GuidingModel, public SpatialMixture {
   KdTree tree_;
   std::vector<SpatialGaussian> components_;  ///< components of all cells, one cell after another
   std::vector<std::uint32_t> first_{0, 0};   ///< index of each cell's first component, and the end
+  std::vector<WhitenedGroup> whitened_;      ///< the same components, in groups of one cell each
+  std::vector<std::uint32_t> first_whitened_{0, 0};  ///< index of each cell's first group
   std::vector<float> samples_{0};
 };
 

@@ -2,91 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <cstring>
 
-#include <pharos/core/lanes3.h>
 #include <pharos/core/warp.h>
 #include <pharos/guiding/toolkit/ray_integrals.h>
 
 namespace pharos::spatial_gaussians {
 namespace {
 
-constexpr std::size_t kGroup = 8;
-constexpr double kOverTwoPi = 0.15915494309189535;
-
-Double8 scaled(double factor, const Double8& x) {
-  return all_doubles8(factor) * x;
-}
-
-/// Four components as a structure of arrays.
-struct Components4 {
-  Transposed4 first, second, last;  ///< numbers 0 to 3, 4 to 7 and 6 to 9
-
-  explicit Components4(const SpatialGaussian* four)
-      : first(numbers(four, 0)), second(numbers(four, 4)), last(numbers(four, 6)) {}
-
- private:
-  static Transposed4 numbers(const SpatialGaussian* four, std::size_t begin) {
-    static_assert(sizeof(SpatialGaussian) == 10 * sizeof(float));
-    Float4 of[4];
-    for (std::size_t i = 0; i < 4; ++i) {
-      const auto* bytes = reinterpret_cast<const std::byte*>(four + i);
-      std::memcpy(&of[i], bytes + begin * sizeof(float), sizeof of[i]);
-    }
-    return transposed(of[0], of[1], of[2], of[3]);
-  }
-};
-
-/// Eight components as a structure of arrays. Missing ones are unit balls of weight zero beside the
-/// origin.
-struct Components8 {
-  Components8(std::span<const SpatialGaussian> components, Point3 origin) {
-    if (components.size() >= kGroup) {
-      read(components.data(), origin);
-      return;
-    }
-    SpatialGaussian eight[kGroup];
-    std::fill_n(eight, kGroup, SpatialGaussian{0, origin + Vec3{1, 0, 0}, {1, 0, 1, 0, 0, 1}});
-    std::copy(components.begin(), components.end(), eight);
-    read(eight, origin);
-  }
-  Double8 weight;
-  Lanes3<Double8> mu;  ///< mean, relative to the origin
-  Double8 l00, l10, l11, l20, l21, l22;
-
- private:
-  void read(const SpatialGaussian* eight, Point3 origin) {
-    const Components4 a(eight), b(eight + 4);
-    const auto both = [](const Float4& low, const Float4& high) {
-      return widened(__builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7));
-    };
-    weight = both(a.first.rows[0], b.first.rows[0]);
-    mu.x = both(a.first.rows[1], b.first.rows[1]) - all_doubles8(origin.x);
-    mu.y = both(a.first.rows[2], b.first.rows[2]) - all_doubles8(origin.y);
-    mu.z = both(a.first.rows[3], b.first.rows[3]) - all_doubles8(origin.z);
-    l00 = both(a.second.rows[0], b.second.rows[0]);
-    l10 = both(a.second.rows[1], b.second.rows[1]);
-    l11 = both(a.second.rows[2], b.second.rows[2]);
-    l20 = both(a.second.rows[3], b.second.rows[3]);
-    l21 = both(a.last.rows[2], b.last.rows[2]);
-    l22 = both(a.last.rows[3], b.last.rows[3]);
-  }
-};
-
-/// Returns l00 L^-1 in double precision, because terms of off-diagonal entries may nearly cancel.
-Whitening8<Double8> whitening_of(const Components8& c, const Double8& over_determinant) {
-  const Double8 over_l11 = over_determinant * c.l22;
-  return {.r10 = -c.l10 * over_l11,
-          .r11 = c.l00 * over_l11,
-          .r20 = (c.l10 * c.l21 - c.l20 * c.l11) * over_determinant,
-          .r21 = -c.l21 * c.l00 * over_determinant,
-          .r22 = c.l00 * over_determinant * c.l11};
-}
-
-Whitening8<Float8> rounded_whitening(const Whitening8<Double8>& w) {
-  return {rounded(w.r10), rounded(w.r11), rounded(w.r20), rounded(w.r21), rounded(w.r22)};
-}
+constexpr std::size_t kGroup = WhitenedGroup::kLanes;
 
 Float8 cosine_factor(const CosineRule& rule, const SeenGroup& group) {
   const Float8 cosine = dot(group.aim, all8(rule.normal));
@@ -124,31 +47,31 @@ struct WhitenedMeans8 {
   Lanes3<Float8> direction;
 };
 
-/// Prepares up to eight components for the origin.
-void see_group(std::span<const SpatialGaussian> components, Point3 origin, const CosineRule& rule,
-               Technique technique, SeenGroup& group) {
-  const Components8 c(components, origin);
-  const Double8 over_determinant = all_doubles8(1) / (c.l11 * c.l22);
-  const Whitening8<Double8> exact_whitening = whitening_of(c, over_determinant);
-  const WhitenedMeans8 m(exact_whitening(c.mu));
-  group.whitening = rounded_whitening(exact_whitening);
+/// Prepares eight components for the origin.
+void see_group(const WhitenedGroup& c, Point3 origin, const CosineRule& rule, Technique technique,
+               SeenGroup& group) {
+  const Lanes3<Double8> mu{widened(c.mean.x) - all_doubles8(origin.x),
+                           widened(c.mean.y) - all_doubles8(origin.y),
+                           widened(c.mean.z) - all_doubles8(origin.z)};
+  const WhitenedMeans8 m(widened(c.whitening)(mu));
+  group.whitening = c.whitening;
   group.towards = m.direction;
-  const Float8 over_distance = aim_at(c.mu, technique, group);
+  const Float8 over_distance = aim_at(mu, technique, group);
   const Mask8 is_outside = over_distance > 0;
   group.ahead = m.length * over_distance;
-  group.share = rounded(c.weight);
+  group.share = c.weight;
   if (rule.normal != Vec3{}) group.share *= cosine_factor(rule, group);
   if (technique == Technique::plane) {
     // d^2 / (2 pi sqrt|S|) with sqrt|S| = |L| |L^-1 mu| / d. If the origin is the mean itself,
     // there is no plane.
     const Float8 d = is_outside ? 1 / over_distance : Float8{};
-    const Float8 cubed = d * d * d * rounded(scaled(kOverTwoPi, over_determinant));
+    group.reach = d * c.over_l00;
+    const Float8 cubed = group.reach * group.reach * d * c.flatness;
     group.weight = is_outside ? cubed / m.length : Float8{};
     group.share = is_outside ? group.share : Float8{};
-    group.reach = d / rounded(c.l00);
   } else {
-    group.weight = rounded(scaled(kOverTwoPi, c.l00 * c.l00 * over_determinant));
-    group.reach = m.length / rounded(c.l00);
+    group.weight = c.flatness;
+    group.reach = m.length * c.over_l00;
   }
   // If the origin is the mean itself, nothing is flipped: each direction gets half of its line.
   if (technique == Technique::flipped) {
@@ -219,13 +142,17 @@ Vec3 normal_numbers(Vec2 u, float v) {
 }  // namespace
 
 const SeenMixture* SeenMixture::make(std::span<const SpatialGaussian> components, Point3 origin,
-                                     const CosineRule& rule, Technique technique, Arena& arena) {
+                                     const CosineRule& rule, Technique technique, Arena& arena,
+                                     std::span<const WhitenedGroup> whitened) {
   const std::size_t count = (components.size() + kGroup - 1) / kGroup;
   SeenGroup* groups = arena.make_array<SeenGroup>(count);
   float total = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    see_group(components.subspan(i * kGroup, std::min(kGroup, components.size() - i * kGroup)),
-              origin, rule, technique, groups[i]);
+    if (whitened.empty()) {
+      see_group(WhitenedGroup(components.subspan(i * kGroup)), origin, rule, technique, groups[i]);
+    } else {
+      see_group(whitened[i], origin, rule, technique, groups[i]);
+    }
     total += sum(groups[i].share);
   }
   if (!(total > 0)) return nullptr;

@@ -8,7 +8,8 @@
 #include <pharos/core/lanes3.h>
 #include <pharos/core/simd.h>
 #include <pharos/core/vec.h>
-#include <pharos/guiding/contract/spatial_mixture.h>
+#include <pharos/guiding/contract/spatial_gaussian.h>
+#include <pharos/guiding/contract/whitened_group.h>
 
 namespace pharos::spatial_gaussians {
 
@@ -25,16 +26,6 @@ struct CosineRule {
   Vec3 normal;              ///< unit, on the side of the path; zero: weights stay unchanged
   bool both_sides = false;  ///< true for surfaces that transmit: the absolute cosine counts
   float least = 0.01f;      ///< lower bound of the cosine, also below the horizon
-};
-
-/// The lower triangle of l00 L^-1, for eight components. The factor l00 keeps floats in range.
-template <typename Number>
-struct Whitening8 {
-  /// Returns the whitened vectors, times l00.
-  Lanes3<Number> operator()(const Lanes3<Number>& v) const {
-    return {v.x, r10 * v.x + r11 * v.y, r20 * v.x + r21 * v.y + r22 * v.z};
-  }
-  Number r10, r11, r20, r21, r22;
 };
 
 /// Eight components as seen from one point. A direction omega is whitened as omega - aim, so that
@@ -61,8 +52,10 @@ class SeenMixture {
  public:
   /// Makes the mixture in `arena`. It is valid as long as the arena and the components are. Returns
   /// null if nothing can be sampled: for `plane`, if all components are seen from their own means.
+  /// `whitened` holds the same components; if it is empty, they are whitened here.
   static const SeenMixture* make(std::span<const SpatialGaussian> components, Point3 origin,
-                                 const CosineRule& rule, Technique technique, Arena& arena);
+                                 const CosineRule& rule, Technique technique, Arena& arena,
+                                 std::span<const WhitenedGroup> whitened = {});
 
   explicit SeenMixture(std::span<const SpatialGaussian> components, Point3 origin,
                        std::span<const SeenGroup> groups, Technique technique)
