@@ -18,7 +18,6 @@ namespace pharos {
 using Float8 = float __attribute__((vector_size(32)));
 using Double4 = double __attribute__((vector_size(32)));
 using Mask8 = std::int32_t __attribute__((vector_size(32)));
-using Mask4 = std::int64_t __attribute__((vector_size(32)));
 
 /// Four floats, an intermediate step on the way to and from memory.
 using Float4 = float __attribute__((vector_size(16)));
@@ -27,16 +26,6 @@ using Float4 = float __attribute__((vector_size(16)));
 /// omit x - 0, but not x + 0.)
 inline Float8 all8(float x) {
   return x - Float8{};
-}
-inline Double4 all4(double x) {
-  return x - Double4{};
-}
-
-/// Loads four neighbors in memory. The address needs no alignment.
-inline Double4 load4(const double* from) {
-  Double4 x;
-  std::memcpy(&x, from, sizeof x);
-  return x;
 }
 
 /// The result of transposing four vectors: row i holds element i of each vector.
@@ -106,9 +95,35 @@ struct Double8 {
   friend Double8 operator-(const Double8& a) {
     return each([&](int k) { return -a.parts[k]; });
   }
+  friend Double8 operator+(const Double8& a, double b) {
+    return each([&](int k) { return a.parts[k] + b; });
+  }
+  friend Double8 operator-(const Double8& a, double b) {
+    return each([&](int k) { return a.parts[k] - b; });
+  }
+  friend Double8 operator-(double a, const Double8& b) {
+    return each([&](int k) { return a - b.parts[k]; });
+  }
+  friend Double8 operator*(double a, const Double8& b) {
+    return each([&](int k) { return a * b.parts[k]; });
+  }
+  Double8& operator+=(const Double8& other) {
+    return *this = *this + other;
+  }
+
+  double operator[](int i) const {
+    return parts[i / (8 / kParts)][i % (8 / kParts)];
+  }
 };
 inline Double8 all_doubles8(double x) {
   return Double8::each([&](int) { return x - Double8::Part{}; });
+}
+
+/// Loads eight neighbors in memory. The address needs no alignment.
+inline Double8 load8(const double* from) {
+  Double8 x;
+  std::memcpy(&x, from, sizeof x);
+  return x;
 }
 
 #if defined(__AVX512F__)
@@ -152,12 +167,16 @@ inline Float8 larger(const Float8& a, const Float8& b) {
   return a > b ? a : b;
 #endif
 }
-inline Double4 larger(const Double4& a, const Double4& b) {
-#if defined(__AVX__)
-  return _mm256_max_pd(a, b);
+inline Double8 larger(const Double8& a, const Double8& b) {
+  return Double8::each([&](int k) -> Double8::Part {
+#if defined(__AVX512F__)
+    return _mm512_maskz_max_pd(kAllLanes, a.parts[k], b.parts[k]);
+#elif defined(__AVX__)
+    return _mm256_max_pd(a.parts[k], b.parts[k]);
 #else
-  return a > b ? a : b;
+    return a.parts[k] > b.parts[k] ? a.parts[k] : b.parts[k];
 #endif
+  });
 }
 inline Float8 absolute(const Float8& x) {
   return larger(x, -x);
@@ -178,6 +197,21 @@ inline bool any(const Mask8& mask) {
   return bits_of(mask) != 0;
 }
 
+/// Returns whether all elements are below a limit.
+inline bool all_below(const Double8& x, double limit) {
+  bool all = true;
+  for (const Double8::Part& part : x.parts) {
+#if defined(__AVX512F__)
+    all &= _mm512_cmp_pd_mask(part, Double8::Part{} + limit, _CMP_LT_OQ) == kAllLanes;
+#elif defined(__AVX__)
+    all &= _mm256_movemask_pd(_mm256_cmp_pd(part, Double8::Part{} + limit, _CMP_LT_OQ)) == 0xf;
+#else
+    for (int i = 0; i < 4; ++i) all &= part[i] < limit;
+#endif
+  }
+  return all;
+}
+
 /// Returns the sum of all elements. The order of the additions is fixed.
 inline float sum(const Float8& x) {
   const Float4 four =
@@ -185,8 +219,9 @@ inline float sum(const Float8& x) {
   const Float4 two = four + __builtin_shufflevector(four, four, 2, 3, 0, 1);
   return two[0] + two[1];
 }
-inline double sum(const Double4& x) {
-  return (x[0] + x[2]) + (x[1] + x[3]);
+inline double sum(const Double8& x) {
+  const double low = (x[0] + x[2]) + (x[1] + x[3]), high = (x[4] + x[6]) + (x[5] + x[7]);
+  return low + high;
 }
 
 /// Returns 2^x for x below 128, with a relative error below 3e-7. Returns 0 for x below -126, and
@@ -214,22 +249,25 @@ inline Float8 exp(const Float8& x) {
 }
 
 /// Returns e^x for x below 709, with a relative error below 1e-15. Returns 0 for x below -708.
-inline Double4 exp(const Double4& x) {
+inline Double8 exp(const Double8& x) {
   constexpr double kOverLn2 = 1.4426950408889634;
   constexpr double kLn2High = 0x1.62e42fefa38p-1, kLn2Low = 0x1.ef35793c7673p-45;
   constexpr double kRound = 0x1.8p52;
   constexpr double kLeast = -708;
-  const Double4 bounded = larger(x, all4(kLeast));
-  const Double4 shifted = bounded * kOverLn2 + kRound;
-  const Double4 n = shifted - kRound;
-  const Double4 r = (bounded - n * kLn2High) - n * kLn2Low;
-  Double4 p = all4(1.0 / 6227020800);
-  for (const double c : {1.0 / 479001600, 1.0 / 39916800, 1.0 / 3628800, 1.0 / 362880, 1.0 / 40320,
-                         1.0 / 5040, 1.0 / 720, 1.0 / 120, 1.0 / 24, 1.0 / 6, 0.5, 1.0, 1.0}) {
-    p = p * r + c;
-  }
-  const Mask4 exponent = (std::bit_cast<Mask4>(shifted) + 1023) << 52;
-  return x < kLeast ? Double4{} : p * std::bit_cast<Double4>(exponent);
+  using Exponents = std::int64_t __attribute__((vector_size(sizeof(Double8::Part))));
+  const Double8 bounded = larger(x, all_doubles8(kLeast));
+  return Double8::each([&](int k) -> Double8::Part {
+    const Double8::Part shifted = bounded.parts[k] * kOverLn2 + kRound;
+    const Double8::Part n = shifted - kRound;
+    const Double8::Part r = (bounded.parts[k] - n * kLn2High) - n * kLn2Low;
+    Double8::Part p = r * (1.0 / 6227020800) + 1.0 / 479001600;
+    for (const double c : {1.0 / 39916800, 1.0 / 3628800, 1.0 / 362880, 1.0 / 40320, 1.0 / 5040,
+                           1.0 / 720, 1.0 / 120, 1.0 / 24, 1.0 / 6, 0.5, 1.0, 1.0}) {
+      p = p * r + c;
+    }
+    const Exponents exponent = (std::bit_cast<Exponents>(shifted) + 1023) << 52;
+    return x.parts[k] < kLeast ? Double8::Part{} : p * std::bit_cast<Double8::Part>(exponent);
+  });
 }
 
 }  // namespace pharos

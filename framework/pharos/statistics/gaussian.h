@@ -123,9 +123,9 @@ class LogDensity {
   T operator()(const std::array<T, D>& x) const {
     T squared{};
     for (int row = 0; row < D; ++row) {
-      T white = x[0] * whitening_(row, 0) - center_[row];
+      T white = whitening_(row, 0) * x[0] - center_[row];
       for (int column = 1; column <= row; ++column) {
-        white = white + x[column] * whitening_(row, column);
+        white = white + whitening_(row, column) * x[column];
       }
       squared = squared + white * white;
     }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -30,7 +31,7 @@ struct GaussianMixture {
 template <int D>
 class WeightedPoints {
  public:
-  static constexpr std::size_t kWidth = 4;
+  static constexpr std::size_t kWidth = 8;
 
   void add(const Vector<D>& x, double weight) {
     if (size_ % kWidth == 0) {
@@ -53,13 +54,13 @@ class WeightedPoints {
   double weight(std::size_t i) const { return values_[D][i]; }
 
   std::size_t registers() const { return (size_ + kWidth - 1) / kWidth; }
-  /// Returns the four points of register r; weights4() returns their weights.
-  std::array<Double4, D> points4(std::size_t r) const {
-    std::array<Double4, D> x;
-    for (int axis = 0; axis < D; ++axis) x[axis] = load4(&values_[axis][r * kWidth]);
+  /// Returns the eight points of register r; weights8() returns their weights.
+  std::array<Double8, D> points8(std::size_t r) const {
+    std::array<Double8, D> x;
+    for (int axis = 0; axis < D; ++axis) x[axis] = load8(&values_[axis][r * kWidth]);
     return x;
   }
-  Double4 weights4(std::size_t r) const { return load4(&values_[D][r * kWidth]); }
+  Double8 weights8(std::size_t r) const { return load8(&values_[D][r * kWidth]); }
 
  private:
   std::array<std::vector<double>, D + 1> values_;  ///< the coordinates, then the weights
@@ -100,17 +101,17 @@ struct Expectation {
 
 namespace detail {
 
-/// Moments of four streams of points, summed side by side.
+/// Moments of eight streams of points, summed side by side.
 template <int D>
-struct Moments4 {
-  Double4 weight{};
-  std::array<Double4, D> first{};
-  std::array<Double4, D*(D + 1) / 2> second{};
+struct Moments8 {
+  Double8 weight{};
+  std::array<Double8, D> first{};
+  std::array<Double8, D*(D + 1) / 2> second{};
 
-  void add(const Double4& w, const std::array<Double4, D>& x) {
+  void add(const Double8& w, const std::array<Double8, D>& x) {
     weight += w;
     for (int row = 0, i = 0; row < D; ++row) {
-      const Double4 weighted = w * x[row];
+      const Double8 weighted = w * x[row];
       first[row] += weighted;
       for (int column = 0; column <= row; ++column) second[i++] += weighted * x[column];
     }
@@ -128,39 +129,124 @@ struct Moments4 {
   }
 };
 
-/// Computes the expectation over registers [begin, end) of the points.
+/// Shares below e^-37 are lost when they are added to a share of 1.
+inline constexpr double kLeastLogShare = -37;
+
+/// Some components of a mixture, ready to be evaluated.
 template <int D>
-Expectation<D> expectation_of_part(const std::vector<LogDensity<D>>& densities,
-                                   const std::vector<double>& log_weights,
-                                   const WeightedPoints<D>& points, std::size_t begin,
-                                   std::size_t end) {
-  const std::size_t count = densities.size();
-  std::vector<Moments4<D>> moments(count);
-  std::vector<Double4> terms(count);
-  Double4 log_likelihood{};
-  for (std::size_t r = begin; r < end; ++r) {
-    const std::array<Double4, D> x = points.points4(r);
-    const Double4 w = points.weights4(r);
-    Double4 largest = all4(-std::numeric_limits<double>::infinity());
-    for (std::size_t k = 0; k < count; ++k) {
-      terms[k] = densities[k](x) + log_weights[k];
-      largest = larger(largest, terms[k]);
-    }
-    Double4 total{};
-    for (std::size_t k = 0; k < count; ++k) {
-      terms[k] = exp(terms[k] - largest);
-      total += terms[k];
-    }
-    for (int i = 0; i < 4; ++i) {
-      log_likelihood[i] += w[i] > 0 ? w[i] * (largest[i] + std::log(total[i])) : 0.0;
-    }
-    const Double4 share = w / total;
-    for (std::size_t k = 0; k < count; ++k) moments[k].add(share * terms[k], x);
+struct Terms {
+  std::vector<std::size_t> components;
+  std::vector<LogDensity<D>> densities;
+  std::vector<double> log_weights;
+
+  void add(const GaussianMixture<D>& mixture, std::size_t k) {
+    components.push_back(k);
+    densities.emplace_back(mixture.components[k]);
+    log_weights.push_back(std::log(mixture.weights[k]));
   }
-  Expectation<D> result;
-  for (const Moments4<D>& m : moments) result.moments.push_back(m.summed());
-  result.log_likelihood = sum(log_likelihood);
+  std::size_t size() const { return components.size(); }
+  /// Writes the logarithms of the weighted densities at eight points to `values`. Returns the
+  /// largest of them and `least`.
+  Double8 evaluate(const std::array<Double8, D>& x, Double8 least,
+                   std::vector<Double8>& values) const {
+    for (std::size_t i = 0; i < size(); ++i) {
+      values[i] = densities[i](x) + log_weights[i];
+      least = larger(least, values[i]);
+    }
+    return least;
+  }
+};
+
+inline Double8 never8() {
+  return all_doubles8(-std::numeric_limits<double>::infinity());
+}
+
+/// Computes the expectation over registers [begin, end) of the points. `rest` holds the logarithm
+/// of the density of all other components for each register, or nothing if there are none.
+template <int D>
+Expectation<D> expectation_of_part(const Terms<D>& terms, std::size_t count,
+                                   const WeightedPoints<D>& points, std::span<const Double8> rest,
+                                   std::size_t begin, std::size_t end) {
+  std::vector<Moments8<D>> moments(terms.size());
+  std::vector<Double8> values(terms.size());
+  std::vector<std::size_t> near(terms.size());  // components with a share in any of eight points
+  double log_likelihood = 0;
+  for (std::size_t r = begin; r < end; ++r) {
+    const std::array<Double8, D> x = points.points8(r);
+    const Double8 w = points.weights8(r), others = rest.empty() ? never8() : rest[r];
+    const Double8 largest = terms.evaluate(x, others, values);
+    Double8 total = exp(others - largest);
+    std::size_t near_count = 0;
+    for (std::size_t i = 0; i < terms.size(); ++i) {
+      const Double8 below = values[i] - largest;
+      if (all_below(below, kLeastLogShare)) continue;
+      values[i] = exp(below);
+      total += values[i];
+      near[near_count++] = i;
+    }
+    for (std::size_t lane = 0; lane < WeightedPoints<D>::kWidth; ++lane) {
+      if (w[lane] > 0) log_likelihood += w[lane] * (largest[lane] + std::log(total[lane]));
+    }
+    const Double8 share = w / total;
+    for (const std::size_t i : std::span(near).first(near_count)) {
+      moments[i].add(share * values[i], x);
+    }
+  }
+  Expectation<D> result{std::vector<Moments<D>>(count), log_likelihood};
+  for (std::size_t i = 0; i < terms.size(); ++i) {
+    result.moments[terms.components[i]] = moments[i].summed();
+  }
   return result;
+}
+
+/// Calls `compute(part, begin, end)` concurrently for parts of the registers. Returns the number of
+/// parts, which does not depend on the number of threads.
+inline constexpr std::size_t kRegistersAPart = 512;
+inline std::size_t part_count(std::size_t registers) {
+  return (registers + kRegistersAPart - 1) / kRegistersAPart;
+}
+template <class Compute>
+void for_each_part(std::size_t registers, Compute&& compute) {
+  parallel_for(part_count(registers), [&](std::size_t part) {
+    const std::size_t begin = part * kRegistersAPart;
+    compute(part, begin, std::min(begin + kRegistersAPart, registers));
+  });
+}
+
+template <int D>
+Expectation<D> expectation_of(const Terms<D>& terms, std::size_t count,
+                              const WeightedPoints<D>& points, std::span<const Double8> rest) {
+  std::vector<Expectation<D>> parts(part_count(points.registers()));
+  for_each_part(points.registers(), [&](std::size_t part, std::size_t begin, std::size_t end) {
+    parts[part] = expectation_of_part(terms, count, points, rest, begin, end);
+  });
+  Expectation<D> all{std::vector<Moments<D>>(count), 0};
+  for (const Expectation<D>& part : parts) {
+    for (std::size_t k = 0; k < count; ++k) all.moments[k] += part.moments[k];
+    all.log_likelihood += part.log_likelihood;
+  }
+  return all;
+}
+
+/// Returns the logarithm of the summed density of these components for each register of points.
+template <int D>
+std::vector<Double8> log_sums(const Terms<D>& terms, const WeightedPoints<D>& points) {
+  std::vector<Double8> sums(points.registers(), never8());
+  if (terms.size() == 0) return sums;
+  for_each_part(points.registers(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    std::vector<Double8> values(terms.size());
+    for (std::size_t r = begin; r < end; ++r) {
+      const Double8 largest = terms.evaluate(points.points8(r), never8(), values);
+      Double8 total{};
+      for (const Double8& value : values) total += exp(value - largest);
+      double logs[WeightedPoints<D>::kWidth];
+      for (std::size_t lane = 0; lane < WeightedPoints<D>::kWidth; ++lane) {
+        logs[lane] = largest[lane] + std::log(total[lane]);
+      }
+      sums[r] = load8(logs);
+    }
+  });
+  return sums;
 }
 
 }  // namespace detail
@@ -170,27 +256,39 @@ Expectation<D> expectation_of_part(const std::vector<LogDensity<D>>& densities,
 /// threads.
 template <int D>
 Expectation<D> expectation(const GaussianMixture<D>& mixture, const WeightedPoints<D>& points) {
-  constexpr std::size_t kRegistersAPart = 1024;
-  std::vector<LogDensity<D>> densities;
-  std::vector<double> log_weights;
-  for (std::size_t k = 0; k < mixture.size(); ++k) {
-    densities.emplace_back(mixture.components[k]);
-    log_weights.push_back(std::log(mixture.weights[k]));
-  }
-  const std::size_t registers = points.registers();
-  std::vector<Expectation<D>> parts((registers + kRegistersAPart - 1) / kRegistersAPart);
-  parallel_for(parts.size(), [&](std::size_t i) {
-    const std::size_t begin = i * kRegistersAPart;
-    parts[i] = detail::expectation_of_part(densities, log_weights, points, begin,
-                                           std::min(begin + kRegistersAPart, registers));
-  });
-  Expectation<D> all{std::vector<Moments<D>>(mixture.size()), 0};
-  for (const Expectation<D>& part : parts) {
-    for (std::size_t k = 0; k < mixture.size(); ++k) all.moments[k] += part.moments[k];
-    all.log_likelihood += part.log_likelihood;
-  }
-  return all;
+  detail::Terms<D> terms;
+  for (std::size_t k = 0; k < mixture.size(); ++k) terms.add(mixture, k);
+  return detail::expectation_of(terms, mixture.size(), points, {});
 }
+
+/// E steps of which only some components change from one to the next. The density of the others is
+/// computed once for each point.
+template <int D>
+class MaskedExpectation {
+ public:
+  /// `points` and `changing` must outlive this object.
+  MaskedExpectation(const GaussianMixture<D>& mixture, const WeightedPoints<D>& points,
+                    std::span<const std::size_t> changing)
+      : points_(points), changing_(changing) {
+    detail::Terms<D> others;
+    for (std::size_t k = 0; k < mixture.size(); ++k) {
+      if (std::find(changing.begin(), changing.end(), k) == changing.end()) others.add(mixture, k);
+    }
+    rest_ = detail::log_sums(others, points);
+  }
+
+  /// Returns expectation(), but with moments only for the components that change.
+  Expectation<D> operator()(const GaussianMixture<D>& mixture) const {
+    detail::Terms<D> terms;
+    for (const std::size_t k : changing_) terms.add(mixture, k);
+    return detail::expectation_of(terms, mixture.size(), points_, rest_);
+  }
+
+ private:
+  const WeightedPoints<D>& points_;
+  std::span<const std::size_t> changing_;
+  std::vector<Double8> rest_;
+};
 
 /// Returns the most probable covariance of points with these moments about their mean, given the
 /// prior: (strength variance I + scatter) / (strength + weight). No eigenvalue is below `floor`.
@@ -261,18 +359,21 @@ FitResult<D> fit_mixture(GaussianMixture<D>& mixture, const WeightedPoints<D>& p
                          const MixtureFit<D>& fit) {
   double weight = 0;
   for (std::size_t i = 0; i < points.size(); ++i) weight += points.weight(i);
+  std::optional<MaskedExpectation<D>> masked;
+  if (!fit.changing.empty()) masked.emplace(mixture, points, fit.changing);
   FitResult<D> result;
   double last = -std::numeric_limits<double>::infinity();
-  while (result.iterations < fit.most_iterations) {
-    Expectation<D> now = expectation(mixture, points);
+  for (bool ends = false; !ends;) {
+    Expectation<D> now = masked ? (*masked)(mixture) : expectation(mixture, points);
     const double reached = objective(mixture, now.log_likelihood, fit);
+    ++result.iterations;
+    ends = reached - last < fit.tolerance * weight || result.iterations >= fit.most_iterations;
+    last = reached;
+    if (ends && masked) now = expectation(mixture, points);
     std::vector<Moments<D>> moments = now.moments;
     for (std::size_t k = 0; k < fit.frozen.size(); ++k) moments[k] += fit.frozen[k];
     maximize<D>(moments, fit, mixture);
     result.seen = std::move(now.moments);
-    ++result.iterations;
-    if (reached - last < fit.tolerance * weight) break;
-    last = reached;
   }
   return result;
 }
