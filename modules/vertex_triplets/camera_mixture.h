@@ -8,7 +8,8 @@
 
 #include <pharos/core/bounds.h>
 #include <pharos/core/lanes3.h>
-#include <pharos/guiding/contract/spatial_mixture.h>
+#include <pharos/core/simd.h>
+#include <pharos/guiding/contract/spatial_gaussian.h>
 #include <pharos/scene/events.h>
 
 namespace pharos::vertex_triplets {
@@ -61,7 +62,7 @@ class CameraMixture {
   void archive(Archive& archive);
 
  private:
-  /// Eight children per level: 11 levels suffice for 2^32 components.
+  /// Eight children per level: 11 levels suffice for 2^31 components.
   static constexpr int kMostWaiting = 7 * 11 + 1;
   static constexpr std::uint32_t kComponent = 0x80000000u;  ///< marks children that are components
 

@@ -7,7 +7,7 @@
 
 #include <pharos/core/arena.h>
 #include <pharos/core/simd.h>
-#include <pharos/guiding/contract/spatial_mixture.h>
+#include <pharos/guiding/contract/spatial_gaussian.h>
 
 #include "component.h"
 #include "next_group.h"

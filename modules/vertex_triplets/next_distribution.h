@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <pharos/config/schema.h>
+#include <pharos/core/arena.h>
 #include <pharos/guiding/contract/distribution.h>
 #include <pharos/scene/local_scattering.h>
 

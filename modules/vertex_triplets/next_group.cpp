@@ -21,17 +21,19 @@ void NextGroup::set(unsigned lane, const SpatialGaussian& gaussian) {
 
 Float8 truncated_densities(const NextGroup& group, Point3 point) {
   const Float8* l = group.cholesky;
-  const Float8 over0 = 1 / l[0], over1 = 1 / l[2], over2 = 1 / l[5];
   // In double precision, because the terms of thin Gaussians nearly cancel.
+  const Double8 one = all_doubles8(1);
+  const Double8 over0 = one / widened(l[0]), over1 = one / widened(l[2]),
+                over2 = one / widened(l[5]);
   const Lanes3<Float8> d = all8(point) - group.mean;
-  const Double8 a = widened(d.x) * widened(over0);
-  const Double8 b = (widened(d.y) - widened(l[1]) * a) * widened(over1);
-  const Double8 c = (widened(d.z) - widened(l[3]) * a - widened(l[4]) * b) * widened(over2);
+  const Double8 a = widened(d.x) * over0;
+  const Double8 b = (widened(d.y) - widened(l[1]) * a) * over1;
+  const Double8 c = (widened(d.z) - widened(l[3]) * a - widened(l[4]) * b) * over2;
   const Float8 z0 = rounded(a), z1 = rounded(b), z2 = rounded(c);
   const Mask8 inside = within_truncation(z0) & within_truncation(z1) & within_truncation(z2);
   const Float8 exponential = exp2((-0.5f * kLog2E) * (z0 * z0 + z1 * z1 + z2 * z2));
-  const Float8 scale =
-      (kTruncatedPeak * over0) * (kTruncatedPeak * over1) * (kTruncatedPeak * over2);
+  constexpr double kPeak = double{kTruncatedPeak} * kTruncatedPeak * kTruncatedPeak;
+  const Float8 scale = rounded(kPeak * (over0 * over1 * over2));
   return inside ? exponential * scale : Float8{};
 }
 

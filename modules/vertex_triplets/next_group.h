@@ -2,7 +2,7 @@
 
 #include <pharos/core/lanes3.h>
 #include <pharos/core/simd.h>
-#include <pharos/guiding/contract/spatial_mixture.h>
+#include <pharos/guiding/contract/spatial_gaussian.h>
 #include <pharos/scene/events.h>
 
 namespace pharos::vertex_triplets {

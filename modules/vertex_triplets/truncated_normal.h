@@ -1,12 +1,13 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <pharos/core/simd.h>
 #include <pharos/core/vec.h>
 #include <pharos/core/warp.h>
-#include <pharos/guiding/contract/spatial_mixture.h>
+#include <pharos/guiding/contract/spatial_gaussian.h>
 
 /// Truncated Gaussians (Schuessler et al. 2022, section 4.3): along each axis of the Cholesky
 /// factor, the whitened coordinate is a unit normal number within [-4, 4]. The density is zero

@@ -41,7 +41,11 @@ std::vector<SpatialGaussian> components_around(const Bounds3& bounds, std::size_
 class FixedMixture final : public GuidingModel, public SpatialMixture {
  public:
   explicit FixedMixture(std::vector<SpatialGaussian> components)
-      : components_(std::move(components)) {}
+      : components_(std::move(components)) {
+    for (std::size_t i = 0; i < components_.size(); i += WhitenedGroup::kLanes) {
+      whitened_.emplace_back(std::span(components_).subspan(i));
+    }
+  }
   ModelInfo info() const override {
     return {.name = "fixed_mixture", .bytes = components_.size() * sizeof components_[0]};
   }
@@ -50,9 +54,13 @@ class FixedMixture final : public GuidingModel, public SpatialMixture {
   std::span<const SpatialGaussian> mixture_at(const GuidingQuery&, Arena&) const override {
     return components_;
   }
+  std::span<const WhitenedGroup> whitened_at(const GuidingQuery&) const override {
+    return whitened_;
+  }
 
  private:
   std::vector<SpatialGaussian> components_;
+  std::vector<WhitenedGroup> whitened_;
 };
 
 Ref<Guider> build_guider(const std::string& name, const Registry& registry) {

@@ -1,7 +1,6 @@
 // The share of updates in the training time of every learner, in renders with a budget of time and
 // the learner's own settings, on two threads.
 
-#include <cstdio>
 #include <set>
 
 #include <fmt/format.h>

@@ -53,7 +53,8 @@ class Medium : public Component {
  public:
   static constexpr std::string_view contract_name = "medium";
 
-  /// Draws whether and where the ray scatters before `ray.t_max`, which may be infinite.
+  /// Draws whether and where the ray scatters before `ray.t_max`, which may be infinite. The end of
+  /// the ray only cuts the draws off; neither they nor leg() depend on it in any other way.
   virtual DistanceSample sample(const Ray& ray, Rgb shares, float u_channel,
                                 float u_distance) const = 0;
   /// Returns what the ray meets up to distance `t`, which may be infinite.

@@ -85,7 +85,7 @@ struct MixtureFit {
   /// The indices of the components that change. The other components keep their weights. Empty: all
   /// components change.
   std::span<const std::size_t> changing;
-  int most_iterations = 100;
+  int most_iterations = 100;  ///< at least 1
   /// The fit ends when a step raises objective() by less than this value per point. (A tolerance
   /// relative to objective() would depend on the unit of length.)
   double tolerance = 0.005;
@@ -157,6 +157,7 @@ struct Terms {
   }
 };
 
+/// Returns the logarithm of zero in all lanes.
 inline Double8 never8() {
   return all_doubles8(-std::numeric_limits<double>::infinity());
 }
@@ -199,12 +200,13 @@ Expectation<D> expectation_of_part(const Terms<D>& terms, std::size_t count,
   return result;
 }
 
-/// Calls `compute(part, begin, end)` concurrently for parts of the registers. Returns the number of
-/// parts, which does not depend on the number of threads.
 inline constexpr std::size_t kRegistersAPart = 512;
+/// Returns the number of parts that for_each_part() makes. It does not depend on the number of
+/// threads.
 inline std::size_t part_count(std::size_t registers) {
   return (registers + kRegistersAPart - 1) / kRegistersAPart;
 }
+/// Calls `compute(part, begin, end)` concurrently for all parts of the registers.
 template <class Compute>
 void for_each_part(std::size_t registers, Compute&& compute) {
   parallel_for(part_count(registers), [&](std::size_t part) {
@@ -213,6 +215,8 @@ void for_each_part(std::size_t registers, Compute&& compute) {
   });
 }
 
+/// Computes the E step for some of `count` components; see expectation_of_part() for `rest`. The
+/// moments of all other components are zero.
 template <int D>
 Expectation<D> expectation_of(const Terms<D>& terms, std::size_t count,
                               const WeightedPoints<D>& points, std::span<const Double8> rest) {
@@ -277,7 +281,8 @@ class MaskedExpectation {
     rest_ = detail::log_sums(others, points);
   }
 
-  /// Returns expectation(), but with moments only for the components that change.
+  /// Returns expectation(), but with moments only for the components that change. All other
+  /// components of `mixture` must be as they were.
   Expectation<D> operator()(const GaussianMixture<D>& mixture) const {
     detail::Terms<D> terms;
     for (const std::size_t k : changing_) terms.add(mixture, k);

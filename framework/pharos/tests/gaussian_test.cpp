@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <doctest/doctest.h>
@@ -117,6 +118,47 @@ TEST_CASE("eigenvalues are raised to the floor and no others changed") {
     const Vector<3> before = Eigen::SelfAdjointEigenSolver<Matrix<3>>(m).eigenvalues();
     const Vector<3> after = Eigen::SelfAdjointEigenSolver<Matrix<3>>(raised).eigenvalues();
     for (int k = 0; k < 3; ++k) CHECK(after[k] == doctest::Approx(std::max(before[k], 0.01)));
+  }
+}
+
+TEST_CASE("the expectation of components that change is their part of the whole") {
+  RandomStream random(8);
+  const GaussianMixture<3> mixture = random_mixture<3>(5, 3, random);
+  // There are more points than fit in one part.
+  const WeightedPoints<3> points = draw(random_mixture<3>(4, 20, random), 5000, true, random);
+  const Expectation<3> whole = expectation(mixture, points);
+  const std::vector<std::vector<std::size_t>> choices{{1, 3}, {4}, {0, 1, 2, 3, 4}};
+  for (const auto& changing : choices) {
+    const Expectation<3> part = MaskedExpectation<3>(mixture, points, changing)(mixture);
+    CHECK(part.log_likelihood == doctest::Approx(whole.log_likelihood).epsilon(1e-12));
+    for (std::size_t k = 0; k < mixture.size(); ++k) {
+      const bool changes = std::find(changing.begin(), changing.end(), k) != changing.end();
+      const Moments<3> expected = changes ? whole.moments[k] : Moments<3>{};
+      CHECK(part.moments[k].weight == doctest::Approx(expected.weight).epsilon(1e-10));
+      CHECK((part.moments[k].first - expected.first).norm() <= 1e-9 * (1 + expected.first.norm()));
+      CHECK((part.moments[k].second - expected.second).norm() <=
+            1e-9 * (1 + expected.second.norm()));
+    }
+  }
+}
+
+TEST_CASE("a fit of some components takes the same steps at once as one by one") {
+  RandomStream random(9);
+  GaussianMixture<3> at_once = random_mixture<3>(5, 3, random), one_by_one = at_once;
+  const WeightedPoints<3> points = draw(random_mixture<3>(4, 20, random), 700, true, random);
+  const std::vector<std::size_t> changing{0, 2};
+  MixtureFit<3> fit{.prior = {0.01, 0.2, 0.5}, .changing = changing, .tolerance = -1e9};
+  constexpr int kSteps = 6;
+  fit.most_iterations = kSteps;
+  const FitResult<3> all = fit_mixture(at_once, points, fit);
+  CHECK(all.iterations == kSteps);
+  fit.most_iterations = 1;
+  FitResult<3> last;
+  for (int i = 0; i < kSteps; ++i) last = fit_mixture(one_by_one, points, fit);
+  for (std::size_t k = 0; k < 5; ++k) {
+    CHECK(at_once.weights[k] == doctest::Approx(one_by_one.weights[k]).epsilon(1e-10));
+    CHECK((at_once.components[k].mean - one_by_one.components[k].mean).norm() < 1e-9);
+    CHECK(all.seen[k].weight == doctest::Approx(last.seen[k].weight).epsilon(1e-9));
   }
 }
 

@@ -14,7 +14,7 @@ DistanceSample stop_on_leg(const Medium& medium, const Ray& ray, Rgb shares,
       return medium.sample(ray, shares, numbers.get_1d(Purpose::distance_choice, leg),
                            numbers.get_1d(Purpose::distance, leg));
     case Proposal::Reach::distance:
-      return {.t = step.distance - traveled, .scattered = true};
+      return {.t = step.distance - traveled, .scattered = step.distance < kInfinity};
     default:
       return {};
   }

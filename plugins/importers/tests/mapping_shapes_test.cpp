@@ -120,7 +120,8 @@ TEST_CASE("shapes: media by scattering and absorption, or by their sum and albed
   CHECK(medium_of(import)->scattering({}) == Rgb(2, 4, 6));
   const auto by_sum = medium_of(with({value("sigma_t", rgb(2, 2, 2)), value("albedo", 0.25)}));
   CHECK(by_sum->scattering({}).g == doctest::Approx(0.5));
-  CHECK(by_sum->transmittance({{}, {0, 0, 1}, 1}, 1).g == doctest::Approx(std::exp(-2.0)));
+  CHECK(by_sum->leg({{}, {0, 0, 1}, 1}, Rgb(1.0f / 3), 1).transmittance.g ==
+        doctest::Approx(std::exp(-2.0)));
   CHECK(medium_of(with({}, Dialect::mitsuba_2))->scattering({}) == Rgb(0.75f));
   CHECK_THROWS_AS(with({value("sigma_s", rgb(1, -1, 0))}), InputError);
   CHECK_THROWS_AS(with({nested(object("phase", "hg", {value("g", 1.0)}))}), InputError);

@@ -29,7 +29,6 @@ inline Whitening8<Double8> widened(const Whitening8<Float8>& w) {
 struct WhitenedGroup {
   static constexpr std::size_t kLanes = 8;
 
-  WhitenedGroup() {}  // leaves the members uninitialized, so that arrays of groups are not cleared
   /// Takes the first eight of at least one component.
   explicit WhitenedGroup(std::span<const SpatialGaussian> components);
 
