@@ -49,7 +49,7 @@ float FirstDistribution::density(const ResolvedVertex& vertex) const {
     group.set(count++, component.gaussian);
     if (count == NextGroup::kLanes) add_group();
   });
-  add_group();
+  if (count > 0) add_group();
   return sum(total);
 }
 

@@ -15,6 +15,20 @@ std::string scene_entry(const std::string& name) {
   return fmt::format("scene: {}/{}/scene.yaml\n", PHAROS_SCENES, name);
 }
 
+std::string learning_config(const std::string& scene, const std::string& learner,
+                            const std::string& guider, double seconds) {
+  return fmt::format(R"({}
+film: {{ width: 240, height: 160, filter: box }}
+budget: {{ seconds: {} }}
+sampler: sobol
+integrator:
+  type: path
+  max_depth: 12
+  guiding: {{ learner: {}, guider: {}, training: {{ schedule: geometric, images: discard }} }}
+)",
+                     scene_entry(scene), seconds, learner, guider);
+}
+
 SphereField::SphereField(int spheres, int rings)
     : triangles_(testing::write_sphere_field(folder_ / kMesh, spheres, rings)) {}
 

@@ -10,6 +10,11 @@ namespace pharos::bench {
 /// its folder.
 std::string scene_entry(const std::string& name);
 
+/// Returns the config of a guided render with a budget of `seconds`, 240 x 160 pixels, for a scene
+/// as in scene_entry(). `learner` and `guider` are settings on one line.
+std::string learning_config(const std::string& scene, const std::string& learner,
+                            const std::string& guider, double seconds);
+
 /// A field of spheres, lit by a lamp and a sky. The mesh file exists as long as this object.
 class SphereField {
  public:

@@ -20,16 +20,7 @@ constexpr int kThreads = 2;
 
 Measurement update_share(const GuidePair& pair, const std::string& learner,
                          const std::string& scene, double seconds, const Registry& registry) {
-  const std::string config = fmt::format(R"({}
-film: {{ width: 240, height: 160, filter: box }}
-budget: {{ seconds: {} }}
-sampler: sobol
-integrator:
-  type: path
-  max_depth: 12
-  guiding: {{ learner: {}, guider: {}, training: {{ schedule: geometric, images: discard }} }}
-)",
-                                         scene_entry(scene), seconds, pair.learner, pair.guider);
+  const std::string config = learning_config(scene, pair.learner, pair.guider, seconds);
   RenderJob job(build_render_config(parse_yaml(config, "benchmark"), registry).config);
   const RenderTimes times = job.run().times;
   return {fmt::format("learning.{}.{}.update_share", scene, learner),

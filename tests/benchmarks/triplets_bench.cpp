@@ -119,16 +119,7 @@ std::vector<Measurement> answers(const Registry& registry, int count, int repeat
 /// Measures shares and sizes of a render with a budget of `seconds`.
 std::vector<Measurement> render(const std::string& scene, double seconds, const Registry& registry,
                                 int repeats) {
-  const std::string config = fmt::format(R"({}
-film: {{ width: 240, height: 160, filter: box }}
-budget: {{ seconds: {} }}
-sampler: sobol
-integrator:
-  type: path
-  max_depth: 12
-  guiding: {{ learner: vertex_triplets, guider: vertex_triplets, training: {{ schedule: geometric, images: discard }} }}
-)",
-                                         scene_entry(scene), seconds);
+  const std::string config = learning_config(scene, "vertex_triplets", "vertex_triplets", seconds);
   const LoadedConfig loaded = build_render_config(parse_yaml(config, "benchmark"), registry);
   RenderJob job(loaded.config);
   const RenderResult result = job.run();

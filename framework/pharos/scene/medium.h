@@ -31,7 +31,7 @@ struct DistanceSample {
   bool scattered = false;  ///< false: the ray reaches its end
 };
 
-/// What a ray meets in a medium up to a distance.
+/// The effect of a medium on a ray up to a distance.
 struct MediumLeg {
   Rgb transmittance{1};        ///< fraction of light that is left [1]
   float pass_probability = 1;  ///< probability that Medium::sample() gets there [1]
@@ -57,7 +57,7 @@ class Medium : public Component {
   /// the ray only cuts the draws off; neither they nor leg() depend on it in any other way.
   virtual DistanceSample sample(const Ray& ray, Rgb shares, float u_channel,
                                 float u_distance) const = 0;
-  /// Returns what the ray meets up to distance `t`, which may be infinite.
+  /// Returns the effect of the medium up to distance `t`, which may be infinite.
   virtual MediumLeg leg(const Ray& ray, Rgb shares, float t) const = 0;
 
   /// The scattering coefficient at a point [1/m].

@@ -145,8 +145,8 @@ struct Terms {
     log_weights.push_back(std::log(mixture.weights[k]));
   }
   std::size_t size() const { return components.size(); }
-  /// Writes the logarithms of the weighted densities at eight points to `values`. Returns the
-  /// largest of them and `least`.
+  /// Writes the logarithms of the weighted densities at eight points to `values`. Returns for each
+  /// point the largest of these numbers, but not less than `least`.
   Double8 evaluate(const std::array<Double8, D>& x, Double8 least,
                    std::vector<Double8>& values) const {
     for (std::size_t i = 0; i < size(); ++i) {
@@ -162,8 +162,8 @@ inline Double8 never8() {
   return all_doubles8(-std::numeric_limits<double>::infinity());
 }
 
-/// Computes the expectation over registers [begin, end) of the points. `rest` holds the logarithm
-/// of the density of all other components for each register, or nothing if there are none.
+/// Computes the expectation over registers [begin, end) of the points. For each register, `rest`
+/// holds the logarithm of the density of all other components. It is empty if there are no others.
 template <int D>
 Expectation<D> expectation_of_part(const Terms<D>& terms, std::size_t count,
                                    const WeightedPoints<D>& points, std::span<const Double8> rest,
@@ -176,7 +176,7 @@ Expectation<D> expectation_of_part(const Terms<D>& terms, std::size_t count,
     const std::array<Double8, D> x = points.points8(r);
     const Double8 w = points.weights8(r), others = rest.empty() ? never8() : rest[r];
     const Double8 largest = terms.evaluate(x, others, values);
-    Double8 total = exp(others - largest);
+    Double8 total = rest.empty() ? Double8{} : exp(others - largest);
     std::size_t near_count = 0;
     for (std::size_t i = 0; i < terms.size(); ++i) {
       const Double8 below = values[i] - largest;
