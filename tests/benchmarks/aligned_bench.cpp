@@ -154,13 +154,13 @@ std::vector<Measurement> convergence(int repeats) {
 }  // namespace
 
 std::vector<Measurement> bench_aligned(int repeats) {
-  // These two take a minute if they are repeated often.
-  constexpr int kMostSlowRuns = 2;
-  const int slow_runs = std::min(repeats, kMostSlowRuns);
-  std::vector<Measurement> all{synthesis(slow_runs)};
+  // One run of the convergence takes most of a minute.
+  constexpr int kMostSyntheses = 2, kMostConvergences = 1;
+  std::vector<Measurement> all{synthesis(std::min(repeats, kMostSyntheses))};
   for (Measurement& m : values(repeats)) all.push_back(std::move(m));
   all.push_back(estimation(repeats));
-  for (Measurement& m : convergence(slow_runs)) all.push_back(std::move(m));
+  for (Measurement& m : convergence(std::min(repeats, kMostConvergences)))
+    all.push_back(std::move(m));
   return all;
 }
 

@@ -3,6 +3,7 @@
 // threads. Both use the model that is learned in 15 training iterations with 4 samples per pixel
 // each.
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
@@ -25,6 +26,7 @@ namespace {
 
 constexpr std::size_t kVertices = 50'000;  // two densities are measured at each vertex
 constexpr int kThreads = 2;
+constexpr std::uint32_t kSamples = 32;  ///< samples per pixel of timed renders
 constexpr const char* kGrowthScene = "camera-obscura";
 
 std::string guided_config(const GuidePair& pair, const std::string& scene) {
@@ -97,7 +99,7 @@ std::vector<Measurement> measure_render(const GuidePair& pair, const std::string
       named("update_share"), "1", {times.update / (times.training + times.update)}};
   const Measurement bytes{
       named("model_bytes"), "B", {static_cast<double>(trained.result().model_bytes)}};
-  const RenderRate rate(trained.config(), trained.scene());
+  const RenderRate rate(trained.config(), trained.scene(), kSamples);
   const GuidedSpeed speed = guided_speed(rate, trained.frame(), repeats);
   return {{named("added_ns"), "ns", speed.added_ns},
           {named("rays_ratio"), "1", speed.rays_ratio},
@@ -160,7 +162,8 @@ std::vector<Measurement> bench_guiding_growth(int repeats) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, kThreads);
   tbb::task_arena arena(kThreads);
   const Registry registry = load_default_modules();
-  return arena.execute([&] { return measure_growth(registry, repeats); });
+  constexpr int kMostRuns = 3;
+  return arena.execute([&] { return measure_growth(registry, std::min(repeats, kMostRuns)); });
 }
 
 std::vector<Group> guiding_groups(const std::shared_ptr<const Registry>& registry) {

@@ -10,18 +10,18 @@
 namespace pharos::bench {
 namespace {
 
-/// Samples per pixel in total, and in a work unit.
-constexpr std::uint32_t kSamples = 32, kUnitSamples = 2;
+constexpr std::uint32_t kUnitSamples = 2;  ///< samples per pixel in a work unit
 
 }  // namespace
 
-RenderRate::RenderRate(const RenderConfig& config, const Scene& scene)
+RenderRate::RenderRate(const RenderConfig& config, const Scene& scene, std::uint32_t samples)
     : config_(config),
+      samples_(samples),
       sensor_(scene.sensor().prepare(config.film.width, config.film.height)),
       integrator_(config.integrator->prepare(
           {scene, *sensor_, config.film.width, config.film.height, config.film.window()})),
       sampler_(config.sampler->prepare({config.film.width, config.film.height},
-                                       {config.seed, kSamples}, nullptr)) {}
+                                       {config.seed, samples}, nullptr)) {}
 
 Speed RenderRate::measure(const GuidingFrame* guiding) const {
   const Film film(config_.film.window(), config_.film.filter, config_.film.least_weight);
@@ -30,7 +30,7 @@ Speed RenderRate::measure(const GuidingFrame* guiding) const {
   // The iteration after training, which has other random numbers than the training iterations.
   const std::uint32_t iteration = config_.integrator->guiding()->training.iterations;
   const auto start = std::chrono::steady_clock::now();
-  parallel_for(kSamples / kUnitSamples, [&](std::size_t i) {
+  parallel_for(samples_ / kUnitSamples, [&](std::size_t i) {
     const WorkUnit unit{.pixels = config_.film.window(),
                         .iteration = iteration,
                         .first_sample = static_cast<std::uint32_t>(i) * kUnitSamples,

@@ -13,17 +13,18 @@ struct Speed {
   double vertex_ns = 0;  ///< processor time per vertex (RenderCounters::vertices) [ns]
 };
 
-/// Renders the film of a config repeatedly, without training.
+/// Renders the film of a config repeatedly, with `samples` samples per pixel and without training.
 class RenderRate {
  public:
-  /// `scene` must outlive this object.
-  RenderRate(const RenderConfig& config, const Scene& scene);
+  /// `scene` must outlive this object. `samples` is a multiple of 2.
+  RenderRate(const RenderConfig& config, const Scene& scene, std::uint32_t samples);
 
   /// Renders a final image and returns the speed. `guiding` is the guide; null renders unguided.
   Speed measure(const GuidingFrame* guiding) const;
 
  private:
   const RenderConfig& config_;
+  std::uint32_t samples_;
   std::unique_ptr<const PreparedSensor> sensor_;
   std::unique_ptr<const PreparedIntegrator> integrator_;
   std::unique_ptr<const PreparedSampler> sampler_;

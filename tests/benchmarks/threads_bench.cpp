@@ -10,7 +10,7 @@ namespace pharos::bench {
 std::vector<Measurement> bench_threads(int repeats) {
   const std::string config = fmt::format(
       "scene: {}/cornell-box/scene.yaml\nfilm: {{ width: 256, height: 256, filter: box }}\n"
-      "sampler: independent\nintegrator: {{ type: path, max_depth: 10 }}\nbudget: {{ spp: 32 }}\n",
+      "sampler: independent\nintegrator: {{ type: path, max_depth: 10 }}\nbudget: {{ spp: 16 }}\n",
       PHAROS_SCENES);
   Measurement speedup{"threads.1to2.speedup", "1", {}};
   for (int i = 0; i < repeats; ++i) {

@@ -30,7 +30,8 @@ using namespace vertex_triplets;
 
 constexpr std::size_t kVertices = 20'000;
 constexpr int kThreads = 2;
-constexpr int kMostRenders = 3;  ///< runs of whole renders, which take seconds each
+constexpr int kMostRenders = 3;        ///< runs of whole renders, which take a second each
+constexpr std::uint32_t kSamples = 8;  ///< samples per pixel of these renders
 
 float between(float low, float high, RandomStream& random) {
   return low + (high - low) * random.next_1d();
@@ -127,7 +128,7 @@ std::vector<Measurement> render(const std::string& scene, double seconds, const 
   const auto named = [&](const char* what) { return fmt::format("triplets.{}.{}", what, scene); };
   const auto& guider = *loaded.config.integrator->guiding()->resolved_methods().front().guider;
   const GuidingFrame frame = conformance::frame_of(guider, result.model);
-  const RenderRate rate(loaded.config, job.scene());
+  const RenderRate rate(loaded.config, job.scene(), kSamples);
   const GuidedSpeed speed = guided_speed(rate, frame, std::min(repeats, kMostRenders));
   const ModelInfo info = result.model->info();
   std::vector<Measurement> all{

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include <fmt/format.h>
+#include <tbb/concurrent_queue.h>
 
 #include <pharos/core/error.h>
 #include <pharos/core/parallel.h>
@@ -246,7 +247,9 @@ class RenderJob::Implementation {
 
   void update_guiding(std::uint32_t index) {
     const double start = watch_.seconds();
-    guiding_->update(index, !iterations_[index + 1].training);
+    const bool is_last = !iterations_[index + 1].training;
+    guiding_->update(index, is_last);
+    if (is_last) spare_logs_.clear();
     frame_ = guiding_->frame();
     result_.times.update += watch_.seconds() - start;
   }
@@ -290,13 +293,18 @@ class RenderJob::Implementation {
     };
     const auto produce = [&](std::size_t i) {
       WorkResult work{.film = film.make_tile(unit(i).pixels)};
+      spare_logs_.try_pop(work.log);
       integrator_->render(unit(i), shared, work);
       return work;
     };
     double pixel_samples = 0;
     const auto consume = [&](std::size_t i, WorkResult& work) {
       film.merge(work.film);
-      if (shared.record) guiding_->absorb(work.log);
+      if (shared.record) {
+        guiding_->absorb(work.log);
+        work.log.clear();
+        spare_logs_.push(std::move(work.log));
+      }
       result_.counters += work.counters;
       if (!result_.first_invalid) result_.first_invalid = work.first_invalid;
       pixel_samples += static_cast<double>(unit(i).pixels.area()) * unit(i).sample_count;
@@ -355,6 +363,9 @@ class RenderJob::Implementation {
   Image last_image_;
   bool has_image_ = false;  ///< `last_image_` shows at least one whole pass
   std::unique_ptr<GuidingState> guiding_;
+  /// Empty logs whose memory is used again until training ends. Fresh memory would cost page
+  /// faults.
+  tbb::concurrent_queue<PathLog> spare_logs_;
   std::shared_ptr<const GuidingFrame> frame_;
 };
 
