@@ -134,6 +134,25 @@ void check_support(const Medium& medium, Suite& suite) {
   }
 }
 
+/// Checks that the end of a ray only cuts draws off.
+void check_end(const Medium& medium, Suite& suite) {
+  Check& check = suite.check("end");
+  const float scale = scale_of(medium);
+  RandomStream random(suite.seed(), 99);
+  for (int i = 0; i < 1000; ++i) {
+    const Ray far = stage_ray(i, 20 * scale);
+    Ray near = far;
+    near.t_max = scale;
+    const float channel = random.next_1d(), u = random.next_1d();
+    const DistanceSample expected = medium.sample(far, stage_shares(i), channel, u);
+    const DistanceSample s = medium.sample(near, stage_shares(i), channel, u);
+    const bool scatters = expected.scattered && expected.t < near.t_max;
+    check.expect(s.scattered == scatters && (!scatters || s.t == expected.t), [&] {
+      return fmt::format("{}: a draw depends on the end of the ray", text(near));
+    });
+  }
+}
+
 void check_finite(const Medium& medium, Suite& suite) {
   Check& check = suite.check("finite");
   for (const float t : {0.0f, 1e-38f, 1.0f, 1e20f, std::numeric_limits<float>::infinity()}) {
@@ -163,6 +182,7 @@ void check_medium(const Medium& medium, Suite& suite) {
   check_distances(medium, suite);
   check_transmittance(medium, suite);
   check_support(medium, suite);
+  check_end(medium, suite);
   check_finite(medium, suite);
 }
 

@@ -331,7 +331,7 @@ TEST_CASE("conformance: faults of a phase function") {
   CHECK(red_with<FaultyPhase>(PhaseFault::length) == "finite");
 }
 
-enum class MediumFault { none, scatter_pdf, shares, transmittance, never, beyond };
+enum class MediumFault { none, scatter_pdf, shares, transmittance, never, beyond, end };
 
 /// A medium that scatters in two channels, in one more than in the other, and not in the third.
 class FaultyMedium final : public Medium {
@@ -344,6 +344,11 @@ class FaultyMedium final : public Medium {
     if (fault_ == MediumFault::shares) shares = Rgb(1.0f / 3);
     const int channel = u_channel < shares.r ? 0 : u_channel < shares.r + shares.g ? 1 : 2;
     if (kSigma[channel] == 0) return {};
+    if (fault_ == MediumFault::end) {
+      // First decides whether the ray passes. The distribution is right.
+      u -= std::exp(-kSigma[channel] * ray.t_max);
+      if (u < 0) return {};
+    }
     const float t = -std::log1p(-u) / kSigma[channel];
     return {t, t < ray.t_max || fault_ == MediumFault::beyond};
   }
@@ -374,7 +379,8 @@ TEST_CASE("conformance: faults of a medium") {
   CHECK(red_with<FaultyMedium>(MediumFault::shares) == "chi_square");
   CHECK(red_with<FaultyMedium>(MediumFault::transmittance) == "transmittance");
   CHECK(red_with<FaultyMedium>(MediumFault::never) == "support");
-  CHECK(red_with<FaultyMedium>(MediumFault::beyond) == "chi_square finite");
+  CHECK(red_with<FaultyMedium>(MediumFault::beyond) == "chi_square end finite");
+  CHECK(red_with<FaultyMedium>(MediumFault::end) == "end");
 }
 
 }  // namespace

@@ -1,9 +1,13 @@
+#include <array>
 #include <cmath>
 
 #include <doctest/doctest.h>
 
+#include <pharos/core/lanes3.h>
+#include <pharos/core/random.h>
 #include <pharos/core/simd.h>
 #include <pharos/core/vec.h>
+#include <pharos/core/warp.h>
 
 namespace pharos {
 namespace {
@@ -48,10 +52,37 @@ TEST_CASE("lanes are loaded, rounded, compared and summed element by element") {
   CHECK(rounded(-all_doubles8(-4))[1] == 4);
   CHECK(rounded(widened(f))[6] == 7);
   CHECK(larger(f, Float8{})[1] == 0);
+  CHECK(bits_of(f < 0) == 0b10101010);
   CHECK(absolute(f)[1] == 2);
   CHECK(sqrt(f * f)[3] == 4);
   CHECK(any(f > 6.5f));
   CHECK(!any(f > 7.5f));
+}
+
+TEST_CASE("vectors side by side are those of Vec3") {
+  RandomStream random(5);
+  Lanes3<Float8> a, b;
+  for (unsigned lane = 0; lane < 8; ++lane) {
+    const Vec3 n = lane == 0 ? Vec3{0, 0, -1} : warp::sphere_from_square(random.next_2d());
+    const Vec3 other = warp::sphere_from_square(random.next_2d());
+    for (int axis = 0; axis < 3; ++axis) {
+      (axis == 0 ? a.x : axis == 1 ? a.y : a.z)[lane] = n[axis];
+      (axis == 0 ? b.x : axis == 1 ? b.y : b.z)[lane] = other[axis];
+    }
+  }
+  const Float8 products = dot(a, b);
+  const Lanes3<Float8> crossed = cross(a, b), difference = all8(3) * a - all8(Vec3{1, 2, 3});
+  const std::array<Lanes3<Float8>, 2> frame = perpendicular(a);
+  for (unsigned lane = 0; lane < 8; ++lane) {
+    const Vec3 n = lane_of(a, lane), other = lane_of(b, lane);
+    CHECK(products[lane] == doctest::Approx(dot(n, other)).epsilon(1e-5));
+    CHECK(length(lane_of(crossed, lane) - cross(n, other)) < 1e-6f);
+    CHECK(length(lane_of(difference, lane) - (3.0f * n - Vec3{1, 2, 3})) < 1e-6f);
+    const Vec3 s = lane_of(frame[0], lane), t = lane_of(frame[1], lane);
+    CHECK(length(cross(s, t) - n) < 1e-6f);
+    CHECK(length(s) == doctest::Approx(1));
+    CHECK(length(t) == doctest::Approx(1));
+  }
 }
 
 }  // namespace
