@@ -14,6 +14,8 @@
 #include <pharos/core/bounds.h>
 #include <pharos/core/vec.h>
 
+#include "octree_node.h"
+#include "octree_warp.h"
 #include "quad.h"
 
 namespace pharos::focal {
@@ -84,38 +86,15 @@ class Octree {
   /// Maximum number of levels of nodes. Leaves have edges down to 2^-kMostLevels of the box.
   static constexpr int kMostLevels = 24;
 
-  /// The eight children of a node. A child is either a leaf with a density [1/scene unit^3], or an
-  /// inner node with an index. The sign bit marks inner nodes, because densities are never
-  /// negative.
-  struct alignas(32) Node {
-    Words children{};
-
-    bool is_leaf(unsigned c) const { return static_cast<std::int32_t>(children[c]) >= 0; }
-    float density(unsigned c) const { return std::bit_cast<float>(children[c]); }
-    /// Returns a node with child order[c] in place of child c.
-    Node mirrored(const Words& order) const { return {permuted(children, order)}; }
-    /// Returns a bit mask of the inner children.
-    std::uint64_t inner_bits() const { return high_bits(children); }
-    /// Returns the densities of leaves, and 0 in the lanes of inner children.
-    Lanes densities() const { return positive_floats(children); }
-    std::uint32_t index(unsigned c) const { return children[c] & ~kInner; }
-    void set_density(unsigned c, float density) {
-      children[c] = std::bit_cast<std::uint32_t>(density);
-    }
-    void set_index(unsigned c, std::uint32_t index) { children[c] = index | kInner; }
-    friend bool operator==(const Node& a, const Node& b) {
-      return std::memcmp(&a, &b, sizeof a) == 0;
-    }
-    void archive(Archive& archive);
-  };
+  using Node = OctreeNode;
 
   /// A node as traverse() passes it to visitors: its children are mirrored so that
   /// the line goes upward along all axes, and leaves have masses [1] instead of densities.
   struct CrossedNode {
     Node node;
 
-    bool is_leaf(unsigned c) const { return node.is_leaf(c); }
-    float mass(unsigned c) const { return node.density(c); }
+    /// Returns 1 in the lanes of leaves, and 0 in the lanes of inner children.
+    Lanes leaves() const { return ones_where_positive(node.children); }
     /// Returns the masses of leaves, and 0 in the lanes of inner children.
     Lanes masses() const { return node.densities(); }
   };
@@ -136,14 +115,13 @@ class Octree {
   friend bool operator==(const Octree& a, const Octree& b) {
     return a.box_ == b.box_ && a.nodes_ == b.nodes_;
   }
-  std::size_t size_bytes() const { return nodes_.size() * (2 * sizeof(Node) + sizeof(Warp)); }
+  std::size_t size_bytes() const { return nodes_.size() * 2 * sizeof(Node) + warp_.size_bytes(); }
   /// Saves or loads the octree. Throws InputError if the loaded data is not an octree.
   void archive(Archive& archive);
 
   /// Returns the density at a point [1/scene unit^3], 0 outside the box.
   double density(Point3 p) const;
-  /// Samples a point with the density density() / mass() from random numbers in [0, 1), by
-  /// hierarchical sample warping (McCool and Harwood 1997).
+  /// Samples a point with the density density() / mass() from random numbers in [0, 1).
   Double3 sample(const Double3& u) const;
 
   /// Calls `visit(i, node, spans, level)` for every node i that a side of `line` crosses (a line
@@ -157,10 +135,6 @@ class Octree {
   /// The unit in which traverse() measures lengths at nodes of a level [scene units]. The root has
   /// level 0.
   static constexpr double unit(unsigned level) { return 0.5 / static_cast<double>(1u << level); }
-  /// Returns the volume of a leaf whose parent is a node of this level [scene unit^3].
-  double leaf_volume(unsigned level) const {
-    return box_.volume() * unit(level) * unit(level) * unit(level);
-  }
 
  private:
   struct Steps;
@@ -170,14 +144,6 @@ class Octree {
   template <Side side>
   friend class DirectionalDensity;
 
-  static constexpr std::uint32_t kInner = 0x80000000u;
-
-  /// Probabilities of the lower halves, axis by axis: x, y given x, z given x and y. Each choice
-  /// waits for the one before, so numbers that need no conversion save time.
-  struct alignas(64) Warp {
-    double x = 0.5, y[2] = {0.5, 0.5}, z[4] = {0.5, 0.5, 0.5, 0.5};
-  };
-
   /// Visits the `crossed` nodes of `front`, at most kRound nodes. Writes their children to `next`
   /// and returns a bit mask of the children that remain to be visited.
   template <Side side, class Visit>
@@ -185,11 +151,15 @@ class Octree {
                                              const Steps& steps, Front& next, Visit& visit) const;
 
   void find_leaf_masses();
+  /// Returns the volume of a leaf whose parent is a node of this level [scene unit^3].
+  double leaf_volume(unsigned level) const {
+    return box_.volume() * unit(level) * unit(level) * unit(level);
+  }
 
   Box box_;
   std::vector<Node> nodes_;
   std::vector<Node> mass_nodes_;  ///< nodes_ with masses of leaves instead of densities
-  std::vector<Warp> warps_;
+  OctreeWarp warp_;
   double mass_ = 0;
   double third_per_volume_ = 0;  ///< 1 / (3 box volume); 0 for an empty box [1/scene unit^3]
 };
@@ -242,7 +212,7 @@ inline std::uint64_t Octree::cross(const Front& front, std::uint64_t crossed, co
 #pragma GCC unroll 8
   for (unsigned slot = 0; slot < 8 * Front::kRound; slot += 8) {
     const auto at = static_cast<unsigned>(std::countr_zero(crossed));
-    const std::uint32_t i = front.children[at] & ~kInner;
+    const std::uint32_t i = front.children[at] & ~Node::kInner;
     const CrossedNode node{mass_nodes_[i].mirrored(steps.order)};
     const Quad entry_x = Quad::broadcast(&front.x[at]), entry_y = Quad::broadcast(&front.y[at]),
                entry_z = Quad::broadcast(&front.z[at]);

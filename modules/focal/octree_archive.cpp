@@ -29,7 +29,7 @@ bool are_sound(const std::vector<Octree::Node>& nodes) {
 
 }  // namespace
 
-void Octree::Node::archive(Archive& archive) {
+void OctreeNode::archive(Archive& archive) {
   for (unsigned c = 0; c < 8; ++c) {
     std::uint32_t word = children[c];
     archive(word);

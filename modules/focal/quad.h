@@ -82,8 +82,16 @@ struct Lanes {
 
   double operator[](unsigned c) const { return c < 4 ? lower[c] : upper[c - 4]; }
 
+  static Lanes all(double value) { return {Quad::all(value), Quad::all(value)}; }
+
+  friend Lanes operator+(const Lanes& a, const Lanes& b) {
+    return {a.lower + b.lower, a.upper + b.upper};
+  }
   friend Lanes operator-(const Lanes& a, const Lanes& b) {
     return {a.lower - b.lower, a.upper - b.upper};
+  }
+  friend Lanes operator*(const Lanes& a, const Lanes& b) {
+    return {a.lower * b.lower, a.upper * b.upper};
   }
 };
 
@@ -114,6 +122,18 @@ inline Quad smaller(const Quad& a, const Quad& b) {
     return x < y ? x : y;
 #endif
   });
+}
+
+inline Lanes larger(const Lanes& a, const Lanes& b) {
+  return {larger(a.lower, b.lower), larger(a.upper, b.upper)};
+}
+inline Lanes smaller(const Lanes& a, const Lanes& b) {
+  return {smaller(a.lower, b.lower), smaller(a.upper, b.upper)};
+}
+
+/// Adds number i to `sums[i ^ mirror]`.
+inline void add_mirrored(const Lanes& numbers, unsigned mirror, double* sums) {
+  for (unsigned i = 0; i < 8; ++i) sums[i ^ mirror] += numbers[i];
 }
 
 /// Returns 2 a + b as one fused operation. Compilers would otherwise turn 2 a into a + a and then
@@ -190,6 +210,18 @@ inline Lanes positive_floats(const Words& words) {
     });
   };
   return {half(0), half(4)};
+#endif
+}
+
+/// Returns 1 for words whose highest bit is not set, and 0 for the other words.
+inline Lanes ones_where_positive(const Words& words) {
+  constexpr std::uint32_t kSign = 0x80000000u, kOne = std::bit_cast<std::uint32_t>(1.0f);
+#if defined(__AVX__)
+  return positive_floats((words & kSign) | kOne);
+#else
+  Words ones;
+  for (unsigned i = 0; i < 8; ++i) ones[i] = (words[i] & kSign) | kOne;
+  return positive_floats(ones);
 #endif
 }
 

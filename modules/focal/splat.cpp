@@ -15,21 +15,21 @@ struct Reach {
   double ahead, behind;
 };
 
-/// Adds `amount(density, t0, t1)` to every leaf that a side of the line crosses within (begin,
-/// end). `density` is the density of the leaf.
+/// Adds `amount(node, level, t0, length)` to the leaves of every node that a side of the line
+/// crosses within (begin, end). For each child, `t0` is where the line enters it, and `length` is
+/// its length there, or 0 if the line misses it [Octree::unit() of the level]. The amounts of inner
+/// children must be 0.
 template <Side side, class Amount>
 void add_to_leaves(const Octree& octree, const Line& line, double begin, double end,
                    std::vector<double>& sums, Amount&& amount) {
   if (!(begin < end)) return;
   const auto visit = [&](std::uint32_t i, const Octree::CrossedNode& node, const Spans& spans,
                          unsigned level) {
-    const double unit = Octree::unit(level), volume = octree.leaf_volume(level);
-    for (unsigned c = 0; c < 8; ++c) {
-      const double t0 = std::max(unit * spans.begin[c], begin);
-      const double t1 = std::min(unit * spans.end[c], end);
-      if (!node.is_leaf(c) || !(t0 < t1)) continue;
-      sums[8 * std::size_t{i} + (c ^ line.mirror)] += amount(node.mass(c) / volume, t0, t1);
-    }
+    const double unit = Octree::unit(level);
+    const Lanes t0 = larger(spans.begin, Lanes::all(begin / unit));
+    const Lanes t1 = smaller(spans.end, Lanes::all(end / unit));
+    add_mirrored(amount(node, level, t0, larger(t1 - t0, Lanes{})), line.mirror,
+                 &sums[8 * std::size_t{i}]);
   };
   octree.traverse<side>(line, visit);
 }
@@ -51,8 +51,11 @@ void splat_length(const Octree& octree, const Line& line, double begin, double e
   if (unit == 0) unit = length_within(line, begin, end);
   if (!(unit > 0)) return;
   const double scale = contribution / unit;
-  add_to_leaves<side>(octree, line, begin, end, sums,
-                      [&](double, double t0, double t1) { return scale * (t1 - t0); });
+  add_to_leaves<side>(
+      octree, line, begin, end, sums,
+      [scale](const Octree::CrossedNode& node, unsigned level, const Lanes&, const Lanes& length) {
+        return Lanes::all(scale * Octree::unit(level)) * length * node.leaves();
+      });
 }
 
 void splat_length(const Segment& segment, const FocalDensity& density, double unit,
@@ -72,11 +75,16 @@ void splat_narrowed(const Segment& segment, const FocalDensity& density, bool mi
   const double guided = mis_compensation && segment.guided_pdf > 0 ? segment.guided_pdf : own;
   const double pdf = unguided * double{segment.unguided_pdf} + (1 - unguided) * guided;
   if (!(own > 0) || !(pdf > 0)) return;
-  const double scale = (1 - unguided) * double{segment.contribution} / pdf;
+  const double scale =
+      (1 - unguided) * double{segment.contribution} / pdf / (3 * density.converging.box().volume());
   const Line line(density.converging.box(), segment.origin, segment.direction);
   const Reach reach(segment);
-  const auto amount = [&](double leaf_density, double t0, double t1) {
-    return scale * leaf_density * (t1 - t0) * (t1 * t1 + t1 * t0 + t0 * t0) / 3;
+  // The integral of density t^2 over the length. In units of the level, a leaf's density is its
+  // mass divided by the volume of the box.
+  const auto amount = [scale](const Octree::CrossedNode& node, unsigned, const Lanes& t0,
+                              const Lanes& length) {
+    const Lanes t1 = t0 + length;
+    return Lanes::all(scale) * node.masses() * length * (t0 * (t0 + t1) + t1 * t1);
   };
   add_to_leaves<Side::ahead>(density.converging, line, 0, reach.ahead, sums.converging, amount);
   add_to_leaves<Side::behind>(density.diverging, line, reach.behind, 0, sums.diverging, amount);

@@ -1,10 +1,12 @@
 #include "../octree.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <doctest/doctest.h>
 
 #include <pharos/core/warp.h>
+#include <pharos/statistics/goodness_of_fit.h>
 
 #include "test_trees.h"
 
@@ -43,6 +45,38 @@ double density_along(const Octree& octree, const Line& line) {
   while (density.advance()) {
   }
   return density.value();
+}
+
+/// Returns the number of the eighth of a leaf that contains a point: 8 (8 node + child) + octant.
+std::size_t eighth_at(const Octree& octree, const Double3& p) {
+  const auto octant = [&p](const Box& cell) {
+    unsigned c = 0;
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      c |= (p[axis] >= cell.low[axis] + 0.5 * cell.size[axis] ? 1u : 0u) << axis;
+    }
+    return c;
+  };
+  Box cell = octree.box();
+  for (std::uint32_t i = 0;;) {
+    const unsigned c = octant(cell);
+    cell = cell.child(c);
+    if (octree.nodes()[i].is_leaf(c)) return 8 * (8 * std::size_t{i} + c) + octant(cell);
+    i = octree.nodes()[i].index(c);
+  }
+}
+
+/// Sets the masses of the eighths of all leaves below a node, numbered as by eighth_at().
+void set_masses(const Octree& octree, std::uint32_t node, const Box& box,
+                std::vector<double>& masses) {
+  for (unsigned c = 0; c < 8; ++c) {
+    const Box cell = box.child(c);
+    if (octree.nodes()[node].is_leaf(c)) {
+      const double mass = octree.nodes()[node].density(c) * cell.volume();
+      std::fill_n(masses.begin() + 8 * (8 * std::ptrdiff_t{node} + c), 8, mass / 8);
+    } else {
+      set_masses(octree, octree.nodes()[node].index(c), cell, masses);
+    }
+  }
 }
 
 }  // namespace
@@ -102,6 +136,13 @@ TEST_CASE("octree: lines within planes between cells count once") {
       CHECK(density_along<Side::behind>(octree, line) == doctest::Approx(expected));
     }
   }
+  // Lines in other planes between cells.
+  for (const float x : {0.375f, 0.625f, 0.75f}) {
+    const Line line(box, at(x, 0.3f, 0.5f), {0, 0, 1});
+    const double reach = 0.5 * box.size[2], expected = density * reach * reach * reach / 3;
+    CHECK(density_along<Side::ahead>(octree, line) == doctest::Approx(expected));
+    CHECK(density_along<Side::behind>(octree, line) == doctest::Approx(expected));
+  }
   // Lines from a face straight inward and straight away.
   const Line inwards(box, at(0, 0.3f, 0.3f), {1, 0, 0});
   CHECK(density_along<Side::ahead>(octree, inwards) ==
@@ -110,30 +151,26 @@ TEST_CASE("octree: lines within planes between cells count once") {
   CHECK(density_along<Side::ahead>(octree, Line(box, at(-1, 0.3f, 0.3f), {-1, 0, 0})) == 0);
 }
 
-TEST_CASE("octree: points are drawn by density") {
+TEST_CASE("octree: points are drawn by density, evenly within leaves") {
   RandomStream random(5);
   for (const NamedDensity& named : test_densities()) {
     CAPTURE(named.name);
     const Octree& octree = named.density.converging;
     CHECK(named.density.converging.mass() + named.density.diverging.mass() ==
           doctest::Approx(1).epsilon(1e-5));
-    // The mean of mass/density over samples is the volume of the cells that have mass, here the
-    // volume of the box. The hot cell is so small that points rounded to floats may leave it.
-    if (named.name == "one hot cell") continue;
-    double volume = 0;
-    constexpr int kDraws = 100'000;
-    int outside = 0;
+    constexpr int kDraws = 400'000;
+    std::vector<double> expected(64 * octree.nodes().size()), observed(expected.size());
+    set_masses(octree, 0, octree.box(), expected);
+    for (double& e : expected) e *= kDraws / octree.mass();
     for (int i = 0; i < kDraws; ++i) {
       const Vec2 u = random.next_2d();
-      const Double3 p = octree.sample({u.x, u.y, random.next_1d()});
-      const Point3 point{static_cast<float>(p[0]), static_cast<float>(p[1]),
-                         static_cast<float>(p[2])};
-      const double density = octree.density(point);
-      if (density > 0) volume += octree.mass() / density / kDraws;
-      outside += density > 0 ? 0 : 1;
+      ++observed[eighth_at(octree, octree.sample({u.x, u.y, random.next_1d()}))];
     }
-    CHECK(outside == 0);
-    CHECK(volume == doctest::Approx(octree.box().volume()).epsilon(0.1));
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      if (expected[i] == 0) REQUIRE(observed[i] == 0);
+    }
+    // The test makes 6 fits. At this level, a correct sampler fails one run in 1,700.
+    CHECK(statistics::chi_square_test(observed, expected).p_value > 1e-4);
   }
 }
 
