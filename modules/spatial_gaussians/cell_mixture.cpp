@@ -37,6 +37,29 @@ WeightedPoints<3> points_of(std::span<const Sample> samples, const Vector<3>& pi
   return points;
 }
 
+/// Chooses `count` of the points, or all if there are not more, by systematic sampling: the
+/// expected weight of a point stays, and so does the sum of all weights. A point may be chosen
+/// several times.
+WeightedPoints<3> chosen_of(const WeightedPoints<3>& points, std::size_t count,
+                            RandomStream& random) {
+  if (points.size() <= count) return points;
+  double total = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) total += points.weight(i);
+  const double share = total / static_cast<double>(count);
+  WeightedPoints<3> chosen;
+  // The sum of the weights so far passes a multiple of `share` for each choice.
+  double sum = random.next_1d(), chosen_before = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    sum += points.weight(i) / share;
+    const double chosen_now = std::floor(sum);
+    if (chosen_now > chosen_before) {
+      chosen.add(points.point(i), (chosen_now - chosen_before) * share);
+    }
+    chosen_before = chosen_now;
+  }
+  return chosen;
+}
+
 /// Chooses at most `count` centers among the points. The probability of a point is proportional to
 /// its weight times its squared distance from the nearest center so far (k-means++, Arthur and
 /// Vassilvitskii 2007).
@@ -93,13 +116,15 @@ class CellUpdate {
   void run(RandomStream& random) {
     if (!cell_.knows_something()) begin(random);
     middle_ = mean_origin() - cell_.pivot_;
-    points_ = points_of(samples_, cell_.pivot_);
+    const WeightedPoints<3> all = points_of(samples_, cell_.pivot_);
+    points_ = chosen_of(all, fit_samples(), random);
     frozen_ = cell_.moments_;
     fit({});
-    cell_.samples_ += static_cast<double>(points_.size());
+    cell_.samples_ += static_cast<double>(all.size());
     cell_.since_merge_ += static_cast<double>(samples_.size());
     if (cell_.since_merge_ >= settings_.merge_samples) merge();
     split_where_needed();
+    if (points_.size() < all.size()) refine(all);
     for (std::size_t k = 0; k < frozen_.size(); ++k) cell_.moments_[k] = frozen_[k] + seen_[k];
   }
 
@@ -111,6 +136,12 @@ class CellUpdate {
             .changing = changing,
             .most_iterations = settings_.em_iterations,
             .tolerance = settings_.em_tolerance};
+  }
+
+  /// Returns the number of samples to which the mixture is fitted, if there are so many.
+  std::size_t fit_samples() const {
+    constexpr std::size_t kPerComponent = 32;
+    return std::max<std::size_t>(settings_.fit_samples, kPerComponent * settings_.most_components);
   }
 
   /// Sets the lower bounds of the eigenvalues for the current positions of the components, and
@@ -157,6 +188,12 @@ class CellUpdate {
   void fit(std::span<const std::size_t> changing) {
     set_floors();
     seen_ = statistics::fit_mixture(cell_.mixture_, points_, rules(changing)).seen;
+  }
+
+  /// Takes the last step of the fit, with all points.
+  void refine(const WeightedPoints<3>& all) {
+    seen_ = statistics::expectation(cell_.mixture_, all).moments;
+    maximize({});
   }
 
   /// Recomputes the components with the numbers `changing` from their moments.
@@ -258,7 +295,7 @@ class CellUpdate {
   const SpatialGaussiansSettings& settings_;
   double least_size_;
   Vector<3> middle_ = Vector<3>::Zero();  ///< mean of the samples' origins, relative to the pivot
-  WeightedPoints<3> points_;
+  WeightedPoints<3> points_;              ///< points for the fit, see chosen_of()
   std::vector<double> floors_;
   std::vector<Moments3> frozen_;  ///< moments of earlier iterations
   std::vector<Moments3> seen_;    ///< moments of this iteration

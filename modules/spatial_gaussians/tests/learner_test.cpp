@@ -161,6 +161,29 @@ TEST_CASE("cells are divided where samples are many, and say where they came fro
   CHECK(before > 4);
 }
 
+TEST_CASE("a fit uses few samples, and its last step uses all") {
+  SpatialGaussiansSettings settings = small_settings();
+  settings.spatial = SpatialCells::single;
+  const auto with = [&settings](std::uint32_t fit_samples) {
+    settings.fit_samples = fit_samples;
+    return trained(settings);
+  };
+  // About 1,500 samples of each iteration have light.
+  CHECK(saved(*with(2'000)) == saved(*with(1'000'000)));
+  const auto model = with(100);
+  CHECK(saved(*model) != saved(*with(1'000'000)));
+  for (const Point3 at : {Point3{0, 0, 0}, Point3{0.7f, 0, -0.8f}}) {
+    CHECK(share_near_tube(as_gaussians(model), at, 0.1f) > 0.9);
+  }
+  // With one component, one step suffices, so the result does not depend on the chosen samples.
+  settings.components = settings.most_components = 1;
+  const auto few = with(64), all = with(1'000'000);
+  const SpatialGaussian& a = as_gaussians(few).mixture_at(Point3{})[0];
+  const SpatialGaussian& b = as_gaussians(all).mixture_at(Point3{})[0];
+  CHECK(length(a.mean - b.mean) < 1e-5f);
+  for (int i = 0; i < 6; ++i) CHECK(a.cholesky[i] == doctest::Approx(b.cholesky[i]).epsilon(1e-3));
+}
+
 TEST_CASE("components of a mixture are split where directions ask for it, up to the limit") {
   SpatialGaussiansSettings settings = small_settings();
   settings.spatial = SpatialCells::single;
