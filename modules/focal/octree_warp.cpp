@@ -41,7 +41,10 @@ void OctreeWarp::Choice<N>::set(const std::array<double, N>& weights) {
   }
   for (unsigned i = 0; i < N; ++i) {
     const double length = (i + 1 < N ? begin[i + 1] : 1) - begin[i];
-    scale[i] = length > 0 ? static_cast<float>(1 / length) : 0;
+    // Bounded, because an interval near 0 may be too short for the reciprocal to be a float. Only
+    // the number 0 lies in such an interval, and stays 0.
+    constexpr double kLargestScale = 0x1p100;
+    scale[i] = length > 0 ? static_cast<float>(std::min(1 / length, kLargestScale)) : 0;
   }
 }
 

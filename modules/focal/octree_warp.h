@@ -31,7 +31,7 @@ class OctreeWarp {
   /// A choice among N intervals of [0, 1).
   template <unsigned N>
   struct Choice {
-    double begin[N];  ///< begins of the intervals
+    double begin[N];  ///< starts of the intervals
     float scale[N];   ///< reciprocals of their lengths, or 0
 
     /// Sets the intervals in proportion to weights, or evenly if all weights are zero.
@@ -61,7 +61,7 @@ class OctreeWarp {
     }
   };
 
-  /// What follows after a cell has been selected.
+  /// The step that follows once a cell has been selected.
   class Next {
    public:
     /// Nothing follows: the cell is a leaf or a part of one.
@@ -80,7 +80,7 @@ class OctreeWarp {
     std::uint32_t word_ = kLeaf;
   };
 
-  /// Two levels of the octree. A leaf of the upper level is eight cells of equal density.
+  /// Two levels of the octree. A leaf of the upper level appears as eight cells of equal density.
   struct Four {
     Warp<4> warp;
     std::array<Next, 64> next;

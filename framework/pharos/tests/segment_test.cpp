@@ -18,7 +18,7 @@ class OpenBsdf final : public test::BlackBsdf {
   EventMask events() const override { return mask_of(Event::pass_through); }
 };
 
-/// Extinguishes light by exp(-t / m), and always scatters after the same distance.
+/// Attenuates light by exp(-t), and always scatters after the same distance.
 class SteadyMedium final : public Medium {
  public:
   explicit SteadyMedium(float distance) : distance_(distance) {}

@@ -59,7 +59,7 @@ TEST_CASE("lanes are loaded, rounded, compared and summed element by element") {
   CHECK(!any(f > 7.5f));
 }
 
-TEST_CASE("vectors side by side are those of Vec3") {
+TEST_CASE("operations on eight vectors side by side agree with operations on Vec3") {
   RandomStream random(5);
   Lanes3<Float8> a, b;
   for (unsigned lane = 0; lane < 8; ++lane) {

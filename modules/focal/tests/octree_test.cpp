@@ -189,4 +189,11 @@ TEST_CASE("octree: a node without mass is drawn from evenly, and numbers near on
   }
 }
 
+TEST_CASE("octree: the number 0 is drawn from cells of almost no mass") {
+  Octree::Node root;
+  for (unsigned c = 0; c < 8; ++c) root.set_density(c, c % 2 == 0 ? 1e-36f : 1e36f);
+  const Octree octree(test_box(), {root});
+  CHECK(octree.sample({0, 0, 0}) == octree.box().low);
+}
+
 }  // namespace pharos::focal
