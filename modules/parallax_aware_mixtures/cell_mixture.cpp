@@ -28,6 +28,20 @@ Direction spiral_direction(std::size_t i, std::size_t count) {
   return {sine * std::cos(phi), sine * std::sin(phi), z};
 }
 
+/// Chooses `count` of the directions by systematic sampling, or all if there are not more.
+std::vector<WeightedDirection> chosen_of(std::span<const WeightedDirection> directions,
+                                         std::size_t count, RandomStream& random) {
+  if (directions.size() <= count) return {directions.begin(), directions.end()};
+  std::vector<WeightedDirection> chosen;
+  choose_systematically(
+      directions.size(), count, random.next_1d(),
+      [&](std::size_t i) { return directions[i].weight; },
+      [&](std::size_t i, double weight) {
+        chosen.push_back({directions[i].direction, static_cast<float>(weight)});
+      });
+  return chosen;
+}
+
 }  // namespace
 
 /// One update of a cell.
@@ -43,13 +57,15 @@ class CellUpdate {
     for (const Sample& sample : samples) box_.add(sample.origin);
   }
 
-  void run() {
+  void run(RandomStream& random) {
     frozen_ = cell_.moments_;
+    chosen_ = chosen_of(directions_, settings_.most_fit_samples(), random);
     fit({});
     cell_.found_ += static_cast<double>(directions_.size());
     cell_.since_merge_ += static_cast<double>(aimed_.size());
     if (cell_.since_merge_ >= settings_.merge_samples) merge();
     split_where_needed();
+    if (chosen_.size() < directions_.size()) refine();
     for (std::size_t k = 0; k < frozen_.size(); ++k) {
       cell_.moments_[k] = frozen_[k];
       cell_.moments_[k] += seen_[k];
@@ -129,7 +145,15 @@ class CellUpdate {
   }
 
   void fit(std::span<const std::size_t> changing) {
-    seen_ = parallax_aware_mixtures::fit(cell_.mixture_, directions_, rules(changing));
+    seen_ = parallax_aware_mixtures::fit(cell_.mixture_, chosen_, rules(changing));
+  }
+
+  /// Takes the last step of the fit, with all directions.
+  void refine() {
+    seen_ = expectation(cell_.mixture_, directions_).moments;
+    std::vector<Moments> moments = seen_;
+    for (std::size_t k = 0; k < moments.size(); ++k) moments[k] += frozen_[k];
+    maximize(moments, rules({}), cell_.mixture_);
   }
 
   void merge() {
@@ -226,17 +250,18 @@ class CellUpdate {
   CellMixture& cell_;
   const ParallaxAwareMixturesSettings& settings_;
   std::vector<AimedSample> aimed_;
-  std::vector<WeightedDirection> directions_;
-  Bounds3 box_;                  ///< bounds of the samples' origins
-  std::vector<Moments> frozen_;  ///< moments of earlier iterations
-  std::vector<Moments> seen_;    ///< moments of this iteration
+  std::vector<WeightedDirection> directions_;  ///< of the samples that found light
+  std::vector<WeightedDirection> chosen_;      ///< directions for the fit, see chosen_of()
+  Bounds3 box_;                                ///< bounds of the samples' origins
+  std::vector<Moments> frozen_;                ///< moments of earlier iterations
+  std::vector<Moments> seen_;                  ///< moments of this iteration
 };
 
 void CellMixture::update(std::span<const Sample> samples,
-                         const ParallaxAwareMixturesSettings& settings) {
+                         const ParallaxAwareMixturesSettings& settings, RandomStream random) {
   learn_when_enough(
       samples, knows_something(), settings.first_samples, first_,
-      [&](std::span<const Sample> enough) { CellUpdate(*this, enough, settings).run(); });
+      [&](std::span<const Sample> enough) { CellUpdate(*this, enough, settings).run(random); });
 }
 
 void CellMixture::forget(double factor) {

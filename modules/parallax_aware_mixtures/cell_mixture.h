@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <pharos/core/bounds.h>
+#include <pharos/core/random.h>
 
 #include "learner.h"
 #include "lobe_changes.h"
@@ -16,8 +17,10 @@ namespace pharos::parallax_aware_mixtures {
 /// samples, as seen from a pivot. The pivot is the mean of the samples' origins.
 class CellMixture {
  public:
-  /// Learns from the samples of one iteration, in their order.
-  void update(std::span<const Sample> samples, const ParallaxAwareMixturesSettings& settings);
+  /// Learns from the samples of one iteration, in their order. `random` chooses the samples of a
+  /// fit.
+  void update(std::span<const Sample> samples, const ParallaxAwareMixturesSettings& settings,
+              RandomStream random);
   bool knows_something() const { return !mixture_.empty(); }
   /// Multiplies the weight of everything learned so far by `factor`.
   void forget(double factor);

@@ -39,9 +39,10 @@ LearnerTraits ParallaxAwareMixturesLearner::traits() const {
   return {.records = {.light_samples = true}};
 }
 
-std::unique_ptr<LearningState> ParallaxAwareMixturesLearner::begin(const LearningContext&) const {
+std::unique_ptr<LearningState> ParallaxAwareMixturesLearner::begin(
+    const LearningContext& context) const {
   return std::make_unique<KdTreeLearning<ParallaxAwareMixturesLessons>>(
-      ParallaxAwareMixturesLessons(settings_));
+      ParallaxAwareMixturesLessons(settings_, context));
 }
 
 std::shared_ptr<GuidingModel> ParallaxAwareMixturesLearner::empty_model() const {

@@ -20,20 +20,23 @@ class ParallaxAwareMixturesLessons {
   static constexpr const char* kHeading = "parallax_aware_mixtures_learning";
   static constexpr std::uint32_t kVersion = 1;
 
-  explicit ParallaxAwareMixturesLessons(const ParallaxAwareMixturesSettings& settings)
-      : settings_(settings) {}
+  ParallaxAwareMixturesLessons(const ParallaxAwareMixturesSettings& settings,
+                               const LearningContext& context)
+      : settings_(settings), seed_(context.seed) {}
 
   const ParallaxAwareMixturesSettings& settings() const { return settings_; }
   void extract(const PathView& path, std::vector<Sample>& samples) {
     extract_samples(path, {settings_.least_pdf, settings_.glossy}, scratch_, samples);
   }
-  void teach(CellMixture& cell, std::span<const Sample> samples, std::uint64_t, std::size_t) const {
-    cell.update(samples, settings_);
+  void teach(CellMixture& cell, std::span<const Sample> samples, std::uint64_t lesson,
+             std::size_t number) const {
+    cell.update(samples, settings_, RandomStream(seed_, lesson, number));
   }
   std::shared_ptr<const GuidingModel> model(const KdTreeCells<Sample, CellMixture>& cells) const;
 
  private:
   ParallaxAwareMixturesSettings settings_;
+  std::uint64_t seed_;
   PathScratch scratch_;
 };
 

@@ -18,9 +18,9 @@ inline Float8 squared_distance(const Float8 (&a)[3], Vec3 w) {
 
 /// Returns the largest of eight numbers.
 inline float largest_of(const Float8& x) {
-  float most = x[0];
-  for (int i = 1; i < 8; ++i) most = x[i] > most ? x[i] : most;
-  return most;
+  const Float8 four = larger(x, __builtin_shufflevector(x, x, 4, 5, 6, 7, 0, 1, 2, 3));
+  const Float8 two = larger(four, __builtin_shufflevector(four, four, 2, 3, 0, 1, 2, 3, 0, 1));
+  return two[0] > two[1] ? two[0] : two[1];
 }
 
 }  // namespace pharos::parallax_aware_mixtures

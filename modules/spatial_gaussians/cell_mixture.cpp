@@ -37,26 +37,14 @@ WeightedPoints<3> points_of(std::span<const Sample> samples, const Vector<3>& pi
   return points;
 }
 
-/// Chooses `count` of the points, or all if there are not more, by systematic sampling: the
-/// expected weight of a point stays, and so does the sum of all weights. A point may be chosen
-/// several times.
+/// Chooses `count` of the points by systematic sampling, or all if there are not more.
 WeightedPoints<3> chosen_of(const WeightedPoints<3>& points, std::size_t count,
                             RandomStream& random) {
   if (points.size() <= count) return points;
-  double total = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) total += points.weight(i);
-  const double share = total / static_cast<double>(count);
   WeightedPoints<3> chosen;
-  // The sum of the weights so far passes a multiple of `share` for each choice.
-  double sum = random.next_1d(), chosen_before = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    sum += points.weight(i) / share;
-    const double chosen_now = std::floor(sum);
-    if (chosen_now > chosen_before) {
-      chosen.add(points.point(i), (chosen_now - chosen_before) * share);
-    }
-    chosen_before = chosen_now;
-  }
+  choose_systematically(
+      points.size(), count, random.next_1d(), [&](std::size_t i) { return points.weight(i); },
+      [&](std::size_t i, double weight) { chosen.add(points.point(i), weight); });
   return chosen;
 }
 
@@ -117,7 +105,7 @@ class CellUpdate {
     if (!cell_.knows_something()) begin(random);
     middle_ = mean_origin() - cell_.pivot_;
     const WeightedPoints<3> all = points_of(samples_, cell_.pivot_);
-    points_ = chosen_of(all, fit_samples(), random);
+    points_ = chosen_of(all, settings_.most_fit_samples(), random);
     frozen_ = cell_.moments_;
     fit({});
     cell_.samples_ += static_cast<double>(all.size());
@@ -136,12 +124,6 @@ class CellUpdate {
             .changing = changing,
             .most_iterations = settings_.em_iterations,
             .tolerance = settings_.em_tolerance};
-  }
-
-  /// Returns the number of samples to which the mixture is fitted, if there are so many.
-  std::size_t fit_samples() const {
-    constexpr std::size_t kPerComponent = 32;
-    return std::max<std::size_t>(settings_.fit_samples, kPerComponent * settings_.most_components);
   }
 
   /// Sets the lower bounds of the eigenvalues for the current positions of the components, and

@@ -8,12 +8,6 @@ namespace pharos::spatial_gaussians {
 void SpatialGaussiansSettings::describe(Schema<SpatialGaussiansSettings>& s) {
   using S = SpatialGaussiansSettings;
   describe_mixture_learning(s);
-  s.field(
-       "fit_samples", &S::fit_samples,
-       "Number of samples to which a cell fits its mixture, chosen by their weights from the "
-       "samples with light, at least 32 for each of `most_components`; only the last step of the "
-       "fit uses all samples with light")
-      .at_least(64);
   s.field("prior_counts", &S::prior_counts,
           "Prior number of samples per component (Dirichlet prior)")
       .above(0);

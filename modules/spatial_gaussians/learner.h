@@ -7,7 +7,6 @@ namespace pharos::spatial_gaussians {
 /// Parameters of the method. The paper states none. The README documents them and states their
 /// sources.
 struct SpatialGaussiansSettings : MixtureLearningSettings {
-  std::uint32_t fit_samples = 2048;
   double prior_counts = 0.01, prior_strength = 0.2;
   double largest_concentration = 32768;
   double least_size = 1e-5;

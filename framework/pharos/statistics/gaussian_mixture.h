@@ -171,7 +171,7 @@ Expectation<D> expectation_of_part(const Terms<D>& terms, std::size_t count,
   std::vector<Moments8<D>> moments(terms.size());
   std::vector<Double8> values(terms.size());
   std::vector<std::size_t> near(terms.size());  // components with a share in any of eight points
-  double log_likelihood = 0;
+  Double8 log_likelihood{};
   for (std::size_t r = begin; r < end; ++r) {
     const std::array<Double8, D> x = points.points8(r);
     const Double8 w = points.weights8(r), others = rest.empty() ? never8() : rest[r];
@@ -185,15 +185,13 @@ Expectation<D> expectation_of_part(const Terms<D>& terms, std::size_t count,
       total += values[i];
       near[near_count++] = i;
     }
-    for (std::size_t lane = 0; lane < WeightedPoints<D>::kWidth; ++lane) {
-      if (w[lane] > 0) log_likelihood += w[lane] * (largest[lane] + std::log(total[lane]));
-    }
+    log_likelihood += w * (largest + log(total));
     const Double8 share = w / total;
     for (const std::size_t i : std::span(near).first(near_count)) {
       moments[i].add(share * values[i], x);
     }
   }
-  Expectation<D> result{std::vector<Moments<D>>(count), log_likelihood};
+  Expectation<D> result{std::vector<Moments<D>>(count), sum(log_likelihood)};
   for (std::size_t i = 0; i < terms.size(); ++i) {
     result.moments[terms.components[i]] = moments[i].summed();
   }
@@ -243,11 +241,7 @@ std::vector<Double8> log_sums(const Terms<D>& terms, const WeightedPoints<D>& po
       const Double8 largest = terms.evaluate(points.points8(r), never8(), values);
       Double8 total{};
       for (const Double8& value : values) total += exp(value - largest);
-      double logs[WeightedPoints<D>::kWidth];
-      for (std::size_t lane = 0; lane < WeightedPoints<D>::kWidth; ++lane) {
-        logs[lane] = largest[lane] + std::log(total[lane]);
-      }
-      sums[r] = load8(logs);
+      sums[r] = largest + log(total);
     }
   });
   return sums;

@@ -197,6 +197,42 @@ TEST_CASE("mixture learning: enough finds teach, the earlier ones first") {
   CHECK(offered({1, 2, 3, 4}, false).learned == Numbers{1, 2, 3, 4});
 }
 
+TEST_CASE("mixture learning: systematic sampling keeps expected weights and the sum of weights") {
+  const Numbers weights{0.5, 0, 3, 0.25, 0.25, 6, 1, 1};
+  constexpr std::size_t kCount = 5;
+  constexpr int kOffsets = 240;
+  Numbers means(weights.size());
+  for (int offset = 0; offset < kOffsets; ++offset) {
+    double total = 0;
+    Indices chosen;
+    choose_systematically(
+        weights.size(), kCount, (offset + 0.5) / kOffsets,
+        [&](std::size_t i) { return weights[i]; },
+        [&](std::size_t i, double weight) {
+          means[i] += weight / kOffsets;
+          total += weight;
+          chosen.push_back(i);
+        });
+    CHECK(total == doctest::Approx(12));
+    CHECK(chosen.size() <= kCount);
+    CHECK(std::is_sorted(chosen.begin(), chosen.end()));
+    // A share is 12 / 5, so samples with larger weights are always chosen.
+    for (const std::size_t sure : {2, 5})
+      CHECK(std::count(chosen.begin(), chosen.end(), sure) == 1);
+  }
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    CAPTURE(i);
+    CHECK(means[i] == doctest::Approx(weights[i]).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("mixture learning: a fit has enough samples for all components") {
+  MixtureLearningSettings settings;
+  CHECK(settings.most_fit_samples() == 2048);
+  settings.most_components = 100;
+  CHECK(settings.most_fit_samples() == 3200);
+}
+
 TEST_CASE("mixture learning: the cheapest pair is merged first, and costs follow the merges") {
   MergedNumbers merging({0, 10, 10.5, 1, 20});
   merging.merge(2);

@@ -32,6 +32,21 @@ TEST_CASE("exponentials side by side are those of the standard library") {
   CHECK(exp(Float8{})[7] == 1);
 }
 
+TEST_CASE("logarithms side by side are those of the standard library") {
+  double worst = 0;
+  for (double x = -708; x < 709; x += 0.00137) {
+    for (const double of : {std::exp(x), 1 + x / 709}) {
+      if (of < 1e-300) continue;
+      const double expected = std::log(of), error = std::abs(log(all_doubles8(of))[3] - expected);
+      worst = std::max(worst, error / std::max(1.0, std::abs(expected)));
+    }
+  }
+  CHECK(worst < 1e-15);
+  CHECK(log(all_doubles8(1))[0] == 0);
+  CHECK(log(load8(std::array{1.0, 2.0, 4.0, 0.5, 8.0, 1.0, 1.0, 1024.0}.data()))[7] ==
+        doctest::Approx(std::log(1024.0)).epsilon(1e-15));
+}
+
 TEST_CASE("lanes are loaded, rounded, compared and summed element by element") {
   const double doubles[8] = {0.1, -0.2, 0.3, -0.4, 1, 2, 3, 4};
   const Float8 f{1, -2, 3, -4, 5, -6, 7, -8};

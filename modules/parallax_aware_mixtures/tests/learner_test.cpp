@@ -199,6 +199,27 @@ TEST_CASE("a wide light takes several lobes: those that fit badly are split") {
   CHECK(model->density({}, &on_ring) > 4 * model->density({}, &up));
 }
 
+TEST_CASE("a fit uses few samples, and its last step uses all") {
+  ParallaxAwareMixturesSettings settings = small_settings();
+  settings.spatial = SpatialCells::single;
+  const auto with = [&settings](std::uint32_t fit_samples) {
+    settings.fit_samples = fit_samples;
+    return trained(settings).model;
+  };
+  // About 1,700 samples of each iteration have light.
+  CHECK(saved(*with(2'000)) == saved(*with(1'000'000)));
+  const auto model = with(100);
+  CHECK(saved(*model) != saved(*with(1'000'000)));
+  CHECK(least_share(*model) > 0.7);
+  // With one lobe, one step suffices, so the result does not depend on the chosen samples.
+  settings.components = settings.most_components = 1;
+  settings.parallax = false;
+  const auto few = with(64), all = with(1'000'000);
+  for (const Vec3 w : {Vec3{0, 0, 1}, normalize(Vec3{1, 0, 1}), normalize(Vec3{0, -1, 2})}) {
+    CHECK(few->density({}, &w) == doctest::Approx(all->density({}, &w)).epsilon(1e-5));
+  }
+}
+
 TEST_CASE("the same bits for any number of threads") {
   std::string expected;
   for (const std::size_t threads : {1u, 2u, 3u, 7u}) {

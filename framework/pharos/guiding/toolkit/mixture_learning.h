@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
@@ -25,7 +26,7 @@ struct MixtureLearningSettings {
   int max_depth = 32;
   std::uint32_t batch_samples = 1u << 22;
   std::uint32_t components = 16, most_components = 32;
-  std::uint32_t first_samples = 32;
+  std::uint32_t first_samples = 32, fit_samples = 2048;
   int em_iterations = 100;
   double em_tolerance = 0.005;
   double split_threshold = 0.5;
@@ -38,6 +39,9 @@ struct MixtureLearningSettings {
 
   /// Throws InputError if `components` is larger than `most_components`.
   void check() const;
+  /// Returns the number of samples to which a cell fits its mixture, if it has so many: at least 32
+  /// for each component.
+  std::size_t most_fit_samples() const;
 };
 
 /// Declares the parameters of MixtureLearningSettings for settings derived from it.
@@ -65,6 +69,12 @@ void describe_mixture_learning(Schema<Settings>& s) {
   s.field("first_samples", &S::first_samples,
           "Number of samples with light that a cell needs before its first mixture is fitted")
       .at_least(2);
+  s.field(
+       "fit_samples", &S::fit_samples,
+       "Number of samples to which a cell fits its mixture, chosen by their weights from the "
+       "samples with light, at least 32 for each of `most_components`; only the last step of the "
+       "fit uses all samples with light")
+      .at_least(64);
   s.field("em_iterations", &S::em_iterations, "Largest number of EM steps of a fit").at_least(1);
   s.field("em_tolerance", &S::em_tolerance,
           "A fit ends when a step raises its objective, a logarithm, by less than this per sample")
@@ -115,6 +125,26 @@ void learn_when_enough(std::span<const Sample> samples, bool is_known, std::size
     std::vector<Sample> all = std::exchange(first, {});
     all.insert(all.end(), samples.begin(), samples.end());
     learn(std::span<const Sample>(all));
+  }
+}
+
+/// Chooses `count` of `size` samples by systematic sampling: the expected weight of a sample stays,
+/// and so does the sum of all weights. `weight(i)` returns the weight of sample i, and `choose(i,
+/// weight)` takes a chosen sample with its new weight. A sample that is chosen several times is
+/// passed once, with the sum of its new weights. `u` is a random number in [0, 1).
+template <class Weight, class Choose>
+void choose_systematically(std::size_t size, std::size_t count, double u, Weight&& weight,
+                           Choose&& choose) {
+  double total = 0;
+  for (std::size_t i = 0; i < size; ++i) total += weight(i);
+  const double share = total / static_cast<double>(count);
+  // The sum of the weights so far passes a multiple of `share` for each choice.
+  double sum = u, chosen_before = 0;
+  for (std::size_t i = 0; i < size; ++i) {
+    sum += weight(i) / share;
+    const double chosen_now = std::floor(sum);
+    if (chosen_now > chosen_before) choose(i, (chosen_now - chosen_before) * share);
+    chosen_before = chosen_now;
   }
 }
 
