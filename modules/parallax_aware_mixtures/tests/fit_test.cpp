@@ -1,8 +1,10 @@
 #include <algorithm>
+#include <cmath>
 
 #include <doctest/doctest.h>
 #include <tbb/global_control.h>
 
+#include "../vmf.h"
 #include "../vmf_fit.h"
 #include "test_lobes.h"
 
@@ -58,6 +60,33 @@ TEST_CASE("steps never lower the objective, with what was seen before and masked
       std::vector<Moments> moments = now.moments;
       for (std::size_t k = 0; k < frozen.size(); ++k) moments[k] += frozen[k];
       maximize(moments, rules, mixture);
+    }
+  }
+}
+
+TEST_CASE("the E step is the one of a direct computation, for any number of directions") {
+  RandomStream random(6);
+  const Mixture mixture = any_mixture(11, 1, 500, random);
+  for (const int count : {1, 7, 8, 13, 300}) {
+    CAPTURE(count);
+    const auto directions = draws_of(mixture, count, 7);
+    double log_likelihood = 0;
+    std::vector<double> weights(mixture.size());
+    for (const WeightedDirection& d : directions) {
+      std::vector<double> terms;
+      double total = 0;
+      for (const Lobe& lobe : mixture) {
+        const double versine = 1 - lobe.mean.dot(to_direction(d.direction));
+        terms.push_back(lobe.weight * mode_density(lobe.kappa) * std::exp(-lobe.kappa * versine));
+        total += terms.back();
+      }
+      log_likelihood += d.weight * std::log(total);
+      for (std::size_t k = 0; k < terms.size(); ++k) weights[k] += d.weight * terms[k] / total;
+    }
+    const Expectation now = expectation(mixture, directions);
+    CHECK(std::abs(now.log_likelihood - log_likelihood) < 1e-4 * count);
+    for (std::size_t k = 0; k < weights.size(); ++k) {
+      CHECK(std::abs(now.moments[k].weight - weights[k]) < 1e-4 * count);
     }
   }
 }
