@@ -29,7 +29,7 @@ struct CompareOptions {
   std::string html;
   std::string error_images;
   std::string metric = "relative_mse";
-  std::optional<double> max_relmse;
+  std::optional<double> exposure, max_relmse;
   int threads = 0;
 };
 
@@ -125,7 +125,7 @@ bool too_different(const Comparison& comparison, double max_relmse) {
 
 int compare(const CompareOptions& options) {
   check_options(options);
-  const Comparison comparison = compare_files(options.images, options.reference);
+  const Comparison comparison = compare_files(options.images, options.reference, options.exposure);
   const bool is_bad = has_invalid_pixels(comparison);
   write_outputs(comparison, options);
   if (options.max_relmse && too_different(comparison, *options.max_relmse)) return kTooDifferent;
@@ -149,6 +149,9 @@ void add_compare_command(CLI::App& app, int& exit_code) {
                       "errors/ for a folder");
   command->add_option("--metric", options->metric, "Metric of the error images")
       ->capture_default_str();
+  command->add_option("--exposure", options->exposure,
+                      "Exposure of the images for PSNR and FLIP [stops] instead of the one that "
+                      "the reference or an image states");
   command->add_option(
       "--max-relmse", options->max_relmse,
       "Exit with 1 when an image's relMSE is larger, or has pixels without a value");

@@ -23,6 +23,7 @@ Metadata metadata_of(const RenderResult& result, const LoadedConfig& loaded) {
       {"pharos:rays", std::to_string(result.counters.rays)},
       {"pharos:invalid_paths", std::to_string(result.counters.invalid_paths)},
       {"pharos:stopped", result.stopped ? "true" : "false"},
+      {"pharos:exposure", fmt::format("{}", loaded.config.output.exposure)},
   };
 }
 

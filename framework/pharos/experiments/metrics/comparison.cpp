@@ -48,6 +48,15 @@ std::vector<std::string> labels_of(std::span<const std::filesystem::path> files)
   return labels;
 }
 
+/// Returns the exposure that the files state [stops]; see compare_files().
+double stated_exposure(const Comparison& comparison) {
+  std::optional<double> exposure = comparison.reference.exposure();
+  for (const MeasuredImage& image : comparison.images) {
+    if (!exposure) exposure = image.source.exposure();
+  }
+  return exposure.value_or(0);
+}
+
 }  // namespace
 
 std::optional<double> ImageFile::samples() const {
@@ -61,6 +70,10 @@ std::optional<double> ImageFile::seconds() const {
     if (seconds) sum = sum.value_or(0) + *seconds;
   }
   return sum;
+}
+
+std::optional<double> ImageFile::exposure() const {
+  return number_in(metadata, "pharos:exposure");
 }
 
 bool Comparison::is_comparable(std::size_t i) const {
@@ -92,18 +105,20 @@ std::optional<double> Comparison::ratio(std::size_t i, Metric metric) const {
 }
 
 Comparison compare_files(std::span<const std::filesystem::path> images,
-                         const std::filesystem::path& reference) {
+                         const std::filesystem::path& reference, std::optional<double> exposure) {
   if (images.empty()) throw InputError("expected at least one image to compare");
   const std::vector<std::string> labels = labels_of(images);
-  Comparison comparison{read(reference, kReferenceLabel), {}};
+  Comparison comparison{read(reference, kReferenceLabel), {}, {}};
   for (std::size_t i = 0; i < images.size(); ++i) {
     comparison.images.push_back({read(images[i], labels[i]), {}});
     pair_pixels(comparison.images[i].source.image, comparison.reference.image, images[i].string(),
                 "'" + reference.string() + "'");
   }
+  comparison.display.exposure =
+      static_cast<float>(exposure ? *exposure : stated_exposure(comparison));
   // All files are valid. The measurements start here.
   for (MeasuredImage& image : comparison.images) {
-    image.errors = measure(image.source.image, comparison.reference.image);
+    image.errors = measure(image.source.image, comparison.reference.image, comparison.display);
   }
   return comparison;
 }

@@ -26,6 +26,8 @@ struct ImageFile {
   /// Returns the time of training, updates and rendering, as `pharos render` counts it [s]; empty
   /// if the metadata does not state it.
   std::optional<double> seconds() const;
+  /// Returns the exposure of the image's PNG [stops]; empty if the metadata does not state it.
+  std::optional<double> exposure() const;
 };
 
 struct MeasuredImage {
@@ -36,6 +38,7 @@ struct MeasuredImage {
 struct Comparison {
   ImageFile reference;
   std::vector<MeasuredImage> images;  ///< at least one; ratios are relative to the first
+  Display display;                    ///< for PSNR and FLIP
 
   /// Returns false for images with more invalid pixels than another image. Their errors are means
   /// over fewer pixels, so these images are neither best nor part of a ratio.
@@ -51,8 +54,11 @@ struct Comparison {
 /// Reads all files and measures every metric. Throws InputError, with one line that names the
 /// files, if read_image() rejects a file, if an image has another size than the reference, no
 /// channels R, G and B, or no pixel that is finite in both images, and if a file is named twice.
+/// Without `exposure` [stops], images are exposed as the reference states, or the first image that
+/// states an exposure, or not at all.
 Comparison compare_files(std::span<const std::filesystem::path> images,
-                         const std::filesystem::path& reference);
+                         const std::filesystem::path& reference,
+                         std::optional<double> exposure = {});
 
 /// Returns a text table with one aligned column per image. The best value of each row is marked,
 /// and ratios are relative to the first image.

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -78,16 +79,19 @@ PixelPair pair_pixels(const Image& image, const Image& reference, std::string_vi
   return pair;
 }
 
-double mean_error(const std::vector<double>& errors, const PixelPair& pair) {
+double mean_over_pixels(const std::vector<double>& values, const PixelPair& pair) {
   std::vector<double> rows(pair.height);
+  std::vector<std::size_t> counts(pair.height);
   parallel_for(rows.size(), [&](std::size_t row) {
     const std::size_t first = row * pair.width;
     for (std::size_t i = first; i < first + pair.width; ++i) {
-      if (pair.valid[i]) rows[row] += errors[i];
+      if (!pair.valid[i] || std::isnan(values[i])) continue;
+      rows[row] += values[i];
+      ++counts[row];
     }
   });
-  const auto count = static_cast<double>(pair.size() - pair.invalid_pixels);
-  return std::accumulate(rows.begin(), rows.end(), 0.0) / count;
+  const std::size_t count = std::accumulate(counts.begin(), counts.end(), std::size_t{0});
+  return std::accumulate(rows.begin(), rows.end(), 0.0) / static_cast<double>(count);
 }
 
 }  // namespace pharos

@@ -31,8 +31,8 @@ PixelPair pair_pixels(const Image& image, const Image& reference,
                       std::string_view image_name = "the image",
                       std::string_view reference_name = "the reference");
 
-/// Returns the mean of `errors`, one per pixel, over the valid pixels. The sum is accumulated by
-/// rows, so it has the same bits for any number of threads.
-double mean_error(const std::vector<double>& errors, const PixelPair& pair);
+/// Returns the mean of `values`, one per pixel, over the valid pixels whose value is not NaN. The
+/// sum is accumulated by rows, so it has the same bits for any number of threads.
+double mean_over_pixels(const std::vector<double>& values, const PixelPair& pair);
 
 }  // namespace pharos

@@ -38,7 +38,8 @@ ColorScale write_error_images(const Comparison& comparison, Metric metric,
                               const std::string& prefix) {
   std::vector<Image> maps;
   for (const MeasuredImage& image : comparison.images) {
-    maps.push_back(error_map(metric, image.source.image, comparison.reference.image));
+    maps.push_back(
+        error_map(metric, image.source.image, comparison.reference.image, comparison.display));
   }
   const ColorScale scale = error_scale(metric, maps);
   for (std::size_t i = 0; i < maps.size(); ++i) {

@@ -211,9 +211,10 @@ class Runner {
     RunRecord record = record_of(run, result);
     record.peak_bytes = peak.bytes();
     record.training_samples = checkpoints.training_samples();
-    record.errors = measure(result.image, reference);
+    const Display display{loaded.config.output.exposure};
+    record.errors = measure(result.image, reference, display);
     record.checkpoints = checkpoints.finish(record);
-    keep_images(run, result, job.scene());
+    keep_images(run, result, job.scene(), display);
     save_record(record, file_of(run, ".json"));
     return record;
   }
@@ -237,11 +238,13 @@ class Runner {
             .checkpoints = {}};
   }
 
-  void keep_images(const Run& run, const RenderResult& result, const Scene& scene) const {
+  void keep_images(const Run& run, const RenderResult& result, const Scene& scene,
+                   const Display& display) const {
     fs::create_directories(file_of(run, "").parent_path());
     if (keeps_image(run)) {
       write_exr(select_layers(result.image, {}), file_of(run, ".exr"),
-                {{"pharos:version", version()}});
+                {{"pharos:version", version()},
+                 {"pharos:exposure", fmt::format("{}", display.exposure)}});
     }
     if (run.seed != results_.config.first_seed || result.model == nullptr) return;
     const Image& image = result.image;

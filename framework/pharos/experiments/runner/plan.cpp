@@ -14,11 +14,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Returns a scene's config with the experiment's settings and the scene's own settings applied.
+/// Returns a scene's config with the experiment's settings and the scene's own settings applied. Of
+/// the output settings, only the exposure is kept, which metrics use.
 ConfigNode scene_config(const ExperimentConfig& experiment, const ExperimentScene& scene,
                         const Registry& registry) {
   ConfigNode node = read_config_or_scene(scene.config, registry);
-  node.take("output");
+  const ConfigNode output = node.take("output");
+  if (const ConfigNode* exposure = output.find("exposure")) {
+    ConfigNode kept = ConfigNode::mapping();
+    kept.set("exposure", *exposure);
+    node.set("output", std::move(kept));
+  }
   return merged(merged(std::move(node), experiment.settings), scene.settings);
 }
 
@@ -53,7 +59,9 @@ PlannedCell plan_cell(const ExperimentConfig& experiment, const ConfigNode& scen
   loaded.resolved.take("seed");
   loaded.resolved.take("output");
   cell.text = to_yaml(loaded.resolved);
-  cell.key = content_key(content_key(loaded) + build_key(loaded.resolved, registry));
+  cell.key =
+      content_key(fmt::format("{} {} {}", content_key(loaded), build_key(loaded.resolved, registry),
+                              loaded.config.output.exposure));
   return cell;
 }
 

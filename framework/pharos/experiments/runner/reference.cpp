@@ -72,7 +72,7 @@ class Cache {
     reference.samples_per_pixel = number_at(metadata, "pharos:samples_per_pixel").value_or(0);
     reference.seconds = number_at(metadata, "pharos:seconds").value_or(0);
     reference.mse = number_at(metadata, "pharos:own_mse");
-    reference.relative_mse = number_at(metadata, "pharos:own_relative_mse");
+    reference.relative_mse = number_at(metadata, "pharos:own_relmse");
     reference.version = text_at(metadata, "pharos:version");
     reference.build = text_at(metadata, "pharos:build");
     return reference;
@@ -104,16 +104,15 @@ class Cache {
     // of a half is twice the variance of the whole.
     static constexpr std::array<Metric, 2> metrics{Metric::mse, Metric::relative_mse};
     const ImageErrors difference = measure(halves[0].mean(), halves[1].mean(), metrics);
-    write_exr(
-        whole.mean(), path(),
-        {{"pharos:version", version()},
-         {"pharos:build", build},
-         {"pharos:config", config},
-         {"pharos:parts", std::to_string(planned_.parts)},
-         {"pharos:samples_per_pixel", fmt::format("{}", samples)},
-         {"pharos:seconds", fmt::format("{}", seconds)},
-         {"pharos:own_mse", fmt::format("{}", difference[Metric::mse] / 4)},
-         {"pharos:own_relative_mse", fmt::format("{}", difference[Metric::relative_mse] / 4)}});
+    write_exr(whole.mean(), path(),
+              {{"pharos:version", version()},
+               {"pharos:build", build},
+               {"pharos:config", config},
+               {"pharos:parts", std::to_string(planned_.parts)},
+               {"pharos:samples_per_pixel", fmt::format("{}", samples)},
+               {"pharos:seconds", fmt::format("{}", seconds)},
+               {"pharos:own_mse", fmt::format("{}", difference[Metric::mse] / 4)},
+               {"pharos:own_relmse", fmt::format("{}", difference[Metric::relative_mse] / 4)}});
     remove_parts();
   }
 

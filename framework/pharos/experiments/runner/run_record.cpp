@@ -12,7 +12,7 @@ namespace {
 using nlohmann::json;
 
 /// The format version of record files.
-constexpr int kFormat = 1;
+constexpr int kFormat = 2;
 
 ImageErrors errors_from(const json& node) {
   ImageErrors errors;
@@ -56,8 +56,8 @@ RunRecord record_from(const json& node) {
 }  // namespace
 
 std::span<const Metric> checkpoint_metrics() {
-  static constexpr std::array<Metric, 3> metrics{Metric::mse, Metric::capped_mse,
-                                                 Metric::relative_mse};
+  static constexpr std::array metrics{Metric::mse, Metric::capped_mse, Metric::relative_mse,
+                                      Metric::trimmed_relative_mse};
   return metrics;
 }
 

@@ -48,6 +48,7 @@ std::string comparison_json(const Comparison& comparison) {
             {"width", comparison.reference.image.width()},
             {"height", comparison.reference.image.height()},
             {"reference", file_json(comparison.reference)},
+            {"exposure", comparison.display.exposure},
             {"metrics", metrics_json()},
             {"images", Json::array()}};
   for (std::size_t i = 0; i < comparison.images.size(); ++i) {

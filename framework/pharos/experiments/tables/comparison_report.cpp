@@ -48,7 +48,7 @@ ReportScene scene_of(const Comparison& comparison) {
     for (const Metric metric : kMaps) {
       shown.error_maps.push_back(
           {std::string(metric_info(metric).title),
-           error_map(metric, image.source.image, comparison.reference.image)});
+           error_map(metric, image.source.image, comparison.reference.image, comparison.display)});
     }
     scene.images.push_back(std::move(shown));
   }
@@ -68,9 +68,11 @@ Report comparison_report(const Comparison& comparison) {
   Report report;
   report.title = "Comparison with " + comparison.reference.file.filename().string();
   report.description = "Error of images against a reference.";
-  report.facts = {{"Pharos", version()},
-                  {"Size", fmt::format("{} x {} pixels", reference.width(), reference.height())},
-                  {"Reference", file_fact(comparison.reference)}};
+  report.facts = {
+      {"Pharos", version()},
+      {"Size", fmt::format("{} x {} pixels", reference.width(), reference.height())},
+      {"Reference", file_fact(comparison.reference)},
+      {"Exposure for PSNR and FLIP", fmt::format("{:.4g} stops", comparison.display.exposure)}};
   for (const MeasuredImage& image : comparison.images) {
     std::string fact = file_fact(image.source);
     if (const std::size_t count = image.errors.invalid_pixels; count > 0) {

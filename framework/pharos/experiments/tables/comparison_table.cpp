@@ -40,6 +40,11 @@ std::string reference_line(const ImageFile& reference) {
   return line + '\n';
 }
 
+std::string exposure_line(const Comparison& comparison) {
+  if (comparison.display.exposure == 0) return "";
+  return fmt::format("exposure for PSNR and FLIP: {:g} stops\n", comparison.display.exposure);
+}
+
 }  // namespace
 
 std::string comparison_table(const Comparison& comparison) {
@@ -61,7 +66,8 @@ std::string comparison_table(const Comparison& comparison) {
     const auto count = static_cast<double>(image.errors.invalid_pixels);
     return count > 0 ? std::optional(count) : std::nullopt;
   });
-  std::string text = reference_line(comparison.reference) + '\n' + aligned(rows);
+  std::string text =
+      reference_line(comparison.reference) + exposure_line(comparison) + '\n' + aligned(rows);
   if (comparison.images.size() > 1) {
     text += fmt::format("\n* the best of its row; in brackets: over '{}'\n",
                         comparison.images[0].source.label);

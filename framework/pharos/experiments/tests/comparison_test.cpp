@@ -1,6 +1,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <optional>
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
@@ -39,10 +40,11 @@ class Folder {
   void write(const std::string& name, float value, const Metadata& metadata = {}) const {
     write_exr(constant(8, 6, Rgb(value)), files_ / name, metadata);
   }
-  Comparison compare(const std::vector<std::string>& names) const {
+  Comparison compare(const std::vector<std::string>& names,
+                     std::optional<double> exposure = {}) const {
     std::vector<fs::path> files;
     for (const std::string& name : names) files.push_back(files_ / name);
-    return compare_files(files, files_ / "ref.exr");
+    return compare_files(files, files_ / "ref.exr", exposure);
   }
   std::string refusal(const std::vector<std::string>& names) const {
     try {
@@ -172,6 +174,23 @@ TEST_CASE("table: several images") {
   CHECK(column("MSE", "0.0625") == column("time", "3.75"));
 }
 
+TEST_CASE("comparison: the exposure is given, or stated by the reference or an image") {
+  const Folder folder;
+  CHECK(folder.compare({"far.exr"}).display.exposure == 0);
+  CHECK_FALSE(contains(comparison_table(folder.compare({"far.exr"})), "exposure"));
+  folder.write("exposed.exr", 1.5f, {{"pharos:exposure", "-2"}});
+  const Comparison by_image = folder.compare({"near.exr", "exposed.exr"});
+  CHECK(by_image.display.exposure == -2);
+  CHECK(contains(comparison_table(by_image), "exposure for PSNR and FLIP: -2 stops\n"));
+  // A quarter of the brightness is below white, so PSNR sees the difference.
+  CHECK(by_image.images[0].errors[Metric::psnr] == doctest::Approx(-20 * std::log10(0.25 / 4)));
+  folder.write("ref.exr", 1, {{"pharos:exposure", "-3"}});
+  const Comparison by_reference = folder.compare({"near.exr", "exposed.exr"});
+  CHECK(by_reference.display.exposure == -3);
+  CHECK(nlohmann::json::parse(comparison_json(by_reference))["exposure"] == -3);
+  CHECK(folder.compare({"exposed.exr"}, 1.5).display.exposure == 1.5f);
+}
+
 TEST_CASE("JSON: everything, with infinity as a word") {
   const Folder folder;
   const auto json = nlohmann::json::parse(comparison_json(folder.compare({"far.exr", "near.exr"})));
@@ -180,7 +199,7 @@ TEST_CASE("JSON: everything, with infinity as a word") {
   CHECK(json["reference"]["metadata"]["pharos:samples_per_pixel"] == "4096");
   REQUIRE(json["metrics"].size() == kMetricCount);
   CHECK(json["metrics"][2]["key"] == "relative_mse");
-  CHECK(json["metrics"][5]["lower_is_better"] == false);
+  CHECK(json["metrics"][7]["lower_is_better"] == false);
   const auto& near = json["images"][1];
   CHECK(near["label"] == "near");
   CHECK(near["errors"].size() == kMetricCount);
@@ -214,7 +233,7 @@ TEST_CASE("report: tables, images, maps and texts") {
   CHECK(mse.rows[0].cells[1].value == 0.0625);
   CHECK(*mse.rows[0].cells[1].ratio == 0.25);
   CHECK_FALSE(mse.rows[0].cells[0].ratio);
-  CHECK(report.tables[5].better == Better::higher);
+  CHECK(report.tables[7].better == Better::higher);
   REQUIRE(report.scenes.size() == 1);
   CHECK(report.scenes[0].name == mse.rows[0].scene);
   const auto& images = report.scenes[0].images;

@@ -153,8 +153,8 @@ TEST_CASE("FLIP: pixels without a value do not spread") {
   image.set_rgb(15, 15, Rgb(std::numeric_limits<float>::quiet_NaN()));
   image.set_rgb(3, 4, {0, std::numeric_limits<float>::infinity(), 0});
   const PixelPair pair = pair_pixels(image, reference);
-  CHECK(mean_error(flip_errors(pair), pair) == 0);
-  CHECK(mean_error(hdr_flip_errors(pair), pair) == 0);
+  CHECK(mean_over_pixels(flip_errors(pair), pair) == 0);
+  CHECK(mean_over_pixels(hdr_flip_errors(pair), pair) == 0);
 }
 
 }  // namespace pharos

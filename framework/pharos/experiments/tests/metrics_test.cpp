@@ -39,10 +39,15 @@ std::string refusal(const Image& image, const Image& reference) {
   return "";
 }
 
+/// Returns the mean of the pixels that are not NaN.
 double mean_of(const Image& map) {
-  double sum = 0;
-  for (const float v : map.values()) sum += v;
-  return sum / static_cast<double>(map.values().size());
+  double sum = 0, count = 0;
+  for (const float v : map.values()) {
+    if (std::isnan(v)) continue;
+    sum += v;
+    ++count;
+  }
+  return sum / count;
 }
 
 }  // namespace
@@ -68,7 +73,9 @@ TEST_CASE("metrics: a constant offset in closed form") {
   const ImageErrors errors = measure(image, reference);
   CHECK(errors[Metric::mse] == doctest::Approx(mse));
   CHECK(errors[Metric::capped_mse] == doctest::Approx(mse));
-  CHECK(errors[Metric::relative_mse] == doctest::Approx(mse / 0.26));
+  CHECK(errors[Metric::relative_mse] == doctest::Approx(mse / (0.25 * 1.01)));
+  CHECK(errors[Metric::trimmed_relative_mse] == doctest::Approx(mse / (0.25 * 1.01)));
+  CHECK(errors[Metric::floored_relative_mse] == doctest::Approx(mse / 0.26));
   CHECK(errors[Metric::mape] == doctest::Approx(0.75 / 3 / 0.51));
   CHECK(errors[Metric::smape] == doctest::Approx((0.25 / 0.385 + 0.5 / 0.76) / 3));
   CHECK(errors[Metric::psnr] == doctest::Approx(-10 * std::log10(mse)));
@@ -124,6 +131,78 @@ TEST_CASE("capped MSE: known quantiles") {
   CHECK(one(Metric::capped_mse, few, flat) == one(Metric::mse, few, flat));
 }
 
+TEST_CASE("trimmed relMSE: the worst pixel in a thousand does not count") {
+  const Image reference = constant(50, 40, Rgb(1));
+  Image image = constant(50, 40, Rgb(1.5f));
+  image.set_rgb(13, 7, Rgb(1000));
+  image.set_rgb(3, 9, Rgb(-20));
+  CHECK(one(Metric::trimmed_relative_mse, image, reference) == doctest::Approx(0.25 / 1.01));
+  const Image map = error_map(Metric::trimmed_relative_mse, image, reference);
+  CHECK(std::isnan(*map.pixel(13, 7)));
+  CHECK(std::isnan(*map.pixel(3, 9)));
+  // A third outlier counts.
+  image.set_rgb(30, 30, Rgb(11));
+  CHECK(one(Metric::trimmed_relative_mse, image, reference) ==
+        doctest::Approx((1997 * 0.25 + 100) / 1.01 / 1998));
+  // Of a thousand equal errors, one is left out, and the mean stays.
+  CHECK(one(Metric::trimmed_relative_mse, constant(50, 20, Rgb(1.5f)), constant(50, 20, Rgb(1))) ==
+        doctest::Approx(0.25 / 1.01));
+  // With fewer than a thousand pixels, no pixel is left out.
+  const Image few = test::noisy(constant(9, 111, Rgb(1)), 0.5), flat = constant(9, 111, Rgb(1));
+  CHECK(one(Metric::trimmed_relative_mse, few, flat) == one(Metric::relative_mse, few, flat));
+}
+
+TEST_CASE("relMSE: epsilon is 1 % of the reference's mean squared luminance") {
+  // The left half of the reference is black.
+  Image reference = constant(20, 10, Rgb(0)), image = constant(20, 10, Rgb(0.1f));
+  for (int y = 0; y < 10; ++y) {
+    for (int x = 10; x < 20; ++x) {
+      reference.set_rgb(x, y, {0, 2, 0});
+      image.set_rgb(x, y, {0, 2, 0});
+    }
+  }
+  const double luminance = 2 * 0.7152, epsilon = 0.01 * luminance * luminance / 2;
+  CHECK(one(Metric::relative_mse, image, reference) ==
+        doctest::Approx(0.5 * 0.01 / epsilon).epsilon(1e-4));
+  // A black reference is infinitely far from everything else, but not from itself.
+  const Image black = constant(5, 5, Rgb(0));
+  CHECK(one(Metric::relative_mse, black, black) == 0);
+  CHECK(one(Metric::relative_mse, constant(5, 5, Rgb(1)), black) == kInfinity);
+}
+
+TEST_CASE("relMSE does not depend on the unit of radiance") {
+  const Image reference = test::pattern(40, 50), image = test::noisy(reference, 0.4);
+  for (const Metric metric : {Metric::relative_mse, Metric::trimmed_relative_mse}) {
+    CAPTURE(metric_info(metric).key);
+    const double expected = one(metric, image, reference);
+    for (const float scale : {1.0f / 4096, 1024.0f}) {
+      CHECK(one(metric, scaled(image, scale), scaled(reference, scale)) ==
+            doctest::Approx(expected).epsilon(1e-5));
+    }
+  }
+}
+
+TEST_CASE("metrics: PSNR and FLIP see images at their exposure") {
+  const Image reference = test::pattern(40, 30), image = test::noisy(reference, 0.4);
+  const Image dark_reference = scaled(reference, 1.0f / 64), dark = scaled(image, 1.0f / 64);
+  const ImageErrors expected = measure(image, reference);
+  const ImageErrors unexposed = measure(dark, dark_reference);
+  const ImageErrors exposed = measure(dark, dark_reference, {.exposure = 6});
+  for (const Metric metric : {Metric::psnr, Metric::flip}) {
+    CAPTURE(metric_info(metric).key);
+    CHECK(exposed[metric] == doctest::Approx(expected[metric]).epsilon(1e-5));
+    CHECK(std::abs(unexposed[metric] / expected[metric] - 1) > 0.2);
+    const double mean = mean_of(error_map(metric, dark, dark_reference, {.exposure = 6}));
+    CHECK((metric == Metric::psnr ? -10 * std::log10(mean) : mean) ==
+          doctest::Approx(expected[metric]).epsilon(1e-5));
+  }
+  for (const MetricInfo& info : metric_infos()) {
+    if (info.metric == Metric::psnr || info.metric == Metric::flip) continue;
+    CAPTURE(info.key);
+    CHECK(exposed[info.metric] == unexposed[info.metric]);
+  }
+}
+
 TEST_CASE("metrics: brighter images") {
   const Image reference = test::pattern(30, 30), image = test::noisy(reference, 0.2);
   const Image bright_reference = scaled(reference, 16), bright = scaled(image, 16);
@@ -132,14 +211,14 @@ TEST_CASE("metrics: brighter images") {
           doctest::Approx(256 * one(metric, image, reference)));
   }
   // Relative errors stay the same except for the floor, which hides less in brighter images.
-  for (const Metric metric : {Metric::relative_mse, Metric::mape, Metric::smape}) {
+  for (const Metric metric : {Metric::floored_relative_mse, Metric::mape, Metric::smape}) {
     const double before = one(metric, scaled(image, 100), scaled(reference, 100));
     const double after = one(metric, scaled(bright, 100), scaled(bright_reference, 100));
     CHECK(after > before);
     CHECK(after == doctest::Approx(before).epsilon(0.02));
     CHECK(after > 1.1 * one(metric, image, reference));
   }
-  CHECK(one(Metric::relative_mse, constant(3, 3, Rgb(2e4f)), constant(3, 3, Rgb(1e4f))) ==
+  CHECK(one(Metric::floored_relative_mse, constant(3, 3, Rgb(2e4f)), constant(3, 3, Rgb(1e4f))) ==
         doctest::Approx(1));
 }
 
