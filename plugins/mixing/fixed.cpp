@@ -27,7 +27,7 @@ class FixedState final : public MixingState {
   FixedState(float unguided, std::span<const float> weights)
       : shares_(std::make_shared<const ConstantShares>(unguided, weights)) {}
   void absorb(const PathLog&) override {}
-  void update(std::uint32_t, std::span<const std::uint32_t>) override {}
+  void update(std::uint32_t, std::span<const std::uint32_t>, bool) override {}
   std::shared_ptr<const MixingShares> shares() const override { return shares_; }
   void archive(Archive&) override {}
 

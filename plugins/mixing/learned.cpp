@@ -95,7 +95,7 @@ class LearnedState final : public MixingState {
     }
   }
 
-  void update(std::uint32_t regions, std::span<const std::uint32_t> origins) override {
+  void update(std::uint32_t regions, std::span<const std::uint32_t> origins, bool) override {
     parallel_for(regions_.size(), [&](std::size_t i) { learn(regions_[i]); });
     std::vector<Region> next;
     for (std::uint32_t i = 0; i < regions; ++i) {

@@ -125,6 +125,21 @@ TEST_CASE("furnace: the policy that learns by descent") {
   CHECK(std::abs(diffuse_t(pair("stub_camera", "stub_camera", "mixing: learned, "))) < kLimit);
 }
 
+TEST_CASE("furnace: the policy that learns the shares of all methods") {
+  const std::string mixing = "mixing: { type: simplex, cell_steps: 256, worth: 1 }, ";
+  CHECK(std::abs(diffuse_t(
+            pair("{ type: stub_direction, refine: true }", "stub_direction", mixing))) < kLimit);
+  CHECK(std::abs(fog_t(pair("stub_vertices", "stub_vertices", mixing))) < kLimit);
+  CHECK(std::abs(diffuse_t(pair("stub_camera", "stub_camera", mixing))) < kLimit);
+  const std::string three =
+      "{ methods: [ { learner: stub_direction, guider: stub_direction, weight: 2 }, "
+      "{ learner: stub_mixture, guider: stub_exact }, "
+      "{ learner: stub_vertices, guider: stub_vertices } ], " +
+      mixing + "training: { iterations: 3, schedule: geometric, images: combine } }";
+  CHECK(std::abs(diffuse_t(three)) < kLimit);
+  CHECK(std::abs(fog_t(three)) < kLimit);
+}
+
 TEST_CASE("furnace (f): a sampler that probes the light-position integrand") {
   CHECK(std::abs(diffuse_t("", "stub_probing")) < kLimit);
 }

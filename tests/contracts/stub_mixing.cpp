@@ -60,7 +60,7 @@ class StubMixingState final : public MixingState {
     });
   }
 
-  void update(std::uint32_t regions, std::span<const std::uint32_t> origins) override {
+  void update(std::uint32_t regions, std::span<const std::uint32_t> origins, bool) override {
     for (Region& region : regions_) {
       if (!(region.total > 0)) continue;
       region.share = std::clamp(region.unguided / region.total, kLeast, kMost);

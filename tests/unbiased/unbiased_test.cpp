@@ -186,6 +186,31 @@ std::vector<Method> media_methods() {
           lobes("spatial: single", "bsdf", "fixed", "combine")};
 }
 
+/// Returns a mixture of `methods` with learned shares of all. The bounds of the shares are as wide
+/// as `bounds` says.
+Method simplex(const char* name, const char* methods, const char* bounds, const char* images) {
+  return {fmt::format("simplex {} {{ {} }} {}", name, bounds, images),
+          {fmt::format("methods={}", methods),
+           fmt::format("mixing={{ type: simplex, cell_steps: 1024, {} }}", bounds),
+           fmt::format("training={{ schedule: geometric, images: {} }}", images)}};
+}
+
+/// Returns mixtures of one, two and three methods, with shares near their bounds and with methods
+/// that are left out where they are not worth their cost. Triplets steer discrete events.
+std::vector<Method> simplex_methods() {
+  const char* one = "[ { learner: parallax_aware_mixtures, guider: parallax_aware_mixtures } ]";
+  const char* two =
+      "[ { learner: { type: vertex_triplets, cells: 16, components: 16, reservoir: 512 }, guider: "
+      "vertex_triplets }, { learner: practical_path_guiding, guider: practical_path_guiding } ]";
+  const char* three =
+      "[ { learner: spatial_gaussians, guider: p0 }, { learner: focal, guider: focal }, { learner: "
+      "parallax_aware_mixtures, guider: { type: parallax_aware_mixtures, product: bsdf } } ]";
+  return {simplex("three", three, "worth: 1.2", "combine"),
+          simplex("one", one, "least: 0.02, unguided: 0.02, explore: 0.5, evidence: 0", "discard"),
+          simplex("one", one, "worth: 3, explore: 0", "combine"),
+          simplex("two", two, "least: 0.05, unguided: 0.3, worth: 1", "discard")};
+}
+
 LoadedConfig load(const std::filesystem::path& config, const std::vector<std::string>& guiding,
                   std::vector<std::string> overrides = {}) {
   for (const std::string& setting : guiding) {
@@ -260,6 +285,10 @@ TEST_CASE("unbiased: parallax-aware mixtures under strips of light") {
   compare_proof("strip-lights", {lobe_methods()[3]});
 }
 
+TEST_CASE("unbiased: three methods with learned shares under strips of light") {
+  compare_proof("strip-lights", {simplex_methods().front()});
+}
+
 TEST_CASE("unbiased: vertex triplets in fog, with paths from lights") {
   compare_proof("fog-box", {triplet_methods(1).back()});
 }
@@ -307,6 +336,16 @@ TEST_CASE("long: spatial Gaussians are unbiased in the proof variant standing-li
 }
 TEST_CASE("long: spatial Gaussians are unbiased in the proof variant strip-lights") {
   compare_proof("strip-lights", gaussian_methods());
+}
+
+TEST_CASE("long: learned shares are unbiased in the proof variant strip-lights") {
+  compare_proof("strip-lights", simplex_methods());
+}
+TEST_CASE("long: learned shares are unbiased in the proof variant metalwork") {
+  compare_proof("metalwork", simplex_methods());
+}
+TEST_CASE("long: learned shares are unbiased in the proof variant haze") {
+  compare_proof("haze", simplex_methods());
 }
 
 TEST_CASE("long: SD-trees are unbiased in the proof variant camera-obscura") {

@@ -112,7 +112,7 @@ class TinyMixingState final : public MixingState {
   explicit TinyMixingState(std::span<const float> weights)
       : weights_(weights.begin(), weights.end()) {}
   void absorb(const PathLog& log) override { found_ += static_cast<double>(log.size()); }
-  void update(std::uint32_t regions, std::span<const std::uint32_t> origins) override {
+  void update(std::uint32_t regions, std::span<const std::uint32_t> origins, bool) override {
     std::vector<double> next(regions, found_);
     for (std::size_t i = 0; i < regions; ++i) {
       const std::size_t origin = origins.empty() ? i : origins[i];

@@ -25,7 +25,7 @@ TEST_CASE("fixed mixing: the same share in every region and iteration") {
   const std::array weights{1.0f, 3.0f};
   const auto state = FixedMixing({.unguided_fraction = 0.25f}).begin(weights);
   for (const std::uint32_t regions : {0u, 1u, 100u}) {
-    state->update(regions, {});
+    state->update(regions, {}, false);
     for (const std::uint32_t region : {0u, 98u}) {
       CHECK(shares_of(*state, 1, 1, region)[0] == 0.25f);
     }

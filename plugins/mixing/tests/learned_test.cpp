@@ -9,69 +9,14 @@
 #include <doctest/doctest.h>
 
 #include <pharos/core/error.h>
-#include <pharos/core/random.h>
+
+#include "three_directions.h"
 
 namespace pharos {
 namespace {
 
+using namespace testing;
 using Settings = LearnedMixing::Settings;
-
-/// A world of three directions. It holds the probability that each sampler gives to each direction,
-/// and the value that is sought there.
-struct World {
-  std::array<double, 3> unguided, guided, sought;
-
-  double mixed(std::size_t i, double share) const {
-    return share * unguided[i] + (1 - share) * guided[i];
-  }
-};
-
-/// Each sampler finds what the other one misses.
-constexpr World kApart{{0.5, 0.5, 0}, {0, 0, 1}, {0.3, 0, 0.7}};
-/// No mixture is perfect.
-constexpr World kOverlapping{{0.7, 0.2, 0.1}, {0.3, 0.1, 0.6}, {0.1, 0.5, 0.4}};
-constexpr World kGuideMisses{{1, 0, 0}, {0, 1, 0}, {1, 0, 0}};
-constexpr World kOnlyGuideFinds{{1, 0, 0}, {0, 1, 0}, {0, 1, 0}};
-
-std::size_t choose(const std::array<double, 3>& probabilities, double u) {
-  std::size_t i = 0;
-  while (i < 2 && u >= probabilities[i]) u -= probabilities[i++];
-  return i;
-}
-
-/// Adds a path with one step whose estimate is `found` times the radiance 1.
-void add_path(PathLog& log, std::uint32_t mixing_key, std::span<const Technique> techniques,
-              double found) {
-  log.begin_path({}, Transport::radiance);
-  log.add(RecordedVertex{.kind = VertexKind::sensor, .local_weight = Rgb(1)});
-  float pdf = 0;
-  for (const Technique& t : techniques) pdf += t.share * t.density;
-  log.add(RecordedVertex{.guidable = true,
-                         .parent = 0,
-                         .local_weight = Rgb(static_cast<float>(found)),
-                         .pdf = pdf,
-                         .mixing_key = mixing_key});
-  log.set_techniques(1, techniques);
-  log.add(RecordedVertex{.parent = 1, .emission = Rgb(1)});
-}
-
-/// Returns paths of one step each, drawn from the mixture with the given share. `scale` is the unit
-/// of radiance. `guides` methods share the guided samples evenly.
-PathLog paths(const World& world, float share, int count, std::uint64_t seed,
-              std::uint32_t region = 0, double scale = 1, std::size_t guides = 1) {
-  PathLog log;
-  RandomStream random(seed);
-  for (int k = 0; k < count; ++k) {
-    const bool unguided = random.next_1d() < share;
-    const std::size_t i = choose(unguided ? world.unguided : world.guided, random.next_1d());
-    const Technique guide{(1 - share) / static_cast<float>(guides),
-                          static_cast<float>(world.guided[i])};
-    std::vector<Technique> techniques(1 + guides, guide);
-    techniques[0] = {share, static_cast<float>(world.unguided[i])};
-    add_path(log, region, techniques, scale * world.sought[i] / world.mixed(i, share));
-  }
-  return log;
-}
 
 std::unique_ptr<MixingState> begin(const Settings& settings = {}) {
   return LearnedMixing(settings).begin(std::array{1.0f});
@@ -91,31 +36,13 @@ float unguided_share(const MixingState& state, std::uint32_t region = 0) {
 double learned_share(const Settings& settings, const World& world, int count = 40'000,
                      int iterations = 4, double scale = 1) {
   const auto state = begin(settings);
-  state->update(1, {});
+  state->update(1, {}, false);
   for (int i = 0; i < iterations; ++i) {
     const auto seed = static_cast<std::uint64_t>(i);
     state->absorb(paths(world, unguided_share(*state), count, seed, 0, scale));
-    state->update(1, std::array{0u});
+    state->update(1, std::array{0u}, false);
   }
   return unguided_share(*state);
-}
-
-double objective(const World& world, double share, MixingObjective which) {
-  double sum = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const double f = world.sought[i], q = world.mixed(i, share);
-    if (f > 0) sum += which == MixingObjective::kl ? -f * std::log(q) : f * f / q;
-  }
-  return sum;
-}
-
-/// Finds the best share by trying all of them.
-double best_share(const World& world, MixingObjective which) {
-  double best = 0.5;
-  for (double share = 0.001; share < 1; share += 0.001) {
-    if (objective(world, share, which) < objective(world, best, which)) best = share;
-  }
-  return best;
 }
 
 Settings free_to_move(MixingObjective which) {
@@ -187,28 +114,28 @@ TEST_CASE("learned mixing: both ways keep their least share") {
 
 TEST_CASE("learned mixing: a region that was long at a limit leaves it at once") {
   const auto state = begin({.least = 0.4, .regularization = 0});
-  state->update(1, {});
+  state->update(1, {}, false);
   for (int i = 0; i < 10; ++i) {
     state->absorb(paths(kGuideMisses, unguided_share(*state), 1000, 1));
-    state->update(1, {});
+    state->update(1, {}, false);
   }
   CHECK(unguided_share(*state) == doctest::Approx(0.6));
   state->absorb(paths(kOnlyGuideFinds, 0.6f, 100, 1));
-  state->update(1, {});
+  state->update(1, {}, false);
   CHECK(unguided_share(*state) < 0.55f);
 }
 
 TEST_CASE("learned mixing: the momentum of one iteration is felt in the next") {
   const auto state = begin({.batch = 100, .steps = 1});
-  state->update(1, {});
+  state->update(1, {}, false);
   state->absorb(paths(kGuideMisses, 0.5f, 100, 1));
-  state->update(1, {});
+  state->update(1, {}, false);
   const float there = unguided_share(*state);
   CHECK(there == doctest::Approx(0.5025).epsilon(1e-4));  // one step of 0.01 in log-odds
   // The slope is now reversed and about as steep. Without memory of it, the first step would be
   // undone.
   state->absorb(paths(kOnlyGuideFinds, there, 100, 1));
-  state->update(1, {});
+  state->update(1, {}, false);
   CHECK(unguided_share(*state) > 0.502f);
 }
 
@@ -232,20 +159,20 @@ TEST_CASE("learned mixing: only finite finds of guided vertices count") {
     add_path(log, 0, std::array{Technique{0.5f, 0}, Technique{0.5f, 0}}, 0);
   }
   const auto state = begin();
-  state->update(1, {});
+  state->update(1, {}, false);
   state->absorb(log);
-  state->update(1, {});
+  state->update(1, {}, false);
   CHECK(unguided_share(*state) == 0.5f);
 }
 
 TEST_CASE("learned mixing: refined regions go on from where their origin was") {
   const auto whole = begin(), refined = begin();
   for (const auto* state : {&whole, &refined}) {
-    (*state)->update(2, {});
+    (*state)->update(2, {}, false);
     (*state)->absorb(paths(kApart, 0.5f, 300, 1, 1));
   }
-  whole->update(2, std::array{0u, 1u});
-  refined->update(4, std::array{1u, 0u, 1u, 0u});
+  whole->update(2, std::array{0u, 1u}, false);
+  refined->update(4, std::array{1u, 0u, 1u, 0u}, false);
   CHECK(unguided_share(*whole, 0) == 0.5f);
   const float learned = unguided_share(*whole, 1);
   CHECK(learned < 0.45f);
@@ -255,8 +182,8 @@ TEST_CASE("learned mixing: refined regions go on from where their origin was") {
   // With the same paths, a refined region and its origin take the same steps.
   whole->absorb(paths(kApart, learned, 300, 2, 1));
   refined->absorb(paths(kApart, learned, 300, 2, 2));
-  whole->update(2, std::array{0u, 1u});
-  refined->update(4, std::array{0u, 1u, 2u, 3u});
+  whole->update(2, std::array{0u, 1u}, false);
+  refined->update(4, std::array{0u, 1u, 2u, 3u}, false);
   const float next = unguided_share(*whole, 1);
   CHECK(next < learned);
   CHECK(unguided_share(*refined, 2) == next);
@@ -265,10 +192,10 @@ TEST_CASE("learned mixing: refined regions go on from where their origin was") {
 
 TEST_CASE("learned mixing: shares that are in use stay as they are") {
   const auto state = begin();
-  state->update(1, {});
+  state->update(1, {}, false);
   const std::shared_ptr<const MixingShares> used = state->shares();
   state->absorb(paths(kOnlyGuideFinds, 0.5f, 300, 1));
-  state->update(1, {});
+  state->update(1, {}, false);
   CHECK(unguided_share(*state) < 0.45f);
   const GuidingQuery vertex{};
   std::array<float, 2> shares{};
@@ -279,9 +206,9 @@ TEST_CASE("learned mixing: shares that are in use stay as they are") {
 TEST_CASE("learned mixing: several guides learn the share that one guide in their place learns") {
   const auto one = begin(), several = begin();
   for (const auto& [state, guides] : {std::pair{&one, 1}, std::pair{&several, 4}}) {
-    (*state)->update(1, {});
+    (*state)->update(1, {}, false);
     (*state)->absorb(paths(kOverlapping, 0.5f, 300, 1, 0, 1, static_cast<std::size_t>(guides)));
-    (*state)->update(1, {});
+    (*state)->update(1, {}, false);
   }
   CHECK(unguided_share(*one) != 0.5f);
   CHECK(unguided_share(*several) == unguided_share(*one));
@@ -289,9 +216,9 @@ TEST_CASE("learned mixing: several guides learn the share that one guide in thei
 
 TEST_CASE("learned mixing: the first method that knows something says which region decides") {
   const auto state = LearnedMixing(Settings{}).begin(std::array{1.0f, 3.0f});
-  state->update(2, {});
+  state->update(2, {}, false);
   state->absorb(paths(kApart, 0.5f, 300, 1, 1));
-  state->update(2, {});
+  state->update(2, {}, false);
   const auto shares = state->shares();
   const GuidingQuery vertex{};
   const auto check = [&](float first, float second, std::uint32_t region) {
@@ -310,9 +237,9 @@ TEST_CASE("learned mixing: the first method that knows something says which regi
 
 TEST_CASE("learned mixing: a saved state goes on to the bit, in the middle of an iteration") {
   const auto state = begin(), restored = begin();
-  state->update(2, {});
+  state->update(2, {}, false);
   state->absorb(paths(kApart, 0.5f, 300, 1, 1));
-  state->update(2, {});
+  state->update(2, {}, false);
   const float share = unguided_share(*state, 1);
   state->absorb(paths(kApart, share, 300, 2, 1));
   std::stringstream file;
@@ -321,7 +248,7 @@ TEST_CASE("learned mixing: a saved state goes on to the bit, in the middle of an
   CHECK(unguided_share(*restored, 1) == share);
   for (auto* s : {&state, &restored}) {
     (*s)->absorb(paths(kApart, share, 300, 3, 1));
-    (*s)->update(2, {});
+    (*s)->update(2, {}, false);
   }
   CHECK(unguided_share(*state, 1) != share);
   for (const std::uint32_t region : {0u, 1u}) {
@@ -332,7 +259,7 @@ TEST_CASE("learned mixing: a saved state goes on to the bit, in the middle of an
 TEST_CASE("learned mixing: what was saved otherwise is refused") {
   const auto saved = [] {
     const auto state = begin();
-    state->update(2, {});
+    state->update(2, {}, false);
     std::ostringstream file;
     save(file, *state);
     return file.str();

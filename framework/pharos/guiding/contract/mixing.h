@@ -43,8 +43,9 @@ class MixingState {
   /// Takes the recorded paths of one work unit. Called in the order of work units.
   virtual void absorb(const PathLog& log) = 0;
   /// Ends an iteration. The next models have `regions` regions in all; region i came from region
-  /// `origins[i]`. If `origins` is empty, the regions are the same as before.
-  virtual void update(std::uint32_t regions, std::span<const std::uint32_t> origins) = 0;
+  /// `origins[i]`. If `origins` is empty, the regions are the same as before. `last`: no other
+  /// training iteration follows.
+  virtual void update(std::uint32_t regions, std::span<const std::uint32_t> origins, bool last) = 0;
   /// Returns the shares as of the last update().
   virtual std::shared_ptr<const MixingShares> shares() const = 0;
   /// Saves the state, or loads it into a state that MixingPolicy::begin() made for the same render

@@ -75,7 +75,7 @@ GuidingState::GuidingState(const GuidingSettings& settings, const LearningContex
     weights.push_back(method.weight);
   }
   mixing_ = settings.mixing->begin(weights);
-  mixing_->update(regions(), {});
+  mixing_->update(regions(), {}, false);
   rebuild_frame();
 }
 
@@ -96,7 +96,7 @@ void GuidingState::update(std::uint32_t iteration, bool last) {
     source.update(iteration, last, first, origins);
     first += before;
   }
-  mixing_->update(static_cast<std::uint32_t>(origins.size()), origins);
+  mixing_->update(static_cast<std::uint32_t>(origins.size()), origins, last);
   rebuild_frame();
 }
 
@@ -145,7 +145,7 @@ std::size_t GuidingState::model_bytes() const {
 void GuidingState::archive(Archive& archive) {
   archive.heading("guiding", 1);
   for (Source& source : sources_) source.archive(archive);
-  if (archive.loads()) mixing_->update(regions(), {});
+  if (archive.loads()) mixing_->update(regions(), {}, false);
   mixing_->archive(archive);
   if (archive.loads()) rebuild_frame();
 }

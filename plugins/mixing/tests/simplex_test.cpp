@@ -1,0 +1,336 @@
+#include "../simplex.h"
+
+#include <array>
+#include <cmath>
+#include <memory>
+#include <sstream>
+#include <string>
+
+#include <doctest/doctest.h>
+#include <tbb/global_control.h>
+
+#include <pharos/core/error.h>
+
+#include "../second_moment.h"
+#include "three_directions.h"
+
+namespace pharos {
+namespace {
+
+using namespace testing;
+using Settings = SimplexMixing::Settings;
+
+/// Settings without prior, bounds and exploration.
+Settings free_to_move() {
+  return {.unguided = 0.5, .least = 1e-4, .explore = 0, .worth = 1, .prior_steps = 1e-6};
+}
+
+std::unique_ptr<MixingState> begun(const Settings& settings, std::span<const float> weights) {
+  auto state = SimplexMixing(settings).begin(weights);
+  state->update(1, {}, false);
+  return state;
+}
+std::unique_ptr<MixingState> begun(const Settings& settings = {}) {
+  return begun(settings, std::array{1.0f});
+}
+
+/// The shares at a vertex, and their key.
+struct Answer {
+  std::array<float, 2> shares{};
+  std::uint32_t key = 0;
+};
+
+Answer ask(const MixingState& state, const GuidingQuery& vertex = {}, float evidence = 1e9f) {
+  Answer answer;
+  answer.key = state.shares()->at({vertex, std::array{Place{.evidence = evidence}}}, answer.shares);
+  CHECK(answer.shares[0] > 0);
+  CHECK(answer.shares[0] + answer.shares[1] == doctest::Approx(1));
+  return answer;
+}
+
+GuidingQuery vertex_at(Point3 position, float roughness = 1, std::uint16_t bounce = 1) {
+  GuidingQuery query;
+  query.current.position = position;
+  query.current.roughness = roughness;
+  query.bounce = bounce;
+  return query;
+}
+
+/// Renders `count` paths that begin at a vertex.
+void absorb(MixingState& state, const World& world, int count, std::uint64_t seed,
+            const GuidingQuery& vertex = {}) {
+  const Answer now = ask(state, vertex);
+  state.absorb(paths(world, now.shares[0], count, seed, now.key, 1, 1, vertex.current.position));
+}
+
+/// Returns the unguided share after iterations of `count` paths each.
+double learned_share(const Settings& settings, const World& world, int count = 20'000,
+                     int iterations = 3) {
+  const auto state = begun(settings);
+  for (int i = 0; i < iterations; ++i) {
+    absorb(*state, world, count, static_cast<std::uint64_t>(i));
+    state->update(1, {}, i + 1 == iterations);
+  }
+  return ask(*state).shares[0];
+}
+
+/// Returns steps of three techniques with random densities and weights.
+std::vector<FoundStep> random_steps(std::size_t count, std::uint64_t seed) {
+  RandomStream random(seed);
+  std::vector<FoundStep> steps(count);
+  for (FoundStep& step : steps) {
+    step.weight = std::exp(4 * random.next_1d());
+    for (std::size_t i = 0; i < 3; ++i) step.ratios[i] = std::exp(6 * random.next_1d() - 4);
+  }
+  return steps;
+}
+
+}  // namespace
+
+TEST_CASE("second moment: the best shares are those that a search over all shares finds") {
+  for (const std::uint64_t seed : {1u, 2u, 3u, 4u}) {
+    CAPTURE(seed);
+    const std::vector<FoundStep> steps = random_steps(40, seed);
+    double least = 1e300;
+    for (int i = 0; i <= 200; ++i) {
+      for (int j = 0; i + j <= 200; ++j) {
+        const Simplex shares{i / 200.0, j / 200.0, (200 - i - j) / 200.0};
+        least = std::min(least, second_moment(steps, shares, 3));
+      }
+    }
+    const Simplex best = least_second_moment(steps, {true, true, true}, 3);
+    CHECK(best[0] + best[1] + best[2] == doctest::Approx(1));
+    CHECK(second_moment(steps, best, 3) < least * (1 + 1e-4));
+    const Simplex two = least_second_moment(steps, {true, false, true}, 3);
+    CHECK(two[1] == 0);
+    CHECK(second_moment(steps, two, 3) >= second_moment(steps, best, 3) * (1 - 1e-9));
+  }
+}
+
+TEST_CASE("second moment: a technique that cannot draw a step does not help it") {
+  const std::vector<FoundStep> steps{{1, {0, 2, 0}}, {1, {0, 1, 0}}};
+  const Simplex best = least_second_moment(steps, {true, true, true}, 3);
+  CHECK(best[1] == doctest::Approx(1));
+  CHECK(std::isinf(second_moment(steps, {1, 0, 0}, 3)));
+  const Simplex bounded = with_least_unguided(best, 0.2, 3);
+  CHECK(bounded[0] == 0.2);
+  CHECK(bounded[1] == doctest::Approx(0.8));
+}
+
+TEST_CASE("simplex mixing: the optimum in closed form where the samplers find different things") {
+  const double odds = std::sqrt(0.18 / 0.49);  // of the roots of the second moments
+  CHECK(learned_share(free_to_move(), kApart) == doctest::Approx(odds / (1 + odds)).epsilon(0.03));
+}
+
+TEST_CASE("simplex mixing: the optimum where the samplers overlap") {
+  CHECK(learned_share(free_to_move(), kOverlapping) ==
+        doctest::Approx(best_share(kOverlapping, MixingObjective::variance)).epsilon(0.04));
+}
+
+TEST_CASE(
+    "simplex mixing: unguided sampling keeps its least share, and methods theirs in training") {
+  Settings settings = free_to_move();
+  settings.least = 0.2;
+  settings.explore = 0.1;
+  settings.unguided = 0.6;
+  CHECK(learned_share(settings, kOnlyGuideFinds) == doctest::Approx(0.2).epsilon(1e-3));
+  const auto state = begun(settings);
+  absorb(*state, kGuideMisses, 2000, 1);
+  state->update(1, {}, false);
+  CHECK(ask(*state).shares[1] == doctest::Approx(0.1 / 1.1).epsilon(1e-3));
+  absorb(*state, kGuideMisses, 2000, 2);
+  state->update(1, {}, true);
+  CHECK(ask(*state).shares[1] == 0);
+}
+
+TEST_CASE("simplex mixing: in the end, a guide is asked only where it is worth its cost") {
+  Settings settings = free_to_move();
+  const double gain = objective(kOverlapping, 1, MixingObjective::variance) /
+                      objective(kOverlapping, best_share(kOverlapping, MixingObjective::variance),
+                                MixingObjective::variance);
+  REQUIRE(gain > 1.1);
+  settings.worth = 0.9 * gain;
+  CHECK(learned_share(settings, kOverlapping) < 1);
+  settings.worth = 1.1 * gain;
+  CHECK(learned_share(settings, kOverlapping) == 1);
+}
+
+TEST_CASE("simplex mixing: a guide earns its share step by step") {
+  CHECK(ask(*begun()).shares[0] == doctest::Approx(0.75));
+  const double few = learned_share({}, kOnlyGuideFinds, 16, 1);
+  CHECK(few > 0.4);
+  CHECK(few < 0.7);
+  CHECK(learned_share({}, kOnlyGuideFinds, 5000, 1) < 0.12);
+  CHECK(learned_share({}, kOnlyGuideFinds, 0, 3) == doctest::Approx(0.75));
+}
+
+TEST_CASE("simplex mixing: a single bright step moves little") {
+  const auto state = begun();
+  const Answer before = ask(*state);
+  absorb(*state, kGuideMisses, 1000, 1);
+  PathLog log;
+  const std::array techniques{Technique{0.75f, 1e-3f}, Technique{0.25f, 1}};
+  add_path(log, before.key, techniques, 1e5);
+  state->absorb(log);
+  state->update(1, {}, false);
+  CHECK(std::abs(ask(*state).shares[0] - before.shares[0]) < 0.05);
+}
+
+TEST_CASE("simplex mixing: what a model knows of a place scales the odds of its method") {
+  const auto state = begun({.unguided = 0.5, .evidence = 32});
+  CHECK(ask(*state, {}, 1e9f).shares[1] == doctest::Approx(0.5));
+  CHECK(ask(*state, {}, 32).shares[1] == doctest::Approx(1 / 3.0));
+  CHECK(ask(*state, {}, 0).shares[1] == 0);
+}
+
+TEST_CASE("simplex mixing: every class of vertices learns its own shares") {
+  const std::array vertices{vertex_at({}, 0.01f), vertex_at({}, 0.2f), vertex_at({}, 1),
+                            vertex_at({}, 1, 2)};
+  for (std::size_t taught = 0; taught < vertices.size(); ++taught) {
+    CAPTURE(taught);
+    const auto state = begun();
+    absorb(*state, kOnlyGuideFinds, 2000, 1, vertices[taught]);
+    state->update(1, {}, false);
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      const float share = ask(*state, vertices[i]).shares[0];
+      const bool is_right = i == taught ? share < 0.2f : share == 0.75f;
+      CHECK(is_right);
+    }
+  }
+}
+
+TEST_CASE("simplex mixing: every place learns its own shares, once it has enough steps") {
+  const auto learn = [](std::uint32_t cell_steps) {
+    auto state = begun({.cell_steps = cell_steps});
+    for (const std::uint64_t seed : {1u, 2u}) {
+      absorb(*state, kGuideMisses, 2000, seed, vertex_at({-1, 0, 0}));
+      absorb(*state, kOnlyGuideFinds, 2000, seed, vertex_at({1, 0, 0}));
+      state->update(1, {}, false);
+    }
+    return state;
+  };
+  const auto one = learn(100'000), many = learn(1000);
+  CHECK(ask(*one, vertex_at({-1, 0, 0})).shares[0] == ask(*one, vertex_at({1, 0, 0})).shares[0]);
+  CHECK(ask(*many, vertex_at({-1, 0, 0})).shares[0] > 0.9f);
+  CHECK(ask(*many, vertex_at({1, 0, 0})).shares[0] < 0.2f);
+}
+
+TEST_CASE("simplex mixing: of two methods, the one that finds light gets the share") {
+  const auto state = begun({}, std::array{1.0f, 3.0f});
+  const std::array places{Place{.evidence = 1e9f}, Place{.evidence = 1e9f}};
+  std::array<float, 3> shares{};
+  const auto ask_both = [&] { return state->shares()->at({GuidingQuery{}, places}, shares); };
+  const std::uint32_t key = ask_both();
+  CHECK(shares[1] == doctest::Approx(0.25 / 4));
+  CHECK(shares[2] == doctest::Approx(0.75 / 4));
+  PathLog log;
+  for (int i = 0; i < 2000; ++i) {
+    const std::array techniques{Technique{shares[0], 0.1f}, Technique{shares[1], 4},
+                                Technique{shares[2], 0.05f}};
+    add_path(log, key, techniques, 1);
+  }
+  state->absorb(log);
+  state->update(1, {}, true);
+  ask_both();
+  CHECK(shares[1] > 0.85f);
+  CHECK(shares[2] == 0);
+}
+
+TEST_CASE("simplex mixing: only finite steps of guided vertices count") {
+  constexpr float kInfinite = INFINITY;
+  const auto state = begun();
+  const Answer before = ask(*state);
+  PathLog log;
+  for (int i = 0; i < 100; ++i) {
+    add_path(log, kNoMixing, std::array{Technique{1, 1}}, 1);
+    add_path(log, before.key, std::array{Technique{0.5f, 1}, Technique{0.5f, 2}}, kInfinite);
+    add_path(log, before.key, std::array{Technique{0.5f, kInfinite}, Technique{0.5f, 0}}, 1);
+    add_path(log, before.key, std::array{Technique{0.5f, 0}, Technique{0.5f, 0}}, 0);
+  }
+  state->absorb(log);
+  state->update(1, {}, false);
+  CHECK(ask(*state).shares[0] == before.shares[0]);
+}
+
+TEST_CASE("simplex mixing: shares that are in use stay as they are") {
+  const auto state = begun();
+  const std::shared_ptr<const MixingShares> used = state->shares();
+  absorb(*state, kOnlyGuideFinds, 2000, 1);
+  state->update(1, {}, false);
+  std::array<float, 2> shares{};
+  used->at({GuidingQuery{}, std::array{Place{.evidence = 1e9f}}}, shares);
+  CHECK(shares[0] == 0.75f);
+}
+
+TEST_CASE("simplex mixing: the same bits for any number of threads") {
+  const auto learned = [] {
+    const auto state = begun({.cell_steps = 200, .reservoir = 16});
+    for (const std::uint64_t seed : {1u, 2u}) {
+      for (const float x : {-3.0f, -1.0f, 0.5f, 2.0f}) {
+        absorb(*state, kOverlapping, 500, seed, vertex_at({x, 0, 0}));
+      }
+      state->update(1, {}, false);
+    }
+    std::ostringstream file;
+    save(file, *state);
+    return file.str();
+  };
+  const std::string expected = learned();
+  for (const std::size_t threads : {1u, 2u, 3u, 7u}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    CHECK(learned() == expected);
+  }
+}
+
+TEST_CASE("simplex mixing: a saved state goes on to the bit, in the middle of an iteration") {
+  const Settings settings{.cell_steps = 500, .reservoir = 16};
+  const auto state = begun(settings), restored = begun(settings);
+  const auto here = vertex_at({1, 2, 3}), there = vertex_at({-1, 2, 3});
+  for (const auto& vertex : {here, there}) absorb(*state, kApart, 1000, 1, vertex);
+  state->update(1, {}, false);
+  absorb(*state, kApart, 300, 2, here);
+  std::stringstream file;
+  save(file, *state);
+  load(file, *restored);
+  const float before = ask(*state, here).shares[0];
+  CHECK(ask(*restored, here).shares[0] == before);
+  for (const auto* each : {&state, &restored}) {
+    absorb(**each, kApart, 300, 3, here);
+    (*each)->update(1, {}, true);
+  }
+  CHECK(ask(*state, here).shares[0] != before);
+  for (const auto& vertex : {here, there}) {
+    CHECK(ask(*restored, vertex).shares[0] == ask(*state, vertex).shares[0]);
+  }
+}
+
+TEST_CASE("simplex mixing: damaged states are refused or sound") {
+  const auto state = begun({.cell_steps = 500, .reservoir = 16});
+  absorb(*state, kApart, 1000, 1);
+  state->update(1, {}, false);
+  std::ostringstream file;
+  save(file, *state);
+  const std::string good = file.str();
+  int refused = 0;
+  for (std::size_t at = 0; at < good.size(); at += 7) {
+    std::string bad = good;
+    bad[at] = static_cast<char>(bad[at] ^ 0x55);
+    std::istringstream in(bad);
+    const auto loaded = begun();
+    try {
+      load(in, *loaded);
+      ask(*loaded);
+    } catch (const InputError&) {
+      ++refused;
+    }
+  }
+  CHECK(refused > 10);
+  std::istringstream cut(good.substr(0, good.size() - 1));
+  CHECK_THROWS_AS(load(cut, *begun()), InputError);
+}
+
+TEST_CASE("simplex mixing: settings that contradict each other are refused") {
+  CHECK_THROWS_AS(SimplexMixing({.unguided = 0.1, .least = 0.2}), InputError);
+}
+
+}  // namespace pharos
