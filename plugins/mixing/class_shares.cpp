@@ -25,13 +25,14 @@ class ShareSearch {
   }
   /// Returns the best shares of the techniques that may be asked.
   Simplex best(const Asked& asked) const {
-    return with_least_unguided(least_second_moment(steps_, asked, count_), settings_.least, count_);
+    return with_least_unguided(least_cost(steps_, asked, count_, settings_.objective),
+                               settings_.least, count_);
   }
-  /// Leaves out, one after another, the method without which the second moment rises least, as long
-  /// as it rises by less than the factor `worth`.
+  /// Leaves out, one after another, the method without which the cost rises least, as long as it
+  /// rises by less than the factor `worth`.
   Asked worthwhile() const {
     Asked asked = all();
-    double now = moment(asked);
+    double now = cost(asked);
     while (true) {
       std::size_t cheapest = 0;
       double next = settings_.worth * now;
@@ -39,7 +40,7 @@ class ShareSearch {
         if (!asked[i]) continue;
         Asked without = asked;
         without[i] = false;
-        const double value = moment(without);
+        const double value = cost(without);
         if (value < next) next = value, cheapest = i;
       }
       if (cheapest == 0) return asked;
@@ -49,7 +50,9 @@ class ShareSearch {
   }
 
  private:
-  double moment(const Asked& asked) const { return second_moment(steps_, best(asked), count_); }
+  double cost(const Asked& asked) const {
+    return cost_of(steps_, best(asked), count_, settings_.objective);
+  }
 
   std::span<const FoundStep> steps_;
   const Settings& settings_;

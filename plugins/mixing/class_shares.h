@@ -6,8 +6,8 @@
 #include <pharos/core/random.h>
 #include <pharos/statistics/varopt.h>
 
-#include "second_moment.h"
 #include "simplex.h"
+#include "step_cost.h"
 
 namespace pharos {
 

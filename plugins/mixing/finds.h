@@ -1,9 +1,13 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
+#include <utility>
 #include <vector>
 
+#include <pharos/config/schema.h>
 #include <pharos/core/archive.h>
 
 namespace pharos {
@@ -12,6 +16,12 @@ namespace pharos {
 enum class MixingObjective {
   kl,       ///< Kullback-Leibler divergence of the mixture from the target distribution
   variance  ///< variance of the estimate of a step
+};
+
+template <>
+struct EnumNames<MixingObjective> {
+  static constexpr auto names = std::to_array<EnumName<MixingObjective>>(
+      {{"kl", MixingObjective::kl}, {"variance", MixingObjective::variance}});
 };
 
 /// A summary of all steps of one iteration from one region. Summaries add up, and the objective of

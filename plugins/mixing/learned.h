@@ -1,21 +1,11 @@
 #pragma once
 
-#include <array>
-#include <string_view>
-#include <utility>
-
 #include <pharos/config/schema.h>
 #include <pharos/guiding/contract/mixing.h>
 
 #include "finds.h"
 
 namespace pharos {
-
-template <>
-struct EnumNames<MixingObjective> {
-  static constexpr auto names = std::to_array<EnumName<MixingObjective>>(
-      {{"kl", MixingObjective::kl}, {"variance", MixingObjective::variance}});
-};
 
 /// See learned.cpp.
 class LearnedMixing final : public MixingPolicy {

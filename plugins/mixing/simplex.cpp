@@ -1,12 +1,12 @@
 // simplex: learns the shares of unguided sampling and of every method, so that the second moment of
-// the estimates of steps is least.
+// the estimates of steps is least, or their divergence from the target (`objective: kl`).
 //
 // Shares are learned for classes of vertices in the cells of a kd-tree of its own: by the roughness
 // of the scattering and by whether the vertex is the first. A step is drawn with the density p, and
 // its estimate is x = f / p (f: BSDF times estimated incident radiance). If it had been drawn with
 // other shares s, its density would be q p with q = sum_i s_i p_i / p, and the second moment of the
 // estimates would be E[x^2 / q]. The policy minimizes this convex function of s over the steps of
-// an iteration (second_moment.h). Each class keeps a weighted reservoir of its steps.
+// an iteration (step_cost.h). Each class keeps a weighted reservoir of its steps.
 //
 // Guides must earn their shares. Every class begins with the share `unguided` of unguided sampling,
 // as if `prior_steps` steps had been seen. The shares of an iteration count as many steps as their
@@ -29,7 +29,7 @@
 #include <pharos/guiding/toolkit/kd_tree_cells.h>
 
 #include "class_shares.h"
-#include "second_moment.h"
+#include "step_cost.h"
 
 namespace pharos {
 namespace {
@@ -168,7 +168,9 @@ class SimplexState final : public MixingState {
 
   void add(const PathView& path, const RecordedVertex& vertex, Rgb incident) {
     const double estimate = mean(vertex.local_weight * incident);
-    Step step{vertex.position, vertex.mixing_key % kClasses, {estimate * estimate, {}}};
+    const double weight =
+        settings_.objective == MixingObjective::kl ? estimate : estimate * estimate;
+    Step step{vertex.position, vertex.mixing_key % kClasses, {weight, {}}};
     // Zero samples move no share. They count only where cells are divided.
     bool is_sound = std::isfinite(step.found.weight);
     const std::span<const Technique> techniques = path.techniques(vertex);
@@ -201,14 +203,17 @@ class SimplexState final : public MixingState {
 }  // namespace
 
 void SimplexMixing::Settings::describe(Schema<Settings>& s) {
+  s.field("objective", &Settings::objective,
+          "Minimized quantity: second moment of the estimate of a step, or divergence from the "
+          "target distribution");
   s.field("unguided", &Settings::unguided, "Initial share of unguided samples").above(0).at_most(1);
   s.field("least", &Settings::least, "Least share of unguided samples").at_least(1e-4).at_most(1);
   s.field("explore", &Settings::explore, "Least share of all methods together in training")
       .at_least(0)
       .at_most(0.5);
   s.field("worth", &Settings::worth,
-          "Factor by which a method must lower the second moment of the estimates of steps to be "
-          "asked in the final iteration")
+          "Factor by which a method must lower the second moment of the estimates of steps (or the "
+          "exponential of the divergence) to be asked in the final iteration")
       .at_least(1);
   s.field("prior_steps", &Settings::prior_steps,
           "Number of steps that the initial shares are worth")

@@ -3,12 +3,15 @@
 #include <pharos/config/schema.h>
 #include <pharos/guiding/contract/mixing.h>
 
+#include "finds.h"
+
 namespace pharos {
 
 /// See simplex.cpp.
 class SimplexMixing final : public MixingPolicy {
  public:
   struct Settings {
+    MixingObjective objective = MixingObjective::variance;
     double unguided = 0.75;
     double least = 0.1;
     double explore = 0.05;

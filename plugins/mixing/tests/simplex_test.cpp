@@ -11,7 +11,7 @@
 
 #include <pharos/core/error.h>
 
-#include "../second_moment.h"
+#include "../step_cost.h"
 #include "three_directions.h"
 
 namespace pharos {
@@ -21,8 +21,13 @@ using namespace testing;
 using Settings = SimplexMixing::Settings;
 
 /// Settings without prior, bounds and exploration.
-Settings free_to_move() {
-  return {.unguided = 0.5, .least = 1e-4, .explore = 0, .worth = 1, .prior_steps = 1e-6};
+Settings free_to_move(MixingObjective objective = MixingObjective::variance) {
+  return {.objective = objective,
+          .unguided = 0.5,
+          .least = 1e-4,
+          .explore = 0,
+          .worth = 1,
+          .prior_steps = 1e-6};
 }
 
 std::unique_ptr<MixingState> begun(const Settings& settings, std::span<const float> weights) {
@@ -87,44 +92,62 @@ std::vector<FoundStep> random_steps(std::size_t count, std::uint64_t seed) {
 
 }  // namespace
 
-TEST_CASE("second moment: the best shares are those that a search over all shares finds") {
-  for (const std::uint64_t seed : {1u, 2u, 3u, 4u}) {
-    CAPTURE(seed);
-    const std::vector<FoundStep> steps = random_steps(40, seed);
-    double least = 1e300;
-    for (int i = 0; i <= 200; ++i) {
-      for (int j = 0; i + j <= 200; ++j) {
-        const Simplex shares{i / 200.0, j / 200.0, (200 - i - j) / 200.0};
-        least = std::min(least, second_moment(steps, shares, 3));
+TEST_CASE("step cost: the best shares are those that a search over all shares finds") {
+  for (const auto objective : {MixingObjective::variance, MixingObjective::kl}) {
+    for (const std::uint64_t seed : {1u, 2u, 3u, 4u}) {
+      CAPTURE(seed);
+      const std::vector<FoundStep> steps = random_steps(40, seed);
+      double least = 1e300;
+      for (int i = 0; i <= 200; ++i) {
+        for (int j = 0; i + j <= 200; ++j) {
+          const Simplex shares{i / 200.0, j / 200.0, (200 - i - j) / 200.0};
+          least = std::min(least, cost_of(steps, shares, 3, objective));
+        }
       }
+      const Simplex best = least_cost(steps, {true, true, true}, 3, objective);
+      CHECK(best[0] + best[1] + best[2] == doctest::Approx(1));
+      CHECK(cost_of(steps, best, 3, objective) < least * (1 + 1e-4));
+      const Simplex two = least_cost(steps, {true, false, true}, 3, objective);
+      CHECK(two[1] == 0);
+      CHECK(cost_of(steps, two, 3, objective) >= cost_of(steps, best, 3, objective) * (1 - 1e-9));
     }
-    const Simplex best = least_second_moment(steps, {true, true, true}, 3);
-    CHECK(best[0] + best[1] + best[2] == doctest::Approx(1));
-    CHECK(second_moment(steps, best, 3) < least * (1 + 1e-4));
-    const Simplex two = least_second_moment(steps, {true, false, true}, 3);
-    CHECK(two[1] == 0);
-    CHECK(second_moment(steps, two, 3) >= second_moment(steps, best, 3) * (1 - 1e-9));
   }
 }
 
-TEST_CASE("second moment: a technique that cannot draw a step does not help it") {
+TEST_CASE("step cost: in closed form") {
+  const std::vector<FoundStep> steps{{1, {0.5f, 2, 0}}, {3, {1, 0.25f, 0}}};
+  const Simplex half{0.5, 0.5, 0};
+  CHECK(cost_of(steps, half, 3, MixingObjective::variance) ==
+        doctest::Approx((1 / 1.25 + 3 / 0.625) / 4));
+  CHECK(cost_of(steps, half, 3, MixingObjective::kl) ==
+        doctest::Approx(std::exp(-(std::log(1.25) + 3 * std::log(0.625)) / 4)));
+}
+
+TEST_CASE("step cost: a technique that cannot draw a step does not help it") {
   const std::vector<FoundStep> steps{{1, {0, 2, 0}}, {1, {0, 1, 0}}};
-  const Simplex best = least_second_moment(steps, {true, true, true}, 3);
-  CHECK(best[1] == doctest::Approx(1));
-  CHECK(std::isinf(second_moment(steps, {1, 0, 0}, 3)));
-  const Simplex bounded = with_least_unguided(best, 0.2, 3);
-  CHECK(bounded[0] == 0.2);
-  CHECK(bounded[1] == doctest::Approx(0.8));
+  for (const auto objective : {MixingObjective::variance, MixingObjective::kl}) {
+    const Simplex best = least_cost(steps, {true, true, true}, 3, objective);
+    CHECK(best[1] == doctest::Approx(1));
+    CHECK(std::isinf(cost_of(steps, {1, 0, 0}, 3, objective)));
+    const Simplex bounded = with_least_unguided(best, 0.2, 3);
+    CHECK(bounded[0] == 0.2);
+    CHECK(bounded[1] == doctest::Approx(0.8));
+  }
 }
 
 TEST_CASE("simplex mixing: the optimum in closed form where the samplers find different things") {
   const double odds = std::sqrt(0.18 / 0.49);  // of the roots of the second moments
   CHECK(learned_share(free_to_move(), kApart) == doctest::Approx(odds / (1 + odds)).epsilon(0.03));
+  // Divergence: the optimal share of each sampler is the share of what only this sampler finds.
+  CHECK(learned_share(free_to_move(MixingObjective::kl), kApart) ==
+        doctest::Approx(0.3).epsilon(0.03));
 }
 
 TEST_CASE("simplex mixing: the optimum where the samplers overlap") {
-  CHECK(learned_share(free_to_move(), kOverlapping) ==
-        doctest::Approx(best_share(kOverlapping, MixingObjective::variance)).epsilon(0.04));
+  for (const auto objective : {MixingObjective::variance, MixingObjective::kl}) {
+    CHECK(learned_share(free_to_move(objective), kOverlapping) ==
+          doctest::Approx(best_share(kOverlapping, objective)).epsilon(0.04));
+  }
 }
 
 TEST_CASE(

@@ -1,4 +1,4 @@
-#include "second_moment.h"
+#include "step_cost.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,14 +17,15 @@ double density_under(const FoundStep& step, const Simplex& shares, std::size_t c
   return q;
 }
 
-/// Adds up, for each technique, weight ratio / q^2: minus the derivative of second_moment() by the
-/// technique's share.
-Simplex descent_of(std::span<const FoundStep> steps, const Simplex& shares, std::size_t count) {
+/// Adds up, for each technique, minus the derivative of the sum of w / q, or of -w log q, by the
+/// share of the technique.
+Simplex descent_of(std::span<const FoundStep> steps, const Simplex& shares, std::size_t count,
+                   MixingObjective objective) {
   Simplex descent{};
   for (const FoundStep& step : steps) {
     const double q = density_under(step, shares, count);
     if (!(q > 0)) continue;
-    const double factor = step.weight / (q * q);
+    const double factor = step.weight / (objective == MixingObjective::kl ? q : q * q);
     for (std::size_t i = 0; i < count; ++i) descent[i] += factor * step.ratios[i];
   }
   return descent;
@@ -38,23 +39,29 @@ Simplex normalized(Simplex numbers) {
   return numbers;
 }
 
-double second_moment(std::span<const FoundStep> steps, const Simplex& shares, std::size_t count) {
-  double sum = 0;
-  for (const FoundStep& step : steps) sum += step.weight / density_under(step, shares, count);
-  return sum;
+double cost_of(std::span<const FoundStep> steps, const Simplex& shares, std::size_t count,
+               MixingObjective objective) {
+  double sum = 0, weights = 0;
+  for (const FoundStep& step : steps) {
+    const double q = density_under(step, shares, count);
+    sum += objective == MixingObjective::kl ? -step.weight * std::log(q) : step.weight / q;
+    weights += step.weight;
+  }
+  return objective == MixingObjective::kl ? std::exp(sum / weights) : sum / weights;
 }
 
-Simplex least_second_moment(std::span<const FoundStep> steps,
-                            const std::array<bool, kMostTechniques>& allowed, std::size_t count) {
+Simplex least_cost(std::span<const FoundStep> steps,
+                   const std::array<bool, kMostTechniques>& allowed, std::size_t count,
+                   MixingObjective objective) {
   Simplex shares{};
-  double allowed_count = 0;
-  for (std::size_t i = 0; i < count; ++i) allowed_count += allowed[i] ? 1 : 0;
-  for (std::size_t i = 0; i < count; ++i) shares[i] = allowed[i] ? 1 / allowed_count : 0;
-  if (allowed_count == 1) return shares;
+  for (std::size_t i = 0; i < count; ++i) shares[i] = allowed[i] ? 1 : 0;
+  shares = normalized(shares);
   for (int step = 0; step < kSteps; ++step) {
-    const Simplex descent = descent_of(steps, shares, count);
+    const Simplex descent = descent_of(steps, shares, count, objective);
     if (!(*std::max_element(descent.begin(), descent.end()) > 0)) break;
-    for (std::size_t i = 0; i < count; ++i) shares[i] *= std::sqrt(descent[i]);
+    for (std::size_t i = 0; i < count; ++i) {
+      shares[i] *= objective == MixingObjective::kl ? descent[i] : std::sqrt(descent[i]);
+    }
     shares = normalized(shares);
   }
   return shares;
