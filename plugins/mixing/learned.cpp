@@ -33,6 +33,8 @@
 #include <pharos/core/parallel.h>
 #include <pharos/statistics/adam.h>
 
+#include "mixed_steps.h"
+
 namespace pharos {
 namespace {
 
@@ -84,15 +86,10 @@ class LearnedState final : public MixingState {
       : settings_(settings), weights_(weights.begin(), weights.end()) {}
 
   void absorb(const PathLog& log) override {
-    for (std::size_t i = 0; i < log.size(); ++i) {
-      const PathView path = log[i];
-      if (path.transport != Transport::radiance) continue;
-      estimate_incident_radiance(path, incident_);
-      for (std::size_t k = 0; k < path.vertices.size(); ++k) {
-        const RecordedVertex& vertex = path.vertices[k];
-        if (vertex.mixing_key != kNoMixing) add(path, vertex, incident_[k]);
-      }
-    }
+    for_each_mixed_step(log, incident_,
+                        [&](const PathView& path, const RecordedVertex& vertex, Rgb incident) {
+                          add(path, vertex, incident);
+                        });
   }
 
   void update(std::uint32_t regions, std::span<const std::uint32_t> origins, bool) override {

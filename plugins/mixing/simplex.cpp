@@ -29,6 +29,7 @@
 #include <pharos/guiding/toolkit/kd_tree_cells.h>
 
 #include "class_shares.h"
+#include "mixed_steps.h"
 #include "step_cost.h"
 
 namespace pharos {
@@ -123,15 +124,10 @@ class SimplexState final : public MixingState {
   }
 
   void absorb(const PathLog& log) override {
-    for (std::size_t i = 0; i < log.size(); ++i) {
-      const PathView path = log[i];
-      if (path.transport != Transport::radiance) continue;
-      estimate_incident_radiance(path, incident_);
-      for (std::size_t k = 0; k < path.vertices.size(); ++k) {
-        const RecordedVertex& vertex = path.vertices[k];
-        if (vertex.mixing_key != kNoMixing) add(path, vertex, incident_[k]);
-      }
-    }
+    for_each_mixed_step(log, incident_,
+                        [&](const PathView& path, const RecordedVertex& vertex, Rgb incident) {
+                          add(path, vertex, incident);
+                        });
     if (steps_.size() >= kBatch) teach();
   }
 
