@@ -10,7 +10,7 @@
 //
 // Guides must earn their shares. Every class begins with the share `unguided` of unguided sampling,
 // as if `prior_steps` steps had been seen. The shares of an iteration count as many steps as their
-// weights are worth, (sum w)^2 / sum w^2, so a single bright step moves nothing. In the final
+// weights are worth, (sum w)^2 / sum w^2, so a single bright step moves little. In the final
 // iteration, methods are asked only where they lower the second moment by the factor `worth` that
 // makes up for their cost. In training, each method keeps at least the share `explore`, because a
 // method that is not asked cannot earn anything.
@@ -48,7 +48,7 @@ std::uint32_t class_of(const GuidingQuery& query) {
                                    : vertex.roughness < 0.1f         ? 0
                                    : vertex.roughness < 0.4f         ? 1
                                                                      : 2;
-  return scattering * kBounceClasses + (query.bounce > 1 ? 1 : 0);
+  return scattering * kBounceClasses + (query.bounce == 1 ? 0 : 1);
 }
 
 /// A recorded step.

@@ -209,6 +209,8 @@ TEST_CASE("simplex mixing: what a model knows of a place scales the odds of its 
 TEST_CASE("simplex mixing: every class of vertices learns its own shares") {
   const std::array vertices{vertex_at({}, 0.01f), vertex_at({}, 0.2f), vertex_at({}, 1),
                             vertex_at({}, 1, 2)};
+  // Vertices of paths from both ends have no number and belong to the class of later vertices.
+  CHECK(ask(*begun(), vertex_at({}, 1, 0)).key == ask(*begun(), vertex_at({}, 1, 2)).key);
   for (std::size_t taught = 0; taught < vertices.size(); ++taught) {
     CAPTURE(taught);
     const auto state = begun();

@@ -102,7 +102,7 @@ double relative_epsilon(const PixelPair& pair) {
 }
 
 /// Returns the valid pixels, with the outliers last: the 0.1 % of pixels with the largest errors.
-/// Of equal errors, the last pixels are outliers.
+/// If errors are equal, the pixels that come last are the outliers.
 std::vector<std::size_t> outliers_last(const Errors& errors, const PixelPair& pair) {
   std::vector<std::size_t> pixels;
   for (std::size_t i = 0; i < errors.size(); ++i) {
