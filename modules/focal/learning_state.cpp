@@ -56,9 +56,6 @@ void fold(std::vector<double>& masses, const std::vector<double>& sums, double d
 FocalLearningState::FocalLearningState(const FocalSettings& settings,
                                        const LearningContext& context)
     : settings_(settings),
-      first_narrowing_(context.iterations -
-                       std::min(context.iterations / 3,
-                                static_cast<std::uint32_t>(settings.narrowing_iterations))),
       max_depth_(settings.max_depth),
       growths_left_(settings.region_growths),
       sums_(density_) {
@@ -72,8 +69,11 @@ FocalLearningState::FocalLearningState(const FocalSettings& settings,
   use_octrees();
 }
 
-bool FocalLearningState::narrows(std::uint32_t iteration) const {
-  return iteration >= first_narrowing_;
+bool FocalLearningState::next_narrows(const TrainingStage& stage) const {
+  const std::uint32_t iterations = stage.iteration + 1 + stage.left;
+  return narrowing_ ||
+         stage.left <=
+             std::min(iterations / 3, static_cast<std::uint32_t>(settings_.narrowing_iterations));
 }
 
 void FocalLearningState::absorb(const PathLog& log) {
@@ -110,7 +110,7 @@ void FocalLearningState::splat(std::span<const Segment> segments, FocalSums& sum
   }
 }
 
-Learned FocalLearningState::update(std::uint32_t iteration, bool last) {
+Learned FocalLearningState::update(const TrainingStage& stage) {
   splat_waiting();
   // If an iteration finds no light, the masses of earlier iterations stay.
   if (sums_.total() > 0) {
@@ -120,13 +120,13 @@ Learned FocalLearningState::update(std::uint32_t iteration, bool last) {
     fold(diverging_.masses, sums_.diverging, kept, static_cast<double>(paths_));
     const double mass = converging_.mass() + diverging_.mass();
     refine(mass);
-    if (growths_left_ > 0 && !narrows(iteration + 1)) grow_region(mass);
+    if (growths_left_ > 0 && !next_narrows(stage)) grow_region(mass);
     knows_something_ = true;
   }
   // Only a learned density can be narrowed.
-  narrowing_ = knows_something_ && narrows(iteration + 1);
+  narrowing_ = knows_something_ && next_narrows(stage);
   paths_ = 0;
-  return {knows_something_ ? model(last) : nullptr};
+  return {knows_something_ ? model(stage.is_last()) : nullptr};
 }
 
 void FocalLearningState::refine(double total_mass) {

@@ -17,11 +17,12 @@ class FocalLearningState final : public LearningState {
   FocalLearningState(const FocalSettings& settings, const LearningContext& context);
 
   void absorb(const PathLog& log) override;
-  Learned update(std::uint32_t iteration, bool last) override;
+  Learned update(const TrainingStage& stage) override;
   void archive(Archive& archive) override;
 
  private:
-  bool narrows(std::uint32_t iteration) const;
+  /// Returns whether the iteration after `stage` narrows the density.
+  bool next_narrows(const TrainingStage& stage) const;
   /// Splats the waiting segments in concurrent groups. The groups do not depend on the number of
   /// threads, so the sums have the same bits.
   void splat_waiting();
@@ -33,8 +34,7 @@ class FocalLearningState final : public LearningState {
   std::shared_ptr<const GuidingModel> model(bool last) const;
 
   FocalSettings settings_;
-  std::uint32_t first_narrowing_;  ///< first iteration that narrows the density
-  double diagonal_;                ///< diagonal of the initial region [scene units]
+  double diagonal_;  ///< diagonal of the initial region [scene units]
   int max_depth_;
   int growths_left_;  ///< how often the region may still double
   LearningOctree converging_, diverging_;

@@ -66,7 +66,7 @@ void OpenPglLearningState::absorb(const PathLog& log) {
   if (samples_.size() >= settings_.batch_samples) learn();
 }
 
-Learned OpenPglLearningState::update(std::uint32_t, bool) {
+Learned OpenPglLearningState::update(const TrainingStage&) {
   learn();
   if (lessons_ == 0) return {};
   return {std::make_shared<OpenPglModel>(bytes_of(*field_))};

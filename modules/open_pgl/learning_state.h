@@ -19,7 +19,7 @@ class OpenPglLearningState final : public LearningState {
   OpenPglLearningState(const OpenPglSettings& settings, const Bounds3& region);
 
   void absorb(const PathLog& log) override;
-  Learned update(std::uint32_t iteration, bool last) override;
+  Learned update(const TrainingStage& stage) override;
   void archive(Archive& archive) override;
 
  private:

@@ -94,7 +94,7 @@ void PracticalPathGuidingLearningState::flush() {
   ++batches_;
 }
 
-Learned PracticalPathGuidingLearningState::update(std::uint32_t, bool) {
+Learned PracticalPathGuidingLearningState::update(const TrainingStage&) {
   flush();
   const double samples = paths_ / film_pixels_;  // per pixel
   const double threshold = settings_.spatial_threshold * std::sqrt(samples / 2);

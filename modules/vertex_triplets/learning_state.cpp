@@ -74,7 +74,7 @@ void VertexTripletsLearningState::insert() {
   ++lessons_;
 }
 
-Learned VertexTripletsLearningState::update(std::uint32_t, bool) {
+Learned VertexTripletsLearningState::update(const TrainingStage&) {
   insert();
   const std::vector<double> counted = counts();
   const double threshold = std::accumulate(counted.begin(), counted.end(), 0.0) / settings_.cells;

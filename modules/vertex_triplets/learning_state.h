@@ -16,7 +16,7 @@ class VertexTripletsLearningState final : public LearningState {
                               const LearningContext& context);
 
   void absorb(const PathLog& log) override;
-  Learned update(std::uint32_t iteration, bool last) override;
+  Learned update(const TrainingStage& stage) override;
   void archive(Archive& archive) override;
 
  private:

@@ -31,7 +31,7 @@ class UniformState final : public LearningState {
     }
   }
 
-  Learned update(std::uint32_t, bool) override {
+  Learned update(const TrainingStage&) override {
     const double radiance = std::exchange(radiance_, 0);
     const auto steps = static_cast<double>(std::exchange(steps_, 0));
     return {std::make_shared<UniformModel>(steps > 0 ? radiance / steps : 0.0)};

@@ -24,7 +24,8 @@ namespace pharos::bench {
 namespace {
 
 constexpr std::size_t kVertices = 20'000;
-constexpr int kSteps = 200'000, kUpdates = 4;
+constexpr int kSteps = 200'000;
+constexpr std::uint32_t kUpdates = 4;
 
 struct Spot {
   Point3 center;
@@ -91,7 +92,7 @@ Training train(const std::string& learner, const Bounds3& bounds, const Registry
     const auto start = std::chrono::steady_clock::now();
     arena.execute([&] {
       state->absorb(log);
-      training.model = state->update(i, i + 1 == kUpdates).model;
+      training.model = state->update({i, kUpdates - 1 - i}).model;
     });
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
     training.seconds.push_back(elapsed.count());

@@ -9,7 +9,7 @@ namespace {
 struct Trained {
   explicit Trained(const std::string& guiding) : learning(guiding), state(learning.begin()) {
     state.absorb(lit_path());
-    state.update(0, true);
+    state.update({0, 0});
   }
   const GuidingFrame& frame() const { return *state.frame(); }
 

@@ -169,7 +169,7 @@ TEST_CASE("two methods share one model: one learner is trained, and both guiders
 
   GuidingState state = learning.begin();
   state.absorb(lit_path());
-  state.update(0, false);
+  state.update({0, 1});
   REQUIRE(state.model(0) != nullptr);
   CHECK(state.model(1) == state.model(0));
   CHECK(state.model_bytes() == state.model(0)->info().bytes);
@@ -203,9 +203,9 @@ TEST_CASE("a learner tells where refined regions came from") {
   const MadeUpLearning learning(kRefined);
   const auto state = learning.settings().learner->begin(learning.context());
   state->absorb(lit_path());
-  CHECK(state->update(0, false).region_origins.empty());
+  CHECK(state->update({0, 1}).region_origins.empty());
   for (std::uint32_t iteration = 1, regions = 2; regions <= 8; ++iteration, regions *= 2) {
-    const Learned learned = state->update(iteration, false);
+    const Learned learned = state->update({iteration, 1});
     CHECK(learned.model->info().regions == regions);
     REQUIRE(learned.region_origins.size() == regions);
     CHECK(learned.region_origins.back() == regions / 2 - 1);
@@ -217,10 +217,10 @@ TEST_CASE("regions double and keep what was learned for them") {
   GuidingState state = learning.begin();
   CHECK(state.frame() == nullptr);
   state.absorb(lit_path());
-  state.update(0, false);
+  state.update({0, 1});
   CHECK(state.model(0)->info().regions == 1);
   for (std::uint32_t iteration = 1, regions = 2; regions <= 8; ++iteration, regions *= 2) {
-    state.update(iteration, false);
+    state.update({iteration, 1});
     CHECK(state.model(0)->info().regions == regions);
   }
   // The share of the single region rose to its maximum. All refined regions inherit it.
@@ -238,14 +238,14 @@ TEST_CASE("what was learned can be saved, and goes on from there") {
   };
   GuidingState state = learning.begin(), other = learning.begin();
   state.absorb(lit_path());
-  for (std::uint32_t iteration = 0; iteration < 2; ++iteration) state.update(iteration, false);
+  for (std::uint32_t iteration = 0; iteration < 2; ++iteration) state.update({iteration, 1});
   state.absorb(lit_path());
   CHECK(saved(other) != saved(state));
   std::istringstream in(saved(state));
   load(in, other);
   CHECK(saved(other) == saved(state));
   CHECK(unguided_share(other, 0.3f) == doctest::Approx(0.9f));
-  for (GuidingState* each : {&state, &other}) each->update(2, false);
+  for (GuidingState* each : {&state, &other}) each->update({2, 1});
   CHECK(other.model(0)->info().regions == 4);
   CHECK(saved(other) == saved(state));
 }

@@ -120,7 +120,8 @@ TEST_CASE("what a sampler has left over counts as one path of its pixel") {
   CHECK(first_pixels("", 0, 4) == std::pair{0.0f, 0.0f});
   CHECK(first_pixels("", 10, 4) == std::pair{2.0f, 0.0f});
   const std::string trained =
-      "{ learner: stub_direction, guider: stub_direction, training: { iterations: 2 } }";
+      "{ learner: stub_direction, guider: stub_direction, training: { iterations: 2, images: "
+      "discard } }";
   CHECK(first_pixels(trained, 10, 8) == std::pair{2.0f, 0.0f});
   // Paths of a guided camera are splats. Their pixels have no mean over samples to which a
   // left-over sample could be added.

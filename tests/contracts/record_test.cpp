@@ -179,7 +179,7 @@ TEST_CASE("records of guided paths add up to the image, too") {
       "{ learner: stub_vertices, guider: stub_vertices } ] }");
   GuidingState state = learning.begin();
   state.absorb(lit_path());
-  state.update(0, true);
+  state.update({0, 0});
   check_record(path_config(kDiffuseScene, 4, "", 2), state.frame().get());
   check_record(path_config(kGlassInFogScene, 20, "", 2), state.frame().get());
 }

@@ -26,7 +26,7 @@ class CameraState final : public TableState {
  public:
   explicit CameraState(const Bounds3& region) : TableState(0), region_(region) {}
   void absorb(const PathLog&) override {}
-  Learned update(std::uint32_t, bool) override {
+  Learned update(const TrainingStage&) override {
     return {std::make_shared<CameraModel>(Table{{}, region_})};
   }
 

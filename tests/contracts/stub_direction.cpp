@@ -73,7 +73,7 @@ class DirectionState final : public TableState {
     });
   }
 
-  Learned update(std::uint32_t, bool) override {
+  Learned update(const TrainingStage&) override {
     const bool refines = refine_ && cells_ > 0 && cells_ < kFinestCells;
     cells_ = cells_ == 0 ? 1 : refines ? 2 * cells_ : cells_;
     Table table{std::vector<double>(cells_ * kBins), region_};

@@ -74,7 +74,7 @@ class MixtureState final : public TableState {
     });
   }
 
-  Learned update(std::uint32_t, bool) override {
+  Learned update(const TrainingStage&) override {
     double total = 0;
     for (std::size_t k = 0; k < kOctants; ++k) total += sums_[k * kSums];
     Table table{{}, region_};

@@ -79,7 +79,7 @@ class SegmentState final : public TableState {
     }
   }
 
-  Learned update(std::uint32_t, bool) override {
+  Learned update(const TrainingStage&) override {
     double total = 0;
     for (const double sum : sums_) total += sum;
     Table mass{{}, region_};

@@ -31,7 +31,7 @@ class BoxState final : public TableState {
  public:
   explicit BoxState(const Bounds3& box) : TableState(0), box_(box) {}
   void absorb(const PathLog&) override {}
-  Learned update(std::uint32_t, bool) override {
+  Learned update(const TrainingStage&) override {
     return {std::make_shared<BoxModel>(Table{{}, box_})};
   }
 

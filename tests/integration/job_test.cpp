@@ -113,7 +113,8 @@ TEST_CASE("what watching takes is not charged to a time budget") {
 TEST_CASE("training counts within the budget") {
   const RenderResult result =
       render(cornell("budget: { spp: 64 }\nintegrator: { type: path, guiding: { learner: "
-                     "stub_direction, guider: stub_direction, training: { iterations: 4 } } }\n"));
+                     "stub_direction, guider: stub_direction, training: { iterations: 4, images: "
+                     "discard } } }\n"));
   CHECK(result.counters.paths == 64u * 48 * 40);
   CHECK(result.model != nullptr);
   CHECK(result.model_bytes > 0);
@@ -225,7 +226,7 @@ TEST_CASE("replay runs the very path") {
 TEST_CASE("replay knows what guides later iterations") {
   const std::string config = cornell(
       "budget: { spp: 2 }\nintegrator: { type: path, guiding: { learner: stub_direction, "
-      "guider: stub_direction, training: { iterations: 1 } } }\n");
+      "guider: stub_direction, training: { iterations: 1, images: discard } } }\n");
   const RenderResult result = render(config);
   const LoadedConfig loaded = config_from(config);
   RenderJob job(loaded.config);

@@ -1,21 +1,40 @@
+#include <algorithm>
+
 #include <pharos/rendering/image_combiner.h>
 
 namespace pharos {
+namespace {
 
-void ImageCombiner::add(const Film& film) {
-  images_.push_back({film.layers(), film.samples_per_pixel()});
+/// The share of all samples from which guides must have learned for images of full weight.
+constexpr double kYoung = 1.0 / 16;
+
+/// Returns the sum of the weights of the first `samples` of `total` samples.
+double weight_up_to(double samples, double total) {
+  const double young = kYoung * total;
+  return samples < young ? 0.5 * samples * samples / young : samples - 0.5 * young;
+}
+
+}  // namespace
+
+void ImageCombiner::add(const Film& film, double before) {
+  images_.push_back({film.layers(), before, before + film.samples_per_pixel()});
+  if (images_.size() > latest_) images_.erase(images_.begin());
 }
 
 Image ImageCombiner::combine() const {
   if (images_.size() == 1) return images_.front().layers;
+  const double samples_in_all = images_.back().end;
+  const auto weight = [&](const Weighted& w) {
+    return weight_up_to(w.end, samples_in_all) - weight_up_to(w.begin, samples_in_all);
+  };
   double total = 0;
-  for (const Weighted& w : images_) total += w.samples;
+  for (const Weighted& w : images_) total += weight(w);
   const Image& first = images_.front().layers;
   const int variance = first.channel_index("variance.R");
   const int samples = first.channel_index("samples.N");
   Image result(first.width(), first.height(), first.channels());
   for (const Weighted& w : images_) {
-    const auto share = static_cast<float>(w.samples / total);
+    const auto share = static_cast<float>(weight(w) / total);
     for (int y = 0; y < first.height(); ++y) {
       for (int x = 0; x < first.width(); ++x) {
         for (int c = 0; c < first.channel_count(); ++c) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include <pharos/core/image.h>
@@ -7,13 +8,25 @@
 
 namespace pharos {
 
-/// Combines images of the same scene, each weighted by its number of samples. Weights by inverse
-/// variance would be biased for images of guides that learn, whichever part of the image the
-/// variance is taken from: what one image happens to find lowers the variance of the next ones.
+/// Combines images of the same scene that were rendered one after another, while guides learned.
+///
+/// Sample number s of a pixel, of N in all, has the weight min(1, 16 s / N): full weight if the
+/// guides had learned from at least a sixteenth of all samples, and less before, because the images
+/// of guides that know little may be much noisier. If all images are equally noisy, the weights
+/// cost 2 % of the variance.
+///
+/// These weights are unbiased, because they depend on nothing that an image shows, even if what
+/// was found decides when an iteration ends. Weights by inverse variance would be biased, whichever
+/// part of the image the variance is taken from: what one image happens to find lowers the variance
+/// of the next ones.
 class ImageCombiner {
  public:
-  /// Adds the layers of a film that has samples.
-  void add(const Film& film);
+  /// Only the `latest` images are combined; at least 1.
+  explicit ImageCombiner(std::uint32_t latest) : latest_(latest) {}
+
+  /// Adds the layers of a film that has samples. `before` is the number of samples per pixel that
+  /// were taken before it, whether or not their images were added.
+  void add(const Film& film, double before);
   bool empty() const { return images_.empty(); }
   /// Returns the combination. There must be at least one image.
   Image combine() const;
@@ -21,8 +34,9 @@ class ImageCombiner {
  private:
   struct Weighted {
     Image layers;
-    double samples;  ///< samples per pixel
+    double begin, end;  ///< range of its samples among all samples of a pixel
   };
+  std::uint32_t latest_;
   std::vector<Weighted> images_;
 };
 

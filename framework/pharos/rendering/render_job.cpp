@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
+#include <optional>
 
 #include <fmt/format.h>
 #include <tbb/concurrent_queue.h>
@@ -76,46 +76,41 @@ SceneParts with_sensor(SceneParts parts, const Ref<Sensor>& sensor) {
   return parts;
 }
 
-std::uint32_t longest(const std::vector<Iteration>& iterations) {
-  std::uint32_t samples = 0;
-  for (const Iteration& iteration : iterations) {
-    if (iteration.samples == 0) return 0;
-    samples = std::max(samples, iteration.samples);
-  }
-  return samples;
-}
-
 /// Chooses the number of samples per pixel of each pass of an iteration. Passes start small, and
 /// each pass doubles the number of samples done, up to a limit. There is thus soon an image to
 /// show, and the sums are powers of two.
 class PassSizes {
  public:
-  PassSizes(const Iteration& iteration, std::uint32_t granule)
-      : iteration_(iteration), limit_(largest(iteration, granule)), size_(granule) {}
+  /// `now` is the time at which the iteration begins, on the clock of its deadline.
+  PassSizes(const Iteration& iteration, std::uint32_t granule, double now)
+      : iteration_(iteration),
+        limit_(largest(iteration, granule)),
+        size_(granule),
+        start_(now),
+        planned_seconds_(iteration.deadline - now) {}
 
-  /// Returns the size of the next pass after `done` samples in `seconds_spent`, if `seconds_left`
-  /// remain; 0 if the iteration is over. Passes of timed iterations double only while a pass takes
-  /// less than 1/128 of the iteration's time. A timed iteration ends if it misses the deadline by
-  /// less now than after another pass. The time of a pass is estimated from all passes so far,
-  /// because a single one may have been delayed.
-  std::uint32_t next(std::uint32_t done, double seconds_spent, double seconds_left) {
-    const bool timed = iteration_.samples == 0;
-    const double pass = done > 0 ? seconds_spent * size_ / done : 0;
-    if (timed && done > 0 && seconds_left < pass / 2) return 0;
-    if (!timed || pass * 128 < iteration_.seconds) size_ = std::clamp(done, size_, limit_);
-    return timed ? size_ : std::min(size_, iteration_.samples - done);
+  /// Returns the size of the next pass after `done` samples at the time `now`; 0 if the iteration
+  /// is over. Passes of timed iterations double only while a pass takes less than 1/128 of the
+  /// iteration's time. A timed iteration ends if it misses the deadline by less now than after
+  /// another pass. The time of a pass is estimated from all passes so far, because a single one may
+  /// have been delayed.
+  std::uint32_t next(std::uint32_t done, double now) {
+    const double pass = done > 0 ? (now - start_) * size_ / done : 0;
+    const bool is_late = iteration_.deadline - now < pass / 2;
+    if (is_late && done >= iteration_.least_samples) return 0;
+    if (pass * 128 < planned_seconds_) size_ = std::clamp(done, size_, limit_);
+    return std::min(size_, iteration_.samples - done);
   }
 
  private:
   static std::uint32_t largest(const Iteration& iteration, std::uint32_t granule) {
-    const std::uint32_t most = unit_samples(iteration);
-    const std::uint32_t wanted =
-        iteration.samples == 0 ? most : (iteration.samples + kPasses - 1) / kPasses;
-    return round_up(std::min(wanted, most), granule);
+    const std::uint32_t wanted = iteration.samples / kPasses + (iteration.samples % kPasses != 0);
+    return round_up(std::min(wanted, unit_samples(iteration)), granule);
   }
 
   const Iteration& iteration_;
   std::uint32_t limit_, size_;
+  double start_, planned_seconds_;
 };
 
 }  // namespace
@@ -131,14 +126,13 @@ class RenderJob::Implementation {
                                         config.film.window(), config.film.jitter})),
         tiles_(tiles_of(config.film.window(), config.film.tile)) {
     const GuidingSettings* guiding = config.integrator->guiding();
-    const bool learns = guiding != nullptr && guiding->learns();
-    const TrainingSettings untrained{.iterations = 0};
+    training_ = guiding != nullptr && guiding->learns() ? guiding->training
+                                                        : TrainingSettings{.iterations = 0};
     set_size_ = config.sampler->preferred_samples({config.seed, config.budget.spp.value_or(0)});
-    iterations_ = divide(config.budget, learns ? guiding->training : untrained, set_size_);
     preparation_seconds_ = watch_.seconds();
     const auto probe = config.sampler->needs_probe() ? integrator_->probe() : nullptr;
     sampler_ = config.sampler->prepare({config.film.width, config.film.height},
-                                       {config.seed, longest(iterations_)}, probe.get());
+                                       {config.seed, schedule().longest()}, probe.get());
     // A wide filter spreads samples over neighboring pixels. If one pixel had more samples than its
     // neighbors, the neighbors would be biased towards it.
     if (!sampler_->film_samples().empty() && config.film.filter->radius() > 0.5f) {
@@ -151,7 +145,7 @@ class RenderJob::Implementation {
     begin(control);
     result_.times.preparation = preparation_seconds_;
     result_.times.sampler = sampler_seconds_;
-    for (std::uint32_t i = 0; i < iterations_.size() && !stopped(); ++i) run_iteration(i);
+    while (!stopped() && begin_iteration()) run_iteration();
     // A render that was stopped during training has only training images to show.
     result_.image = combiner_.empty() ? last_image_ : combiner_.combine();
     result_.stopped = stopped();
@@ -164,17 +158,17 @@ class RenderJob::Implementation {
   }
 
   PathTrace replay(const PathKey& key) {
-    if (key.iteration >= iterations_.size()) {
-      throw InputError(fmt::format("there is no iteration {}: this render has {}", key.iteration,
-                                   iterations_.size()));
-    }
     if (key.iteration > 0 && config_.budget.seconds) {
       throw InputError(
           "training by a time budget cannot be repeated: only iteration 0 can be replayed");
     }
     begin({});
-    for (std::uint32_t i = 0; i < key.iteration; ++i) run_iteration(i);
-    return integrator_->replay(key, context(iterations_[key.iteration].training));
+    while (begin_iteration()) {
+      if (index_ == key.iteration) return integrator_->replay(key, context());
+      run_iteration();
+    }
+    throw InputError(
+        fmt::format("there is no iteration {}: this render has {}", key.iteration, index_ + 1));
   }
 
   const RenderConfig& config() const { return config_; }
@@ -185,73 +179,105 @@ class RenderJob::Implementation {
     control_ = control;
     watch_ = {};
     result_ = {};
-    combiner_ = {};
+    schedule_.emplace(schedule());
+    spending_ = {};
+    next_index_ = 0;
+    combiner_ = ImageCombiner(training_.latest_images);
     has_image_ = false;
     last_image_ = make_film().layers();
     const GuidingSettings* settings = config_.integrator->guiding();
-    const LearningContext learning{.region = scene_.bounds(),
-                                   .seed = config_.seed,
-                                   .iterations = training_iterations(),
-                                   .window = config_.film.window()};
+    const LearningContext learning{
+        .region = scene_.bounds(), .seed = config_.seed, .window = config_.film.window()};
     guiding_ = settings == nullptr ? nullptr : std::make_unique<GuidingState>(*settings, learning);
     frame_ = guiding_ == nullptr ? nullptr : guiding_->frame();
   }
 
-  std::uint32_t training_iterations() const {
-    return static_cast<std::uint32_t>(std::count_if(iterations_.begin(), iterations_.end(),
-                                                    [](const Iteration& i) { return i.training; }));
-  }
-
   bool stopped() const { return control_.stop != nullptr && control_.stop->load(); }
 
-  IterationContext context(bool record) const {
-    return {*sampler_, config_.seed, frame_.get(), record};
+  Schedule schedule() const { return {config_.budget, training_, set_size_}; }
+
+  /// The seconds that the budget counts.
+  double seconds() const { return sampler_seconds_ + watch_.seconds(); }
+
+  IterationContext context() const {
+    return {*sampler_, config_.seed, frame_.get(), iteration_.training};
   }
 
-  void run_iteration(std::uint32_t index) {
-    const Iteration& iteration = iterations_[index];
-    const double start = watch_.seconds();
+  /// Makes the next iteration the current one. Returns false if there is none.
+  bool begin_iteration() {
+    spending_.seconds = seconds();
+    const std::optional<Iteration> next = schedule_->next(spending_);
+    if (!next) return false;
+    iteration_ = *next;
+    index_ = next_index_++;
+    return true;
+  }
+
+  void run_iteration() {
+    const double start = seconds();
     Film film = make_film();
-    if (index + 1 == iterations_.size()) add_left_over_samples(film);
+    if (!iteration_.training) add_left_over_samples(film);
     // Training iterations do not wait for whole sets.
-    PassSizes sizes(iteration, iteration.training ? 1 : set_size_);
+    PassSizes sizes(iteration_, iteration_.training ? 1 : set_size_, start);
     std::uint32_t done = 0;
-    const double deadline = work_up_to(index + 1) - sampler_seconds_;
-    while (true) {
-      const double now = watch_.seconds();
-      const std::uint32_t size = sizes.next(done, now - start, deadline - now);
-      if (size == 0 || !run_pass(index, done, size, film)) break;
+    while (const std::uint32_t size = sizes.next(done, seconds())) {
+      if (!run_pass(done, size, film)) break;
       done += size;
-      if (control_.on_pass) watch_.pause([&] { show(index, film); });
+      if (control_.on_pass) watch_.pause([&] { show(film); });
     }
-    (iteration.training ? result_.times.training : result_.times.rendering) +=
-        watch_.seconds() - start;
-    result_.samples_per_pixel += film.samples_per_pixel();
+    const double taken = seconds() - start;
+    (iteration_.training ? result_.times.training : result_.times.rendering) += taken;
     // A film that was stopped during its first pass has holes. It is used only if there is no
     // other.
     if (film.complete_passes() > 0 || !has_image_) last_image_ = film.layers();
     has_image_ |= film.complete_passes() > 0;
-    if (iteration.keeps_image && film.complete_passes() > 0) combiner_.add(film);
-    if (iteration.training && !stopped()) update_guiding(index);
+    if (keeps_image() && film.complete_passes() > 0) {
+      combiner_.add(film, result_.samples_per_pixel);
+    }
+    result_.samples_per_pixel += film.samples_per_pixel();
+    spending_.samples += done;
+    spending_.seconds_per_sample = taken / std::max(done, 1u);
+    if (iteration_.training && !stopped()) update_guiding(done);
   }
 
-  void show(std::uint32_t index, const Film& film) const {
+  /// Returns whether the image of the current iteration is part of the result.
+  bool keeps_image() const {
+    return !iteration_.training || training_.images == TrainingImages::combine;
+  }
+
+  void show(const Film& film) const {
     const auto image = [&] {
-      if (!iterations_[index].keeps_image || combiner_.empty()) return film.layers();
+      if (!keeps_image() || combiner_.empty()) return film.layers();
       ImageCombiner combiner = combiner_;
-      combiner.add(film);
+      combiner.add(film, result_.samples_per_pixel);
       return combiner.combine();
     };
-    control_.on_pass({progress(index, film.samples_per_pixel()), image});
+    control_.on_pass({progress(film.samples_per_pixel()), image});
   }
 
-  void update_guiding(std::uint32_t index) {
+  /// Updates the guides after a training iteration of `samples` samples per pixel.
+  void update_guiding(std::uint32_t samples) {
     const double start = watch_.seconds();
-    const bool is_last = !iterations_[index + 1].training;
-    guiding_->update(index, is_last);
-    if (is_last) spare_logs_.clear();
+    if (guiding_->settles()) {
+      schedule_->end_training();
+      iteration_.training_left = 0;
+    }
+    const TrainingStage stage{index_, iteration_.training_left};
+    guiding_->update(stage);
+    if (stage.is_last()) spare_logs_.clear();
     frame_ = guiding_->frame();
-    result_.times.update += watch_.seconds() - start;
+    spending_.region_minimum = region_minimum(samples);
+    spending_.update_seconds = watch_.seconds() - start;
+    result_.times.update += spending_.update_seconds;
+  }
+
+  /// Returns the samples per pixel with which every region of the new models has enough training
+  /// samples on average, according to the last iteration, which had `samples`.
+  std::uint32_t region_minimum(std::uint32_t samples) const {
+    const double found = guiding_->samples_per_region();
+    if (!(found > 0)) return 1;
+    return static_cast<std::uint32_t>(
+        std::clamp(std::ceil(samples * training_.region_samples / found), 1.0, 1e9));
   }
 
   Film make_film() const {
@@ -278,16 +304,16 @@ class RenderJob::Implementation {
   }
 
   /// Renders `size` samples of every pixel. Returns false if the pass was stopped early.
-  bool run_pass(std::uint32_t index, std::uint32_t first_sample, std::uint32_t size, Film& film) {
-    const IterationContext shared = context(iterations_[index].training);
+  bool run_pass(std::uint32_t first_sample, std::uint32_t size, Film& film) {
+    const IterationContext shared = context();
     // Large passes are divided into chunks. The units of a chunk cover all tiles before the units
     // of the next chunk.
-    const std::uint32_t chunk = unit_samples(iterations_[index]);
+    const std::uint32_t chunk = unit_samples(iteration_);
     const std::size_t chunks = (size + chunk - 1) / chunk;
     const auto unit = [&](std::size_t i) {
       const auto done = static_cast<std::uint32_t>(i / tiles_.size()) * chunk;
       return WorkUnit{.pixels = tiles_[i % tiles_.size()],
-                      .iteration = index,
+                      .iteration = index_,
                       .first_sample = first_sample + done,
                       .sample_count = std::min(chunk, size - done)};
     };
@@ -309,7 +335,7 @@ class RenderJob::Implementation {
       if (!result_.first_invalid) result_.first_invalid = work.first_invalid;
       pixel_samples += static_cast<double>(unit(i).pixels.area()) * unit(i).sample_count;
       if (control_.on_progress) {
-        control_.on_progress(progress(index, first_sample + pixel_samples / film_area()));
+        control_.on_progress(progress(first_sample + pixel_samples / film_area()));
       }
     };
     parallel_ordered(chunks * tiles_.size(), produce, consume,
@@ -321,27 +347,15 @@ class RenderJob::Implementation {
 
   double film_area() const { return static_cast<double>(config_.film.window().area()); }
 
-  /// Returns the budget of the iterations before `end`: samples per pixel, or seconds since the
-  /// sampler began to prepare itself. The time that the sampler's preparation and updates take is
-  /// subtracted from the iterations that follow.
-  double work_up_to(std::size_t end) const {
-    double work = 0;
-    for (std::size_t i = 0; i < end; ++i) {
-      work += iterations_[i].samples > 0 ? iterations_[i].samples : iterations_[i].seconds;
-    }
-    return work;
-  }
-
-  /// Returns the progress after `samples` samples per pixel of iteration `index`.
-  Progress progress(std::uint32_t index, double samples) const {
-    const double done = iterations_[index].samples > 0 ? work_up_to(index) + samples
-                                                       : sampler_seconds_ + watch_.seconds();
-    return {.iteration = index,
-            .iteration_count = static_cast<std::uint32_t>(iterations_.size()),
-            .training = iterations_[index].training,
-            .fraction = std::min(done / work_up_to(iterations_.size()), 1.0),
-            .seconds = sampler_seconds_ + watch_.seconds(),
-            .samples_per_pixel = result_.samples_per_pixel + samples,
+  /// Returns the progress after `samples` samples per pixel of the current iteration.
+  Progress progress(double samples) const {
+    const double all = result_.samples_per_pixel + samples;
+    return {.iteration = index_,
+            .iteration_count = index_ + iteration_.training_left + (iteration_.training ? 2 : 1),
+            .training = iteration_.training,
+            .fraction = schedule_->fraction(all, seconds()),
+            .seconds = seconds(),
+            .samples_per_pixel = all,
             .rays = result_.counters.rays};
   }
 
@@ -352,14 +366,18 @@ class RenderJob::Implementation {
   std::unique_ptr<const PreparedIntegrator> integrator_;
   std::vector<PixelRect> tiles_;
   std::uint32_t set_size_ = 1;  ///< samples in a set, which passes of the final image fill
-  std::vector<Iteration> iterations_;
+  TrainingSettings training_;
   std::unique_ptr<const PreparedSampler> sampler_;
   double preparation_seconds_ = 0, sampler_seconds_ = 0;
 
   // State of the run in progress.
   RenderControl control_;
   RenderResult result_;
-  ImageCombiner combiner_;
+  std::optional<Schedule> schedule_;
+  Spending spending_;
+  Iteration iteration_;  ///< the current one
+  std::uint32_t index_ = 0, next_index_ = 0;
+  ImageCombiner combiner_{1};
   Image last_image_;
   bool has_image_ = false;  ///< `last_image_` shows at least one whole pass
   std::unique_ptr<GuidingState> guiding_;

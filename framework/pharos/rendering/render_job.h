@@ -17,7 +17,8 @@ namespace pharos {
 
 /// The progress of a render.
 struct Progress {
-  std::uint32_t iteration = 0, iteration_count = 1;
+  std::uint32_t iteration = 0;
+  std::uint32_t iteration_count = 1;  ///< as expected now; it may change during training
   bool training = false;
   double fraction = 0;  ///< fraction of the whole budget, in [0, 1]
   double seconds = 0;   ///< seconds so far that a time budget counts

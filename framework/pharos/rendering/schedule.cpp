@@ -6,62 +6,107 @@
 namespace pharos {
 namespace {
 
-/// Returns the number of samples of each training iteration. There are as many iterations as
-/// requested, or as many as `total` allows.
-std::vector<std::uint32_t> training_samples(ScheduleKind kind, std::uint32_t iterations,
-                                            std::uint32_t total) {
-  if (kind == ScheduleKind::uniform) {
-    const std::uint32_t count = std::min(iterations, total);
-    return std::vector<std::uint32_t>(count, count > 0 ? total / count : 0);
-  }
-  std::uint32_t count = std::min(iterations, 31u);
-  while (count > 0 && total < (1u << count) - 1) --count;
-  if (count == 0) return {};
-  const std::uint32_t first = total / ((1u << count) - 1);
-  std::vector<std::uint32_t> sizes;
-  for (std::uint32_t i = 0; i < count; ++i) sizes.push_back(first << i);
-  return sizes;
+constexpr std::uint32_t kMostSamples = 1u << 30;
+
+/// Doubles a number of samples without overflow.
+std::uint32_t doubled(std::uint32_t samples) {
+  return std::min(2 * std::min(samples, kMostSamples), kMostSamples);
 }
 
-/// Drops the first training images, so that the remaining ones and the final image are at most
-/// `latest` images.
-void keep_latest(std::vector<Iteration>& iterations, std::uint32_t latest) {
-  for (std::size_t i = 0; i + latest < iterations.size(); ++i) iterations[i].keeps_image = false;
+/// Returns the largest number of doubling iterations, at most `iterations`, that fit in `total`
+/// samples.
+std::uint32_t doubling_iterations(std::uint32_t iterations, std::uint32_t total) {
+  std::uint32_t count = std::min(iterations, 30u);
+  while (count > 0 && total < (1u << count) - 1) --count;
+  return count;
 }
 
 }  // namespace
 
-std::vector<Iteration> divide(const Budget& budget, const TrainingSettings& settings,
-                              std::uint32_t granule) {
-  const auto& [schedule, iterations, share, images, latest_images] = settings;
-  const bool keeps = images == TrainingImages::combine;
-  std::vector<Iteration> all;
+Schedule::Schedule(const Budget& budget, const TrainingSettings& training, std::uint32_t granule)
+    : budget_(budget), kind_(training.schedule) {
+  most_ = training.share > 0 ? training.iterations : 0;
   if (budget.seconds) {
-    const double training = share > 0 && iterations > 0 ? *budget.seconds * share : 0;
-    double size = schedule == ScheduleKind::uniform
-                      ? training / iterations
-                      : training / (std::exp2(static_cast<double>(iterations)) - 1);
-    for (std::uint32_t i = 0; training > 0 && i < iterations; ++i) {
-      all.push_back({.seconds = size, .training = true, .keeps_image = keeps});
-      if (schedule == ScheduleKind::geometric) size *= 2;
-    }
-    all.push_back({.seconds = *budget.seconds - training});
-    keep_latest(all, latest_images);
-    return all;
+    training_seconds_ = *budget.seconds * training.share;
+  } else {
+    const auto total = static_cast<std::uint32_t>(std::floor(*budget.spp * training.share));
+    most_ =
+        kind_ == ScheduleKind::uniform ? std::min(most_, total) : doubling_iterations(most_, total);
+    const std::uint32_t parts = kind_ == ScheduleKind::uniform ? most_ : (1u << most_) - 1;
+    first_ = most_ > 0 ? total / parts : 0;
+    training_samples_ = first_ * parts;
+    const std::uint32_t left = *budget.spp - training_samples_;
+    if (most_ > 0 && left > granule) training_samples_ += left % granule;
   }
-  const auto wanted = static_cast<std::uint32_t>(std::floor(*budget.spp * share));
-  std::uint32_t left = *budget.spp;
-  for (const std::uint32_t samples : training_samples(schedule, iterations, wanted)) {
-    all.push_back({.samples = samples, .training = true, .keeps_image = keeps});
-    left -= samples;
+  training_over_ = most_ == 0;
+}
+
+std::optional<Iteration> Schedule::next(const Spending& spending) {
+  if (over_) return std::nullopt;
+  if (training_over_) {
+    over_ = true;
+    if (budget_.seconds) return Iteration{.deadline = *budget_.seconds};
+    return Iteration{.samples = *budget_.spp - spending.samples};
   }
-  if (!all.empty() && left > granule) {
-    all.back().samples += left % granule;
-    left -= left % granule;
+  // Learners were told that this iteration follows, so there is one even if nothing is left for it.
+  const std::uint32_t count = std::max(1u, fitting(spending));
+  const bool is_last = count == 1;
+  Iteration iteration{.training = true, .training_left = count - 1};
+  if (budget_.spp) {
+    iteration.samples = is_last ? training_samples_ - spending.samples : wanted(spending);
+  } else if (kind_ == ScheduleKind::uniform) {
+    iteration.least_samples = spending.region_minimum;
+    iteration.deadline = training_seconds_ - (count - 1) * cost(wanted(spending), spending);
+  } else {
+    if (!is_last) iteration.samples = wanted(spending);
+    iteration.deadline = training_seconds_ - spending.update_seconds;
   }
-  all.push_back({.samples = left});
-  keep_latest(all, latest_images);
-  return all;
+  size_ = wanted(spending);
+  ++index_;
+  training_over_ = is_last;
+  return iteration;
+}
+
+std::uint32_t Schedule::wanted(const Spending& spending) const {
+  const bool doubles = kind_ == ScheduleKind::geometric && size_ > 0;
+  return std::max(doubles ? doubled(size_) : first_, spending.region_minimum);
+}
+
+double Schedule::cost(std::uint32_t samples, const Spending& spending) const {
+  if (budget_.spp) return samples;
+  const double rendering = samples * spending.seconds_per_sample;
+  return kind_ == ScheduleKind::uniform ? std::max(training_seconds_ / most_, rendering)
+                                        : rendering + spending.update_seconds;
+}
+
+std::uint32_t Schedule::fitting(const Spending& spending) const {
+  double left = budget_.spp ? static_cast<double>(training_samples_) - spending.samples
+                            : training_seconds_ - spending.seconds;
+  // Parts of equal time absorb what iterations and updates before them took too long.
+  const double tolerance = budget_.seconds && kind_ == ScheduleKind::uniform ? 0.5 : 0;
+  std::uint32_t size = wanted(spending), count = 0;
+  while (index_ + count < most_ && left >= (1 - tolerance) * cost(size, spending)) {
+    left -= cost(size, spending);
+    if (kind_ == ScheduleKind::geometric) size = doubled(size);
+    ++count;
+  }
+  return count;
+}
+
+std::uint32_t Schedule::longest() const {
+  if (budget_.seconds) return 0;
+  Schedule plan = *this;
+  Spending spending;
+  std::uint32_t longest = 0;
+  while (const auto iteration = plan.next(spending)) {
+    longest = std::max(longest, iteration->samples);
+    spending.samples += iteration->samples;
+  }
+  return longest;
+}
+
+double Schedule::fraction(double samples, double seconds) const {
+  return std::min(budget_.spp ? samples / *budget_.spp : seconds / *budget_.seconds, 1.0);
 }
 
 void Budget::describe(Schema<Budget>& s) {

@@ -1,7 +1,8 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
+#include <limits>
+#include <optional>
 
 #include <pharos/guiding/pipeline/training_settings.h>
 #include <pharos/rendering/budget.h>
@@ -9,20 +10,77 @@
 namespace pharos {
 
 /// One iteration of a render. It renders an image of its own, and the guides are frozen meanwhile.
+/// It ends after `samples` or at `deadline`, whichever comes first, but not before `least_samples`.
 struct Iteration {
-  std::uint32_t samples = 0;  ///< samples per pixel; 0: limited by `seconds`
-  double seconds = 0;         ///< 0: limited by `samples`
-  bool training = false;      ///< paths are recorded and the models are updated afterward
-  bool keeps_image = true;    ///< its image is part of the result
+  bool training = false;  ///< paths are recorded and the models are updated afterward
+  /// Samples per pixel.
+  std::uint32_t samples = std::numeric_limits<std::uint32_t>::max();
+  std::uint32_t least_samples = 1;  ///< per pixel
+  /// Seconds since the budget's clock started.
+  double deadline = std::numeric_limits<double>::infinity();
+  /// Expected number of training iterations that follow; see TrainingStage::left.
+  std::uint32_t training_left = 0;
+
+  bool is_timed() const { return deadline < std::numeric_limits<double>::infinity(); }
 };
 
-/// Divides a budget into training iterations and the final image, which comes last. A sample budget
-/// is divided exactly: `uniform` gives all training iterations the same number of samples, and
-/// `geometric` doubles the number from one iteration to the next. If the budget does not suffice,
-/// there are fewer iterations. The samples that training leaves over go to the final image in whole
-/// granules of `granule` samples (the preferred number of a sampler), and the rest go to the last
-/// training iteration. Without training, the budget is one iteration.
-std::vector<Iteration> divide(const Budget& budget, const TrainingSettings& training,
-                              std::uint32_t granule);
+/// What a render has spent so far, and what its last iteration has shown.
+struct Spending {
+  std::uint32_t samples = 0;      ///< per pixel
+  double seconds = 0;             ///< that the budget counts
+  double seconds_per_sample = 0;  ///< of rendering the last iteration [seconds per spp]
+  double update_seconds = 0;      ///< of the last update
+  /// Samples per pixel with which every region of the models gets enough training samples.
+  std::uint32_t region_minimum = 1;
+};
+
+/// Divides a budget into training iterations and the final image, one iteration at a time. A sample
+/// budget is kept exactly, and its division does not depend on the clock.
+///
+/// - `uniform` training has `iterations` parts of equal size.
+/// - `geometric` training doubles the samples from one iteration to the next. With a time budget it
+///   begins with one sample per pixel, and the last training iteration takes what is left of the
+///   training's share when the next one would not fit.
+///
+/// An iteration that would give the models' regions too few samples is longer, so there are fewer.
+/// If the budget does not suffice, there are fewer iterations, too. The samples that training
+/// leaves over go to the final image in whole granules of `granule` samples (the preferred number
+/// of a sampler), and the rest go to the last training iteration. Without training, the budget is
+/// one iteration.
+class Schedule {
+ public:
+  Schedule(const Budget& budget, const TrainingSettings& training, std::uint32_t granule);
+
+  /// Returns the next iteration. After the final image there is none.
+  std::optional<Iteration> next(const Spending& spending);
+  /// Ends training early. The next iteration is the final image.
+  void end_training() { training_over_ = true; }
+
+  /// Returns the number of samples per pixel of the longest iteration, as far as it is known before
+  /// the render; 0 for a time budget.
+  std::uint32_t longest() const;
+  /// Returns the fraction of the budget that was spent, in [0, 1].
+  double fraction(double samples, double seconds) const;
+
+ private:
+  /// Returns the size of the next training iteration if nothing limits it [spp].
+  std::uint32_t wanted(const Spending& spending) const;
+  /// Returns the part of the budget that a training iteration of `samples` takes [spp or seconds].
+  double cost(std::uint32_t samples, const Spending& spending) const;
+  /// Returns how many training iterations fit in what is left of the training.
+  std::uint32_t fitting(const Spending& spending) const;
+
+  Budget budget_;
+  ScheduleKind kind_;
+  std::uint32_t most_ = 0;              ///< largest number of training iterations
+  std::uint32_t first_ = 1;             ///< size of the first one [spp]
+  std::uint32_t training_samples_ = 0;  ///< of a sample budget [spp]
+  double training_seconds_ = 0;         ///< of a time budget
+
+  std::uint32_t index_ = 0;     ///< of the next iteration
+  std::uint32_t size_ = 0;      ///< of the last training iteration, as wanted [spp]
+  bool training_over_ = false;  ///< no training iteration follows
+  bool over_ = false;
+};
 
 }  // namespace pharos

@@ -187,14 +187,14 @@ Film noisy(float sigma, std::uint64_t passes, std::uint64_t seed) {
   return film;
 }
 
-TEST_CASE("images combine by their samples, whatever their variance") {
+TEST_CASE("images combine by the places of their samples, whatever their variance") {
   double mean_value = 0, squares = 0, stated = 0;
   const int runs = 200;
   const double pixels = runs * kSize * kSize;
   for (int run = 0; run < runs; ++run) {
-    ImageCombiner combiner;
-    combiner.add(noisy(1, 48, static_cast<std::uint64_t>(2 * run)));
-    combiner.add(noisy(0.5f, 16, static_cast<std::uint64_t>(2 * run + 1)));
+    ImageCombiner combiner(2);
+    combiner.add(noisy(1, 48, static_cast<std::uint64_t>(2 * run)), 0);
+    combiner.add(noisy(0.5f, 16, static_cast<std::uint64_t>(2 * run + 1)), 48);
     const Image image = combiner.combine();
     const double v = image.rgb(4, 4).r;
     mean_value += v / runs;
@@ -207,10 +207,50 @@ TEST_CASE("images combine by their samples, whatever their variance") {
     }
     CHECK(image.pixel(4, 4)[image.channel_index("samples.N")] == 64);
   }
-  constexpr double kVariance = (48 * 1.0 + 16 * 0.25) / (64 * 64);
+  // The first 4 of 64 samples have half of the full weight on average.
+  constexpr double kVariance = (46.0 * 46 / 48 * 1.0 + 16 * 0.25) / (62 * 62);
   CHECK(mean_value == doctest::Approx(1).epsilon(0.03));
   CHECK(squares == doctest::Approx(kVariance).epsilon(0.1).scale(0));
   CHECK(stated == doctest::Approx(kVariance).epsilon(0.1).scale(0));
+}
+
+/// Returns a film of one value with `passes` samples per pixel.
+Film flat(float value, std::uint64_t passes) {
+  Film film(kSize, kSize, std::make_shared<Box>());
+  for (std::uint64_t pass = 0; pass < passes; ++pass) {
+    add_pass(film, 1, pass, [&](Vec2, RandomStream&) { return Rgb(value); });
+  }
+  return film;
+}
+
+TEST_CASE("images of guides that know little count less, and only the latest are combined") {
+  // Sample s of 64 has the weight min(1, s / 4). The sums of the images' weights are 0.5, 1.5 and
+  // 60.
+  const auto combined = [](std::uint32_t latest) {
+    ImageCombiner combiner(latest);
+    combiner.add(flat(1, 2), 0);
+    combiner.add(flat(2, 2), 2);
+    combiner.add(flat(3, 60), 4);
+    return combiner.combine().rgb(2, 3).r;
+  };
+  CHECK(combined(3) == doctest::Approx((0.5 + 1.5 * 2 + 60 * 3) / 62));
+  CHECK(combined(2) == doctest::Approx((1.5 * 2 + 60 * 3) / 61.5));
+  CHECK(combined(1) == doctest::Approx(3));
+}
+
+TEST_CASE("the sum of the weights does not depend on where training ends") {
+  // A training may end at any time because of what it found. The sum of the weights, with which the
+  // combination is divided, must not know. A bright first sample shows its weight.
+  const auto weight_of_first = [](std::uint64_t training) {
+    ImageCombiner combiner(3);
+    combiner.add(flat(1, 1), 0);
+    combiner.add(flat(0, training), 1);
+    combiner.add(flat(0, 63 - training), 1 + static_cast<double>(training));
+    return combiner.combine().rgb(2, 3).r;
+  };
+  for (const std::uint64_t training : {1u, 2u, 3u, 10u, 40u}) {
+    CHECK(weight_of_first(training) == doctest::Approx(weight_of_first(62)));
+  }
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ class TinyState final : public LearningState {
       for (const RecordedVertex& vertex : log[i].vertices) found_ += vertex.emission.r;
     }
   }
-  Learned update(std::uint32_t, bool) override {
+  Learned update(const TrainingStage&) override {
     light_ = light_ / 2 + found_;
     found_ = 0;
     const std::uint32_t before = regions_++;
@@ -182,9 +182,9 @@ float unguided_share(const GuidingState& state) {
 /// Absorbs a last path of iteration 1 and all of iteration 2.
 void finish(GuidingState& state) {
   state.absorb(path_to_light(3));
-  state.update(1, false);
+  state.update({1, 1});
   state.absorb(path_to_light(5));
-  state.update(2, true);
+  state.update({2, 0});
 }
 
 }  // namespace
@@ -193,7 +193,7 @@ TEST_CASE("guiding state: saved in the middle of an iteration, it ends with the 
   GuidingState state(settings(), {}), resumed(settings(), {}), forgetful(settings(), {});
   for (GuidingState* s : {&state, &forgetful}) {
     s->absorb(path_to_light(1));
-    s->update(0, false);
+    s->update({0, 1});
   }
   state.absorb(path_to_light(2));
   const std::string file = saved(state);
@@ -219,7 +219,7 @@ TEST_CASE("guiding state: saved in the middle of an iteration, it ends with the 
 TEST_CASE("guiding state: methods that share a model still share it when loaded") {
   GuidingState state(settings(), {}), resumed(settings(), {});
   state.absorb(path_to_light(1));
-  state.update(0, false);
+  state.update({0, 1});
   load_from(saved(state), resumed);
   CHECK(resumed.model(0) == resumed.model(1));
   CHECK(resumed.model(0) != resumed.model(2));
@@ -231,7 +231,7 @@ TEST_CASE("guiding state: saved before anything is known") {
   load_from(saved(state), resumed);
   CHECK(resumed.frame() == nullptr);
   CHECK(resumed.model(0) == nullptr);
-  for (GuidingState* s : {&state, &resumed}) s->update(0, true);
+  for (GuidingState* s : {&state, &resumed}) s->update({0, 0});
   CHECK(saved(resumed) == saved(state));
   CHECK(resumed.model(0)->density({}) == 1);
 }
@@ -239,7 +239,7 @@ TEST_CASE("guiding state: saved before anything is known") {
 TEST_CASE("guiding state: cut off anywhere, it is refused") {
   GuidingState state(settings(), {});
   state.absorb(path_to_light(1));
-  state.update(0, false);
+  state.update({0, 1});
   const std::string file = saved(state);
   for (std::size_t size = 0; size < file.size(); ++size) {
     GuidingState resumed(settings(), {});

@@ -112,7 +112,7 @@ class BlankLearner final : public Learner {
   class State final : public LearningState {
    public:
     void absorb(const PathLog&) override {}
-    Learned update(std::uint32_t, bool) override {
+    Learned update(const TrainingStage&) override {
       if (FaultSettings<GuideFault>::planted == GuideFault::no_model) return {};
       return {std::make_shared<BlankModel>(false)};
     }

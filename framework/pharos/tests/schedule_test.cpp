@@ -1,3 +1,5 @@
+#include <vector>
+
 #include <doctest/doctest.h>
 
 #include <pharos/rendering/schedule.h>
@@ -5,96 +7,169 @@
 namespace pharos {
 namespace {
 
-std::uint32_t total(const std::vector<Iteration>& iterations) {
-  std::uint32_t sum = 0;
-  for (const Iteration& iteration : iterations) sum += iteration.samples;
-  return sum;
+constexpr double kSecondsPerSample = 0.25, kUpdateSeconds = 0.125;
+
+/// What rendering an iteration shows.
+struct Machine {
+  double seconds_per_sample = kSecondsPerSample;
+  double update_seconds = kUpdateSeconds;
+  std::uint32_t region_minimum = 1;  ///< after the first iteration
+};
+
+/// Runs a schedule as a render would, on a clock of its own. Returns the samples and the times that
+/// the iterations took in `samples` and `seconds`.
+struct Run {
+  std::vector<Iteration> iterations;
+  std::vector<std::uint32_t> samples;
+  std::vector<double> seconds;
+
+  std::uint32_t total() const {
+    std::uint32_t sum = 0;
+    for (const std::uint32_t each : samples) sum += each;
+    return sum;
+  }
+};
+
+Run run(const Budget& budget, const TrainingSettings& training, std::uint32_t granule = 1,
+        const Machine& machine = {}) {
+  Schedule schedule(budget, training, granule);
+  Run result;
+  Spending spent;
+  while (const auto iteration = schedule.next(spent)) {
+    std::uint32_t done = 0;
+    double taken = 0;
+    while (done < iteration->samples &&
+           (done < iteration->least_samples || spent.seconds + taken < iteration->deadline)) {
+      ++done;
+      taken += machine.seconds_per_sample;
+    }
+    spent.samples += done;
+    spent.seconds += taken;
+    spent.seconds_per_sample = machine.seconds_per_sample;
+    if (iteration->training) {
+      spent.update_seconds = machine.update_seconds;
+      spent.seconds += machine.update_seconds;
+      spent.region_minimum = machine.region_minimum;
+    }
+    result.iterations.push_back(*iteration);
+    result.samples.push_back(done);
+    result.seconds.push_back(taken);
+  }
+  return result;
 }
 
 TEST_CASE("uniform training gets its share, the rest goes to the image") {
-  const TrainingSettings schedule{.iterations = 15, .share = 0.5};
-  const auto iterations = divide({.spp = 512}, schedule, 1);
-  REQUIRE(iterations.size() == 16);
-  for (std::size_t i = 0; i < 15; ++i) {
-    CHECK(iterations[i].samples == 17);
-    CHECK(iterations[i].training);
-    CHECK_FALSE(iterations[i].keeps_image);
+  const Run all = run({.spp = 512}, {.iterations = 15, .share = 0.5});
+  REQUIRE(all.iterations.size() == 16);
+  for (std::uint32_t i = 0; i < 15; ++i) {
+    CHECK(all.iterations[i].samples == 17);
+    CHECK(all.iterations[i].training);
+    CHECK(all.iterations[i].training_left == 14 - i);
   }
-  CHECK(iterations[15].samples == 512 - 15 * 17);
-  CHECK_FALSE(iterations[15].training);
-  CHECK(iterations[15].keeps_image);
+  CHECK(all.iterations[15].samples == 512 - 15 * 17);
+  CHECK_FALSE(all.iterations[15].training);
 }
 
 TEST_CASE("geometric training doubles") {
-  const TrainingSettings schedule{
-      .schedule = ScheduleKind::geometric, .iterations = 4, .images = TrainingImages::combine};
-  const auto iterations = divide({.spp = 64}, schedule, 1);
-  REQUIRE(iterations.size() == 5);
-  for (std::size_t i = 0; i < 4; ++i) {
-    CHECK(iterations[i].samples == 2u << i);
-    CHECK(iterations[i].keeps_image);
-  }
-  CHECK(total(iterations) == 64);
-}
-
-TEST_CASE("only the latest images are combined") {
-  TrainingSettings schedule{.schedule = ScheduleKind::geometric,
-                            .iterations = 5,
-                            .images = TrainingImages::combine,
-                            .latest_images = 3};
-  for (const Budget& budget : {Budget{.spp = 64}, Budget{.seconds = 10.0}}) {
-    const auto iterations = divide(budget, schedule, 1);
-    REQUIRE(iterations.size() == 6);
-    for (std::size_t i = 0; i < 6; ++i) CHECK(iterations[i].keeps_image == (i >= 3));
-  }
-  schedule.latest_images = 1;
-  const auto iterations = divide({.spp = 64}, schedule, 1);
-  CHECK_FALSE(iterations[4].keeps_image);
-  CHECK(iterations[5].keeps_image);
+  const Run all = run({.spp = 64}, {.schedule = ScheduleKind::geometric, .iterations = 4});
+  CHECK(all.samples == std::vector<std::uint32_t>{2, 4, 8, 16, 34});
 }
 
 TEST_CASE("small budgets make fewer iterations, never empty ones") {
   for (const ScheduleKind kind : {ScheduleKind::uniform, ScheduleKind::geometric}) {
     for (const std::uint32_t spp : {1u, 2u, 3u, 7u, 20u, 100u}) {
       for (const std::uint32_t granule : {1u, 4u, 16u}) {
-        const TrainingSettings schedule{.schedule = kind, .iterations = 6};
-        const auto iterations = divide({.spp = spp}, schedule, granule);
-        CHECK(total(iterations) == spp);
-        for (const Iteration& iteration : iterations) {
-          CHECK(iteration.samples > 0);
-        }
-        CHECK_FALSE(iterations.back().training);
-        const std::uint32_t last = iterations.back().samples;
-        if (iterations.size() > 1 && last > granule) CHECK(last % granule == 0);
+        const Run all = run({.spp = spp}, {.schedule = kind, .iterations = 6}, granule);
+        CHECK(all.total() == spp);
+        for (const std::uint32_t samples : all.samples) CHECK(samples > 0);
+        CHECK_FALSE(all.iterations.back().training);
+        const std::uint32_t last = all.samples.back();
+        if (all.samples.size() > 1 && last > granule) CHECK(last % granule == 0);
       }
     }
   }
 }
 
 TEST_CASE("large sets of a sampler leave the number of iterations as it is") {
-  const TrainingSettings schedule{.iterations = 15};
-  const auto iterations = divide({.spp = 256}, schedule, 64);
-  REQUIRE(iterations.size() == 16);
-  for (std::size_t i = 0; i < 14; ++i) CHECK(iterations[i].samples == 8);
-  CHECK(iterations[14].samples == 16);
-  CHECK(iterations[15].samples == 128);
+  const Run all = run({.spp = 256}, {.iterations = 15}, 64);
+  REQUIRE(all.samples.size() == 16);
+  for (std::size_t i = 0; i < 14; ++i) CHECK(all.samples[i] == 8);
+  CHECK(all.samples[14] == 16);
+  CHECK(all.samples[15] == 128);
 }
 
-TEST_CASE("seconds are divided in the same way") {
-  TrainingSettings schedule{.iterations = 3, .share = 0.7};
-  auto iterations = divide({.seconds = 10.0}, schedule, 1);
-  REQUIRE(iterations.size() == 4);
-  CHECK(iterations[0].seconds == doctest::Approx(7.0 / 3));
-  CHECK(iterations[3].seconds == doctest::Approx(3));
-  schedule.schedule = ScheduleKind::geometric;
-  iterations = divide({.seconds = 10.0}, schedule, 1);
-  CHECK(iterations[0].seconds == doctest::Approx(1));
-  CHECK(iterations[2].seconds == doctest::Approx(4));
+TEST_CASE("uniform training in seconds has equal parts, updates included") {
+  const Run all = run({.seconds = 40.0}, {.iterations = 4, .share = 0.7});
+  REQUIRE(all.iterations.size() == 5);
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    CHECK(all.iterations[i].deadline == doctest::Approx(7 * (i + 1)));
+    CHECK(all.iterations[i].training_left == 3 - i);
+  }
+  CHECK(all.iterations[4].deadline == 40);
+}
+
+TEST_CASE(
+    "geometric training in seconds counts whole passes, and its last iteration takes the rest") {
+  const Run all =
+      run({.seconds = 40.0}, {.schedule = ScheduleKind::geometric, .iterations = 15, .share = 0.5});
+  // 1, 2, 4 and 8 samples take 4.25 s with their updates. 16 and 32 samples would take 12.25 s,
+  // which leaves 3.5 s: not enough for 64, and 16 alone would leave room for 32.
+  REQUIRE(all.samples.size() == 7);
+  for (std::size_t i = 0; i < 5; ++i) CHECK(all.samples[i] == 1u << i);
+  CHECK(all.samples[5] > 32);
+  CHECK(all.samples[5] < 64);
+  CHECK(all.iterations[5].deadline == doctest::Approx(20 - kUpdateSeconds));
+  CHECK(all.iterations[5].training_left == 0);
+  CHECK(all.iterations[4].training_left == 1);
+  CHECK_FALSE(all.iterations[6].training);
+}
+
+TEST_CASE("slow scenes and long updates still leave an image") {
+  for (const ScheduleKind kind : {ScheduleKind::uniform, ScheduleKind::geometric}) {
+    const Run all = run({.seconds = 1.0}, {.schedule = kind, .iterations = 8}, 1,
+                        {.seconds_per_sample = 3, .update_seconds = 3});
+    CHECK(all.iterations.front().training);
+    CHECK_FALSE(all.iterations.back().training);
+    CHECK(all.samples.back() == 1);
+    CHECK(all.samples.size() <= 3);
+  }
+}
+
+TEST_CASE("iterations give the regions of the models enough samples") {
+  const Machine machine{.region_minimum = 12};
+  CHECK(run({.spp = 80}, {.iterations = 10}, 1, machine).samples ==
+        std::vector<std::uint32_t>{4, 12, 12, 12, 40});
+  CHECK(run({.spp = 160}, {.schedule = ScheduleKind::geometric, .iterations = 10}, 1, machine)
+            .samples == std::vector<std::uint32_t>{1, 12, 50, 97});
+  const Run timed = run({.seconds = 40.0}, {.iterations = 20}, 1, machine);
+  REQUIRE(timed.samples.size() > 3);
+  CHECK(timed.samples[0] == 4);
+  for (std::size_t i = 1; i < timed.samples.size(); ++i) CHECK(timed.samples[i] >= 12);
+}
+
+TEST_CASE("training can end early, and the image gets the rest") {
+  Schedule schedule({.spp = 100}, {.iterations = 5}, 1);
+  const auto first = schedule.next({});
+  REQUIRE(first.has_value());
+  schedule.end_training();
+  const auto image = schedule.next({.samples = first->samples});
+  REQUIRE(image.has_value());
+  CHECK_FALSE(image->training);
+  CHECK(image->samples == 90);
+  CHECK_FALSE(schedule.next({.samples = 100}).has_value());
 }
 
 TEST_CASE("without training there is one iteration") {
-  CHECK(divide({.spp = 9}, {.iterations = 0}, 4).size() == 1);
-  CHECK(divide({.seconds = 9.0}, {.share = 0}, 1).size() == 1);
+  CHECK(run({.spp = 9}, {.iterations = 0}, 4).samples == std::vector<std::uint32_t>{9});
+  CHECK(run({.seconds = 9.0}, {.share = 0}).samples.size() == 1);
+}
+
+TEST_CASE("the longest iteration and the progress of a budget") {
+  CHECK(Schedule({.spp = 100}, {.iterations = 5, .share = 0.25}, 1).longest() == 75);
+  CHECK(Schedule({.seconds = 100.0}, {}, 1).longest() == 0);
+  CHECK(Schedule({.spp = 100}, {}, 1).fraction(25, 1e9) == 0.25);
+  CHECK(Schedule({.seconds = 100.0}, {}, 1).fraction(1e9, 25) == 0.25);
+  CHECK(Schedule({.seconds = 100.0}, {}, 1).fraction(0, 101) == 1);
 }
 
 }  // namespace

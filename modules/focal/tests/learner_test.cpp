@@ -54,7 +54,7 @@ PathLog hole_paths(int count, std::uint64_t seed, float scale = 1, Point3 center
   return log;
 }
 
-LearningContext context(float scale = 1, std::uint32_t iterations = 10) {
+LearningContext context(float scale = 1) {
   const Box box = test_box();
   Bounds3 region;
   for (const unsigned corner : {0u, 7u}) {
@@ -65,20 +65,20 @@ LearningContext context(float scale = 1, std::uint32_t iterations = 10) {
     }
     region.add(p);
   }
-  return {region, 1, iterations};
+  return {region, 1};
 }
 
 /// Trains on `hole_paths` for all iterations.
 std::shared_ptr<const FocalModel> trained(const FocalSettings& settings, float scale = 1,
                                           Point3 center = kCenter) {
   constexpr std::uint32_t iterations = 10;
-  const auto state = FocalLearner(settings).begin(context(scale, iterations));
+  const auto state = FocalLearner(settings).begin(context(scale));
   std::shared_ptr<const GuidingModel> model;
   for (std::uint32_t i = 0; i < iterations; ++i) {
     for (std::uint64_t unit = 0; unit < 3; ++unit) {
       state->absorb(hole_paths(1000, 10 * i + unit, scale, center));
     }
-    model = state->update(i, i + 1 == iterations).model;
+    model = state->update({i, iterations - 1 - i}).model;
   }
   return std::dynamic_pointer_cast<const FocalModel>(model);
 }
@@ -139,11 +139,11 @@ TEST_CASE("focal learner: the same model for any number of threads") {
   std::string first;
   for (const std::size_t threads : {1u, 2u, 3u, 7u}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    const auto state = FocalLearner(FocalSettings{}).begin(context(1, 2));
+    const auto state = FocalLearner(FocalSettings{}).begin(context());
     state->absorb(hole_paths(150'000, 1));
-    state->update(0, false);
+    state->update({0, 1});
     state->absorb(hole_paths(150'000, 2));
-    const std::string bits = saved(*state->update(1, true).model);
+    const std::string bits = saved(*state->update({1, 0}).model);
     if (first.empty()) first = bits;
     CHECK(bits == first);
   }
@@ -177,7 +177,7 @@ TEST_CASE("focal learner: what is absorbed in pieces is what is absorbed at once
   pieces->absorb(hole_paths(100, 1));
   pieces->absorb(hole_paths(100, 2));
   CHECK(saved(*whole) == saved(*pieces));
-  CHECK(saved(*whole->update(0, false).model) == saved(*pieces->update(0, false).model));
+  CHECK(saved(*whole->update({0, 1}).model) == saved(*pieces->update({0, 1}).model));
 }
 
 TEST_CASE("focal learner: learning starts from 16 x 16 x 16 cells of each sign") {
@@ -192,9 +192,9 @@ TEST_CASE("focal learner: decay keeps a share of what earlier iterations found")
   const auto mass_of_first = [](float decay) {
     const auto state = FocalLearner({.narrowing_iterations = 0, .decay = decay}).begin(context());
     state->absorb(hole_paths(1000, 1));
-    state->update(0, false);
+    state->update({0, 1});
     state->absorb(hole_paths(1000, 2, 1, {-1, 2, 6}));  // light moves to another place
-    const auto model = state->update(1, false).model;
+    const auto model = state->update({1, 1}).model;
     return model->density(kCenter) / (model->density(kCenter) + model->density({-1, 2, 6}));
   };
   const double forgotten = mass_of_first(0), kept = mass_of_first(0.5f);
@@ -207,13 +207,13 @@ TEST_CASE("focal learner: narrowing has a decay of its own") {
   // The last of three iterations narrows.
   const auto after = [](float decay, float narrowing_decay) {
     const auto state =
-        FocalLearner({.decay = decay, .narrowing_decay = narrowing_decay}).begin(context(1, 3));
+        FocalLearner({.decay = decay, .narrowing_decay = narrowing_decay}).begin(context());
     for (std::uint32_t i = 0; i < 2; ++i) {
       state->absorb(hole_paths(500, 1 + i));
-      state->update(i, false);
+      state->update({i, 2 - i});
     }
     state->absorb(hole_paths(500, 3));
-    return saved(*state->update(2, false).model);
+    return saved(*state->update({2, 0}).model);
   };
   CHECK(after(0, 0) != after(0, 0.25f));
 }
@@ -240,7 +240,7 @@ TEST_CASE("focal learner: saved learning goes on where it stopped") {
   const FocalLearner learner(FocalSettings{});
   const auto state = learner.begin(context());
   state->absorb(hole_paths(1000, 1));
-  state->update(0, false);
+  state->update({0, 1});
   state->absorb(hole_paths(1000, 2));
   const auto resumed = learner.begin(context());
   std::istringstream in(saved(*state));
@@ -249,23 +249,23 @@ TEST_CASE("focal learner: saved learning goes on where it stopped") {
   for (std::uint32_t i = 1; i < 4; ++i) {
     state->absorb(hole_paths(500, 10 + i));
     resumed->absorb(hole_paths(500, 10 + i));
-    CHECK(saved(*state->update(i, false).model) == saved(*resumed->update(i, false).model));
+    CHECK(saved(*state->update({i, 1}).model) == saved(*resumed->update({i, 1}).model));
   }
 }
 
 TEST_CASE("focal learner: nothing is known before light is found, and nothing is forgotten after") {
   const auto state = FocalLearner(FocalSettings{}).begin(context());
-  CHECK(state->update(0, false).model == nullptr);
+  CHECK(state->update({0, 1}).model == nullptr);
   state->absorb(hole_paths(1000, 1));
-  const auto model = state->update(1, false).model;
+  const auto model = state->update({1, 1}).model;
   REQUIRE(model != nullptr);
-  CHECK(saved(*state->update(2, false).model) == saved(*model));
+  CHECK(saved(*state->update({2, 1}).model) == saved(*model));
 }
 
 TEST_CASE("focal learner: what no guide has sampled yet is not narrowed") {
-  const auto state = FocalLearner({.narrowing_iterations = 5}).begin(context(1, 2));
+  const auto state = FocalLearner({.narrowing_iterations = 5}).begin(context());
   state->absorb(hole_paths(1000, 1, 1, kCenter, 1));
-  CHECK(state->update(0, false).model != nullptr);
+  CHECK(state->update({0, 1}).model != nullptr);
 }
 
 TEST_CASE("focal learner: pruning makes the model smaller and leaves its mass") {

@@ -39,9 +39,9 @@ TEST_CASE("a model stays as it is while learning goes on") {
 
 TEST_CASE("without samples there is no model") {
   const auto state = OpenPglLearner({}).begin({.region = kRegion});
-  CHECK(state->update(0, false).model == nullptr);
+  CHECK(state->update({0, 1}).model == nullptr);
   state->absorb(lamp_paths(5000, 1));
-  CHECK(state->update(1, false).model != nullptr);
+  CHECK(state->update({1, 1}).model != nullptr);
 }
 
 TEST_CASE("the same answers, to the bit, for any number of threads") {
@@ -72,7 +72,7 @@ TEST_CASE("samples that are too many to wait are learned from before the iterati
   const auto updates = [](std::uint32_t batch_samples) {
     const auto state = OpenPglLearner({.batch_samples = batch_samples}).begin({.region = kRegion});
     for (const std::uint64_t seed : {1u, 2u}) state->absorb(lamp_paths(1500, seed));
-    return state->update(0, true).model->info().facts.at(0).value;
+    return state->update({0, 0}).model->info().facts.at(0).value;
   };
   CHECK(updates(4096) == "1");
   CHECK(updates(1024) == "2");

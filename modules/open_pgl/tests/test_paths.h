@@ -42,11 +42,12 @@ inline PathLog lamp_paths(int count, std::uint64_t seed) {
   return log;
 }
 
-inline std::shared_ptr<const GuidingModel> trained(LearningState& state, int iterations = 3) {
+inline std::shared_ptr<const GuidingModel> trained(LearningState& state,
+                                                   std::uint32_t iterations = 3) {
   std::shared_ptr<const GuidingModel> model;
-  for (int i = 0; i < iterations; ++i) {
-    state.absorb(lamp_paths(5000, static_cast<std::uint64_t>(i)));
-    model = state.update(static_cast<std::uint32_t>(i), i + 1 == iterations).model;
+  for (std::uint32_t i = 0; i < iterations; ++i) {
+    state.absorb(lamp_paths(5000, i));
+    model = state.update({i, iterations - 1 - i}).model;
   }
   return model;
 }

@@ -59,13 +59,12 @@ ParallaxAwareMixturesSettings small_settings() {
 }
 
 /// Returns what the last of the iterations led to.
-Learned trained(LearningState& state, int iterations = 4) {
+Learned trained(LearningState& state, std::uint32_t iterations = 4) {
   Learned learned;
-  for (int i = 0; i < iterations; ++i) {
-    const auto seed = static_cast<std::uint64_t>(i);
-    state.absorb(lamp_paths(3000, 2 * seed));
-    state.absorb(lamp_paths(2000, 2 * seed + 1));
-    learned = state.update(static_cast<std::uint32_t>(i), i + 1 == iterations);
+  for (std::uint32_t i = 0; i < iterations; ++i) {
+    state.absorb(lamp_paths(3000, 2 * i));
+    state.absorb(lamp_paths(2000, 2 * i + 1));
+    learned = state.update({i, iterations - 1 - i});
   }
   return learned;
 }
@@ -193,7 +192,7 @@ TEST_CASE("a wide light takes several lobes: those that fit badly are split") {
   }
   const auto state = ParallaxAwareMixturesLearner(settings).begin({.seed = 7});
   state->absorb(log);
-  const auto model = state->update(0, true).model;
+  const auto model = state->update({0, 0}).model;
   CHECK(std::stoi(model->info().facts[1].value) > 3);
   const Vec3 on_ring = normalize(Vec3{1, 1, 0.2f}), up{0, 0, 1};
   CHECK(model->density({}, &on_ring) > 4 * model->density({}, &up));
@@ -256,11 +255,11 @@ TEST_CASE("samples wait until the iteration ends, unless there are too many") {
 
 TEST_CASE("little light waits for more; without any there is no model") {
   const auto state = ParallaxAwareMixturesLearner(small_settings()).begin({.seed = 7});
-  CHECK(state->update(0, false).model == nullptr);
+  CHECK(state->update({0, 1}).model == nullptr);
   state->absorb(lamp_paths(60, 1));  // 20 samples with light; a first fit needs 128
-  CHECK(state->update(1, false).model == nullptr);
+  CHECK(state->update({1, 1}).model == nullptr);
   state->absorb(lamp_paths(400, 2));
-  CHECK(state->update(2, false).model != nullptr);
+  CHECK(state->update({2, 1}).model != nullptr);
 }
 
 TEST_CASE("models survive being saved; damaged ones are refused or sound") {

@@ -50,7 +50,7 @@ LearningContext context() {
   Bounds3 region;
   region.add(Point3{-1, -1, 0});
   region.add(Point3{1, 1, 1});
-  return {.region = region, .seed = 7, .iterations = 4, .window = {0, 0, 10, 10}};
+  return {.region = region, .seed = 7, .window = {0, 0, 10, 10}};
 }
 
 PracticalPathGuidingSettings small_settings() {
@@ -58,18 +58,18 @@ PracticalPathGuidingSettings small_settings() {
 }
 
 /// Returns what the last of the iterations led to.
-Learned trained(LearningState& state, int iterations = 4) {
+Learned trained(LearningState& state, std::uint32_t iterations = 4) {
   Learned learned;
-  for (int i = 0; i < iterations; ++i) {
-    const auto seed = static_cast<std::uint64_t>(i);
+  for (std::uint32_t i = 0; i < iterations; ++i) {
+    const std::uint64_t seed = i;
     state.absorb(lamp_paths(2000 << i, 2 * seed));
     state.absorb(lamp_paths(1000 << i, 2 * seed + 1));
-    learned = state.update(static_cast<std::uint32_t>(i), i + 1 == iterations);
+    learned = state.update({i, iterations - 1 - i});
   }
   return learned;
 }
 
-Learned trained(const PracticalPathGuidingSettings& settings, int iterations = 4) {
+Learned trained(const PracticalPathGuidingSettings& settings, std::uint32_t iterations = 4) {
   const auto state = PracticalPathGuidingLearner(settings).begin(context());
   return trained(*state, iterations);
 }
@@ -149,7 +149,7 @@ TEST_CASE("regions come from those of the model before") {
   std::uint32_t before = 1;
   for (std::uint32_t i = 0; i < 4; ++i) {
     state->absorb(lamp_paths(2000 << i, i));
-    const Learned learned = state->update(i, false);
+    const Learned learned = state->update({i, 1});
     REQUIRE(learned.region_origins.size() == learned.model->info().regions);
     for (const std::uint32_t origin : learned.region_origins) CHECK(origin < before);
     before = learned.model->info().regions;
@@ -187,10 +187,10 @@ TEST_CASE("a cell that finds nothing keeps what it knew; without light there is 
   black.begin_path({}, Transport::radiance);
   black.add(RecordedVertex{.throughput = Rgb(1)});
   state->absorb(black);
-  CHECK(state->update(0, false).model == nullptr);
+  CHECK(state->update({0, 1}).model == nullptr);
   state->absorb(lamp_paths(4000, 1));
-  const auto before = state->update(1, false).model;
-  const auto after = state->update(2, false).model;
+  const auto before = state->update({1, 1}).model;
+  const auto after = state->update({2, 1}).model;
   const Point3 at{0.5f, 0.5f, 0};
   const Vec3 to_lamp = normalize(kLamp - at);
   CHECK(after->density(at, &to_lamp) == before->density(at, &to_lamp));
@@ -226,7 +226,7 @@ PathLog cone_paths(int count, std::uint64_t seed) {
 TEST_CASE("a model of radiance says how much arrives") {
   const auto state = PracticalPathGuidingLearner(small_settings()).begin(context());
   for (std::uint64_t i = 0; i < 5; ++i) state->absorb(cone_paths(20'000, i));
-  const auto learned = state->update(0, true).model;
+  const auto learned = state->update({0, 0}).model;
   REQUIRE(learned->info().regions > 1);
   for (const auto& model : {learned, loaded(saved(*learned))}) {
     const RadianceEstimate& estimate = as_tree(model);

@@ -55,7 +55,7 @@ LearningContext context(float scale = 1) {
   Bounds3 region;
   region.add(scale * Point3{-1, 0, -1});
   region.add(scale * Point3{1, 2, 1});
-  return {.region = region, .seed = 7, .iterations = 4};
+  return {.region = region, .seed = 7};
 }
 
 SpatialGaussiansSettings small_settings() {
@@ -68,14 +68,14 @@ SpatialGaussiansSettings small_settings() {
   return settings;
 }
 
-std::shared_ptr<const GuidingModel> trained(LearningState& state, int iterations = 4,
+std::shared_ptr<const GuidingModel> trained(LearningState& state, std::uint32_t iterations = 4,
                                             float scale = 1) {
   std::shared_ptr<const GuidingModel> model;
-  for (int i = 0; i < iterations; ++i) {
-    const auto seed = static_cast<std::uint64_t>(i);
+  for (std::uint32_t i = 0; i < iterations; ++i) {
+    const std::uint64_t seed = i;
     state.absorb(tube_paths(3000, 2 * seed, scale));
     state.absorb(tube_paths(2000, 2 * seed + 1, scale));
-    model = state.update(static_cast<std::uint32_t>(i), i + 1 == iterations).model;
+    model = state.update({i, iterations - 1 - i}).model;
   }
   return model;
 }
@@ -150,7 +150,7 @@ TEST_CASE("cells are divided where samples are many, and say where they came fro
   std::uint32_t before = 1;
   for (std::uint32_t i = 0; i < 4; ++i) {
     state->absorb(tube_paths(5000, i));
-    const auto [model, origins] = state->update(i, i == 3);
+    const auto [model, origins] = state->update({i, 3 - i});
     REQUIRE(origins.size() == model->info().regions);
     for (std::uint32_t cell = 0; cell < origins.size(); ++cell) {
       CHECK(origins[cell] < before);
@@ -210,7 +210,7 @@ TEST_CASE("components of a mixture are split where directions ask for it, up to 
   };
   const auto state = SpatialGaussiansLearner(settings).begin(context());
   state->absorb(paths(1));
-  const auto model = state->update(0, true).model;
+  const auto model = state->update({0, 0}).model;
   const auto components = as_gaussians(model).mixture_at(Point3{});
   CHECK(components.size() >= 2);
   CHECK(components.size() <= 8);
@@ -219,7 +219,7 @@ TEST_CASE("components of a mixture are split where directions ask for it, up to 
   settings.split_threshold = 1e9;
   const auto whole = SpatialGaussiansLearner(settings).begin(context());
   whole->absorb(paths(1));
-  CHECK(as_gaussians(whole->update(0, true).model).mixture_at(Point3{}).size() == 1);
+  CHECK(as_gaussians(whole->update({0, 0}).model).mixture_at(Point3{}).size() == 1);
 }
 
 TEST_CASE("splits and merges keep the weight of all") {
@@ -229,7 +229,7 @@ TEST_CASE("splits and merges keep the weight of all") {
   const auto state = SpatialGaussiansLearner(settings).begin(context());
   for (std::uint32_t i = 0; i < 4; ++i) {
     state->absorb(tube_paths(5000, i));
-    const auto model = state->update(i, i == 3).model;
+    const auto model = state->update({i, 3 - i}).model;
     for (const float x : {-0.9f, -0.3f, 0.2f, 0.8f}) {
       float total = 0;
       for (const SpatialGaussian& g : as_gaussians(model).mixture_at(Point3{x, 0, x})) {
@@ -291,7 +291,7 @@ TEST_CASE("states that are saved and loaded go on as they would have") {
   const auto second = learner.begin(context());
   load(file, *second);
   for (LearningState* state : {straight.get(), second.get()}) state->absorb(tube_paths(5000, 41));
-  CHECK(saved(*second->update(2, true).model) == saved(*straight->update(2, true).model));
+  CHECK(saved(*second->update({2, 0}).model) == saved(*straight->update({2, 0}).model));
 }
 
 TEST_CASE("models are saved and loaded, damaged ones are refused") {
@@ -328,14 +328,14 @@ TEST_CASE("models are saved and loaded, damaged ones are refused") {
 TEST_CASE("nothing is known where nothing was found") {
   const SpatialGaussiansLearner learner(small_settings());
   const auto state = learner.begin(context());
-  CHECK(state->update(0, false).model == nullptr);
+  CHECK(state->update({0, 1}).model == nullptr);
   PathLog dark;
   dark.begin_path({}, Transport::radiance);
   dark.add(RecordedVertex{});
   dark.add(RecordedVertex{.guidable = true, .parent = 0, .direction = {0, 0, 1}, .pdf = 1});
   dark.add(RecordedVertex{.position = {0, 0, 1}, .parent = 1});
   state->absorb(dark);
-  CHECK(state->update(1, true).model == nullptr);
+  CHECK(state->update({1, 0}).model == nullptr);
 }
 
 TEST_CASE("rare finds add up to a first mixture, and cells wait for it before they are divided") {
@@ -347,7 +347,7 @@ TEST_CASE("rare finds add up to a first mixture, and cells wait for it before th
   while (model == nullptr && updates < 20) {
     // Each batch has about five samples with light.
     state->absorb(tube_paths(17, static_cast<std::uint64_t>(updates)));
-    model = state->update(static_cast<std::uint32_t>(updates++), false).model;
+    model = state->update({static_cast<std::uint32_t>(updates++), 1}).model;
   }
   REQUIRE(model != nullptr);
   CHECK(updates > 3);
@@ -360,7 +360,7 @@ TEST_CASE("samples that are too many to wait are learned from before the iterati
   const auto state = SpatialGaussiansLearner(settings).begin(context());
   for (std::uint64_t i = 0; i < 5; ++i) state->absorb(tube_paths(3000, i));
   CHECK(saved(*state).size() < 32 * 4000 + 40'000);
-  const auto [model, origins] = state->update(0, true);
+  const auto [model, origins] = state->update({0, 0});
   CHECK(share_near_tube(as_gaussians(model), Point3{0, 0, 0}, 0.1f) > 0.9);
   REQUIRE(origins.size() == model->info().regions);
   for (const std::uint32_t origin : origins) CHECK(origin == 0);
@@ -384,7 +384,7 @@ TEST_CASE("samples that all begin at one point do not divide cells for ever") {
         RecordedVertex{.position = Point3{0.5f, 0.5f, 0.5f} + w, .parent = 1, .emission = Rgb(1)});
   }
   state->absorb(log);
-  CHECK(state->update(0, true).model->info().regions == 1);
+  CHECK(state->update({0, 0}).model->info().regions == 1);
 }
 
 TEST_CASE("settings that contradict each other are refused") {

@@ -160,7 +160,7 @@ TEST_CASE("samples: lights that no step can meet are of a kind of their own; not
   const auto state = learner.begin({.region = {{-1, -1, -1}, {1, 1, 1}}});
   state->absorb(log);
   const auto model =
-      std::dynamic_pointer_cast<const VertexTripletsModel>(state->update(0, true).model);
+      std::dynamic_pointer_cast<const VertexTripletsModel>(state->update({0, 0}).model);
   REQUIRE(model);
   CHECK(model->camera().size() == 1);
   CHECK(model->component_count() == 0);
@@ -200,16 +200,16 @@ LearningContext context() {
   Bounds3 region;
   region.add(Point3{-1.5f, -1.5f, 0});
   region.add(Point3{2.5f, 2.5f, 1});
-  return {.region = region, .seed = 7, .iterations = 4};
+  return {.region = region, .seed = 7};
 }
 
 std::shared_ptr<const VertexTripletsModel> learned(const VertexTripletsSettings& settings,
-                                                   int updates = 3) {
+                                                   std::uint32_t updates = 3) {
   const auto state = VertexTripletsLearner(settings).begin(context());
   std::shared_ptr<const GuidingModel> model;
-  for (int i = 0; i < updates; ++i) {
+  for (std::uint32_t i = 0; i < updates; ++i) {
     state->absorb(mirror_paths(2000 << i, 20 + i));
-    model = state->update(i, i + 1 == updates).model;
+    model = state->update({i, updates - 1 - i}).model;
   }
   return std::dynamic_pointer_cast<const VertexTripletsModel>(model);
 }
@@ -264,12 +264,12 @@ TEST_CASE("learning: triplets know a mirror's direction, pairs its mean") {
 
 TEST_CASE("learning: knows nothing of nothing") {
   const auto state = VertexTripletsLearner({}).begin(context());
-  CHECK(state->update(0, false).model == nullptr);
+  CHECK(state->update({0, 1}).model == nullptr);
   state->absorb(PathLog{});
-  CHECK(state->update(1, false).model == nullptr);
+  CHECK(state->update({1, 1}).model == nullptr);
   const auto later = VertexTripletsLearner({}).begin(context());
   later->absorb(mirror_paths(1, 1));
-  CHECK(later->update(0, false).model != nullptr);
+  CHECK(later->update({0, 1}).model != nullptr);
 }
 
 /// The saved form of a model or a state.
@@ -327,15 +327,15 @@ TEST_CASE("learning: saved and loaded amid an iteration it goes on as before") {
     load(in, *result);
     return result;
   };
-  for (int i = 0; i < 3; ++i) {
+  for (std::uint32_t i = 0; i < 3; ++i) {
     state->absorb(mirror_paths(500, i));
-    if (i < 2) state->update(i, false);
+    if (i < 2) state->update({i, 1});
   }
   const std::string bytes = saved(*state);
   const auto again = resumed(bytes);
   CHECK(saved(*again) == bytes);
   for (const auto* s : {&state, &again}) (*s)->absorb(mirror_paths(700, 9));
-  CHECK(saved(*state->update(2, true).model) == saved(*again->update(2, true).model));
+  CHECK(saved(*state->update({2, 0}).model) == saved(*again->update({2, 0}).model));
   for (const std::size_t length : {std::size_t{3}, bytes.size() / 3, bytes.size() - 1}) {
     CHECK_THROWS_AS(resumed(bytes.substr(0, length)), InputError);
   }
@@ -346,7 +346,7 @@ TEST_CASE("learning: saved and loaded amid an iteration it goes on as before") {
     std::string changed = bytes;
     changed[random() % bytes.size()] = static_cast<char>(random());
     try {
-      resumed(changed)->update(3, true);
+      resumed(changed)->update({3, 0});
     } catch (const InputError&) {
       ++noticed;
     }
@@ -363,7 +363,7 @@ TEST_CASE("learning: what is absorbed in pieces is what is absorbed at once") {
   pieces->absorb(mirror_paths(500, 1));
   pieces->absorb(mirror_paths(400, 2));
   CHECK(saved(*whole) == saved(*pieces));
-  CHECK(saved(*whole->update(0, false).model) == saved(*pieces->update(0, false).model));
+  CHECK(saved(*whole->update({0, 1}).model) == saved(*pieces->update({0, 1}).model));
 }
 
 TEST_CASE("models: changed bytes are noticed or harmless") {

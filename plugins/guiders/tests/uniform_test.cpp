@@ -24,7 +24,7 @@ PathLog path_to_lamp(float radiance, bool guidable = true) {
 }
 
 double radiance_of(LearningState& state) {
-  return state.update(0, true).model->density({1, 2, 3});
+  return state.update({0, 0}).model->density({1, 2, 3});
 }
 
 }  // namespace

@@ -18,8 +18,17 @@ namespace pharos {
 struct LearningContext {
   Bounds3 region;                ///< bounds of geometry and sensor [scene units]
   std::uint64_t seed = 0;        ///< random numbers are keyed by (seed, iteration, cell)
-  std::uint32_t iterations = 1;  ///< planned training iterations; update() ends each
   PixelRect window{0, 0, 1, 1};  ///< the part of the film that is rendered [pixels]
+};
+
+/// The place of a training iteration in the training.
+struct TrainingStage {
+  std::uint32_t iteration = 0;  ///< counted from 0
+  /// Expected number of training iterations that follow. It may turn out larger or smaller, because
+  /// time budgets and `tolerance` end training when they see fit, but 0 is certain.
+  std::uint32_t left = 0;
+
+  bool is_last() const { return left == 0; }
 };
 
 /// The result of one training iteration.
@@ -38,8 +47,8 @@ class LearningState {
 
   /// Takes the recorded paths of one work unit. Called in the order of work units.
   virtual void absorb(const PathLog& log) = 0;
-  /// Ends training iteration `iteration`, counted from 0; `last`: no other iteration follows.
-  virtual Learned update(std::uint32_t iteration, bool last) = 0;
+  /// Ends a training iteration.
+  virtual Learned update(const TrainingStage& stage) = 0;
   /// Saves the state, or loads it into a state that Learner::begin() made for the same render.
   virtual void archive(Archive& archive) = 0;
 };

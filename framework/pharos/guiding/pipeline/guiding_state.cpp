@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include <pharos/core/error.h>
 #include <pharos/core/random.h>
@@ -27,12 +28,12 @@ struct GuidingState::Source {
   /// Ends an iteration. Appends to `origins`, for each region of the new model, the region of the
   /// previous model from which it came. Regions of the previous model are numbered from `first`.
   /// All regions of the first model come from the single region that existed before.
-  void update(std::uint32_t iteration, bool last, std::uint32_t first,
+  void update(const TrainingStage& stage, std::uint32_t first,
               std::vector<std::uint32_t>& origins) {
     const std::uint32_t before = regions;
     std::vector<std::uint32_t> own;
     if (state != nullptr) {
-      Learned learned = state->update(iteration, last);
+      Learned learned = state->update(stage);
       take(std::move(learned.model));
       own = std::move(learned.region_origins);
     }
@@ -65,7 +66,9 @@ struct GuidingState::Source {
   }
 };
 
-GuidingState::GuidingState(const GuidingSettings& settings, const LearningContext& context) {
+GuidingState::GuidingState(const GuidingSettings& settings, const LearningContext& context)
+    : tolerance_(settings.training.tolerance) {
+  if (tolerance_ > 0) gain_.emplace();
   std::vector<float> weights;
   for (const GuidingMethod& method : settings.resolved_methods()) {
     LearningContext own = context;
@@ -86,18 +89,29 @@ void GuidingState::absorb(const PathLog& log) {
     if (source.state != nullptr) source.state->absorb(log);
   }
   mixing_->absorb(log);
+  if (gain_) gain_->absorb(log);
+  for (std::size_t i = 0; i < log.size(); ++i) {
+    for (const RecordedVertex& vertex : log[i].vertices) samples_ += vertex.guidable ? 1 : 0;
+  }
 }
 
-void GuidingState::update(std::uint32_t iteration, bool last) {
+void GuidingState::update(const TrainingStage& stage) {
   std::vector<std::uint32_t> origins;
   std::uint32_t first = 0;
   for (Source& source : sources_) {
     const std::uint32_t before = source.regions;
-    source.update(iteration, last, first, origins);
+    source.update(stage, first, origins);
     first += before;
   }
-  mixing_->update(static_cast<std::uint32_t>(origins.size()), origins, last);
+  mixing_->update(static_cast<std::uint32_t>(origins.size()), origins, stage.is_last());
+  last_samples_ = std::exchange(samples_, 0);
   rebuild_frame();
+}
+
+double GuidingState::samples_per_region() const {
+  std::uint32_t most = 1;
+  for (const Source& source : sources_) most = std::max(most, source.regions);
+  return static_cast<double>(last_samples_) / most;
 }
 
 std::uint32_t GuidingState::regions() const {
@@ -143,10 +157,12 @@ std::size_t GuidingState::model_bytes() const {
 }
 
 void GuidingState::archive(Archive& archive) {
-  archive.heading("guiding", 1);
+  archive.heading("guiding", 2);
   for (Source& source : sources_) source.archive(archive);
   if (archive.loads()) mixing_->update(regions(), {}, false);
   mixing_->archive(archive);
+  archive(samples_, last_samples_);
+  if (gain_) gain_->archive(archive);
   if (archive.loads()) rebuild_frame();
 }
 

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <pharos/guiding/pipeline/guiding_frame.h>
 #include <pharos/guiding/pipeline/guiding_settings.h>
+#include <pharos/guiding/pipeline/held_out_gain.h>
 
 namespace pharos {
 
@@ -20,7 +22,14 @@ class GuidingState {
   /// uses the guiders of the settings and must not outlive the settings.
   std::shared_ptr<const GuidingFrame> frame() const { return frame_; }
   void absorb(const PathLog& log);
-  void update(std::uint32_t iteration, bool last);
+  /// Ends the recording of an iteration. Returns whether training may end, because the guides
+  /// hardly explain its paths better than the guides before; see TrainingSettings::tolerance.
+  bool settles() { return gain_ && gain_->settles(tolerance_); }
+  void update(const TrainingStage& stage);
+
+  /// Returns the number of training samples of the last iteration for each region of the largest
+  /// model.
+  double samples_per_region() const;
 
   /// Returns the newest model of method `i`; null if there is none yet.
   std::shared_ptr<const GuidingModel> model(std::size_t i) const;
@@ -46,6 +55,10 @@ class GuidingState {
   std::vector<Source> sources_;
   std::vector<User> users_;
   std::unique_ptr<MixingState> mixing_;
+  double tolerance_;
+  std::optional<HeldOutGain> gain_;  ///< none if training never ends early
+  std::uint64_t samples_ = 0;        ///< training samples of the current iteration
+  std::uint64_t last_samples_ = 0;   ///< training samples of the last iteration
   std::shared_ptr<const GuidingFrame> frame_;
 };
 

@@ -8,17 +8,26 @@ void TrainingSettings::describe(Schema<TrainingSettings>& s) {
       "Sizes of the training iterations: all equal, or each twice as large as the previous one");
   s.field("iterations", &TrainingSettings::iterations, "Number of training iterations")
       .at_most(1000);
-  s.field("share", &TrainingSettings::share, "Share of the budget spent on training")
+  s.field("share", &TrainingSettings::share, "Largest share of the budget spent on training")
       .at_least(0)
       .below(1);
   s.field("images", &TrainingSettings::images,
           "Use of the images of training iterations: discarded, or combined with the final image, "
-          "weighted by their numbers of samples");
+          "weighted by their numbers of samples; the first sixteenth of all samples counts less");
   s.field("latest_images", &TrainingSettings::latest_images,
           "Largest number of combined images, including the final one; the first images may be "
           "much noisier than the rest, because their guides know little")
       .at_least(1)
       .at_most(1001);
+  s.field("region_samples", &TrainingSettings::region_samples,
+          "Least mean number of training samples for each region of a model in an iteration; "
+          "iterations that would have fewer are longer")
+      .at_least(0);
+  s.field("tolerance", &TrainingSettings::tolerance,
+          "Training ends once the guides explain the light of an iteration better than the guides "
+          "before by less than this; 0: it uses up its share")
+      .unit("nats")
+      .at_least(0);
 }
 
 }  // namespace pharos

@@ -27,10 +27,15 @@ struct EnumNames<TrainingImages> {
 struct TrainingSettings {
   ScheduleKind schedule = ScheduleKind::uniform;
   std::uint32_t iterations = 15;  ///< number of training iterations
-  double share = 0.5;             ///< share of the budget that is spent on training [1]
-  TrainingImages images = TrainingImages::discard;
+  double share = 0.5;             ///< largest share of the budget that is spent on training [1]
+  TrainingImages images = TrainingImages::combine;
   /// Largest number of combined images, including the final one.
   std::uint32_t latest_images = 1001;
+  /// Least mean number of training samples for each region of the largest model in an iteration.
+  double region_samples = 32;
+  /// Training ends once the gain of the guides rises by less than this from one iteration to the
+  /// next [nats]; see HeldOutGain. 0: it ends only with its share.
+  double tolerance = 0;
 
   static void describe(Schema<TrainingSettings>& schema);
 };

@@ -48,7 +48,7 @@ class KdTreeLearning final : public LearningState {
     if (samples_.size() >= lessons_.settings().batch_samples) learn();
   }
 
-  Learned update(std::uint32_t, bool) override {
+  Learned update(const TrainingStage&) override {
     learn();
     if (!cells_.know_something()) return {};
     Learned learned{lessons_.model(cells_), cells_.origins()};

@@ -1,0 +1,51 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <pharos/guiding/pipeline/held_out_gain.h>
+
+namespace pharos {
+
+void HeldOutGain::absorb(const PathLog& log) {
+  double weights = 0, logs = 0;
+  for (std::size_t i = 0; i < log.size(); ++i) {
+    const PathView path = log[i];
+    if (path.transport != Transport::radiance) continue;
+    estimate_incident_radiance(path, incident_);
+    for (std::size_t k = 0; k < path.vertices.size(); ++k) {
+      const RecordedVertex& vertex = path.vertices[k];
+      const auto techniques = path.techniques(vertex);
+      const double weight = mean(vertex.throughput * vertex.local_weight * incident_[k]);
+      if (!vertex.guidable || techniques.empty() || !(weight > 0)) continue;
+      const double ratio = vertex.pdf / techniques[0].density;
+      if (!std::isfinite(ratio) || !std::isfinite(weight)) continue;
+      weights += weight;
+      logs += weight * std::log(ratio);
+    }
+  }
+  sums_.weight += weights;
+  sums_.log += logs;
+  sums_.weight_squared += weights * weights;
+  sums_.log_squared += logs * logs;
+  sums_.product += weights * logs;
+}
+
+/// Returns the ratio of the sums. Its variance is that of a ratio of means over work units, to
+/// first order.
+HeldOutGain::Gain HeldOutGain::gain() const {
+  if (!(sums_.weight > 0)) return {};
+  const double ratio = sums_.log / sums_.weight;
+  const double squares =
+      sums_.log_squared - 2 * ratio * sums_.product + ratio * ratio * sums_.weight_squared;
+  return {ratio, std::max(squares, 0.0) / (sums_.weight * sums_.weight)};
+}
+
+bool HeldOutGain::settles(double tolerance) {
+  const Gain before = std::exchange(last_, gain());
+  const bool had_last = std::exchange(has_last_, sums_.weight > 0);
+  sums_ = {};
+  const double error = std::sqrt(before.variance + last_.variance);
+  return had_last && has_last_ && last_.mean - before.mean + 2 * error < tolerance;
+}
+
+}  // namespace pharos

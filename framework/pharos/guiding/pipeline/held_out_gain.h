@@ -1,0 +1,46 @@
+#pragma once
+
+#include <vector>
+
+#include <pharos/guiding/record/path_record.h>
+
+namespace pharos {
+
+/// Measures how much better guided sampling explains light than unguided sampling: the mean of
+/// log(p / p_u) over the steps of paths, weighted by the contributions of the paths through them.
+/// p is the density with which the step was drawn, p_u the density of unguided sampling. This is
+/// the difference of the divergences of p_u and p from the distribution of the light [nats].
+///
+/// The models of an iteration have not learned from its paths, so the measure is held out.
+class HeldOutGain {
+ public:
+  /// Takes the recorded paths of one work unit. The units give the standard error.
+  void absorb(const PathLog& log);
+
+  /// Ends an iteration. Returns whether its gain surpasses that of the iteration before by less
+  /// than `tolerance`, with two standard errors to spare; false after the first iteration.
+  bool settles(double tolerance);
+  /// Returns the gain of the last iteration.
+  double value() const { return last_.mean; }
+
+  void archive(Archive& archive) { archive(sums_, last_, has_last_); }
+
+ private:
+  struct Sums {
+    double weight = 0, log = 0;  ///< sums of w and of w log(p / p_u) over work units
+    double weight_squared = 0, log_squared = 0, product = 0;
+    void archive(Archive& archive) { archive(weight, log, weight_squared, log_squared, product); }
+  };
+  struct Gain {
+    double mean = 0, variance = 0;
+    void archive(Archive& archive) { archive(mean, variance); }
+  };
+  Gain gain() const;
+
+  Sums sums_;
+  Gain last_;
+  bool has_last_ = false;
+  std::vector<Rgb> incident_;  ///< of one path; a member, so that it keeps its memory
+};
+
+}  // namespace pharos
