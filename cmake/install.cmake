@@ -10,6 +10,7 @@ if(PHAROS_TESTS)
   install(TARGETS pharos-test-main EXPORT pharos-targets
           ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 endif()
+install(DIRECTORY configs/presets DESTINATION ${CMAKE_INSTALL_LIBDIR}/pharos/plugins)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/pharos)
 install(EXPORT pharos-targets NAMESPACE pharos:: DESTINATION ${package_dir})
 configure_package_config_file(cmake/pharos-config.cmake.in

@@ -1,5 +1,5 @@
-# pharos_add_module(NAME [SOURCES file...] [TESTS file...] [LIBRARIES target...] [TEST_ONLY]
-#                   [NO_CONFORMANCE])
+# pharos_add_module(NAME [SOURCES file...] [TESTS file...] [LIBRARIES target...]
+#                   [PRESETS file...] [TEST_ONLY] [NO_CONFORMANCE])
 #
 # Without SOURCES, the module consists of all .cpp files of the folder and its subfolders, and the
 # files in tests/ are its suite.
@@ -12,6 +12,9 @@
 # module. Its labels are NAME and conformance. Modules of planted faults say NO_CONFORMANCE to leave
 # this test out.
 #
+# PRESETS are YAML files that `guiding: NAME` in a config finds. They are copied to the folder
+# `presets` beside the module.
+#
 # TEST_ONLY modules are built in build/test-plugins (with NO_CONFORMANCE in build/faulty-plugins)
 # and are not installed.
 #
@@ -19,7 +22,8 @@
 include_guard(GLOBAL)
 
 function(pharos_add_module name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "TEST_ONLY;NO_CONFORMANCE" "" "SOURCES;TESTS;LIBRARIES")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "TEST_ONLY;NO_CONFORMANCE" "" 
+                        "SOURCES;TESTS;LIBRARIES;PRESETS")
   if(NOT arg_SOURCES)
     file(GLOB_RECURSE arg_SOURCES CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}
          ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
@@ -48,7 +52,12 @@ function(pharos_add_module name)
   set_target_properties(${name} PROPERTIES
     PREFIX "" SUFFIX ".pharos.so"
     LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/${folder})
+  foreach(preset IN LISTS arg_PRESETS)
+    cmake_path(GET preset FILENAME file)
+    configure_file(${CMAKE_CURRENT_SOURCE_DIR}/${preset} ${CMAKE_BINARY_DIR}/${folder}/presets/${file} COPYONLY)
+  endforeach()
   if(NOT arg_TEST_ONLY)
+    install(FILES ${arg_PRESETS} DESTINATION ${CMAKE_INSTALL_LIBDIR}/pharos/plugins/presets)
     set_property(GLOBAL APPEND PROPERTY PHAROS_MODULES ${name})
     include(GNUInstallDirs)
     install(TARGETS ${name} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/pharos/plugins)

@@ -50,6 +50,16 @@ TEST_CASE("extends") {
                 {"more than 256 files"});
 }
 
+TEST_CASE("presets") {
+  check_refused(config_with("integrator: { guiding: fokal }\n"),
+                {"bad.yaml:", "there is no preset 'fokal' (did you mean 'focal'?)", "'pavmm'"});
+  check_refused(config_with("integrator: { guiding: ../presets/focal }\n"), {"there is no preset"});
+  check_refused(config_with("integrator: { type: path, guiding: triplets-flt }\n"),
+                {"bad.yaml:",
+                 "the preset 'triplets-flt' needs the integrator 'bidirectional', "
+                 "found 'path'"});
+}
+
 TEST_CASE("scene files") {
   const auto scene = [](const std::string& name) {
     return "scene: " + name + "\nbudget: { spp: 1 }\n";

@@ -80,6 +80,7 @@ class Registry {
   void set_current_module(std::string module) { current_module_ = std::move(module); }
   /// Adds a folder in which plugins were searched. Error messages name these folders.
   void add_searched_folder(std::string folder) { searched_.push_back(std::move(folder)); }
+  const std::vector<std::string>& searched_folders() const { return searched_; }
 
  private:
   struct Shorthand {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <pharos/rendering/presets.h>
 #include <pharos/rendering/render_config.h>
 #include <pharos/rendering/scene_import.h>
 
@@ -148,6 +149,7 @@ LoadedConfig build_render_config(const ConfigNode& stated, const Registry& regis
   LoadedConfig loaded;
   ConfigNode node = stated;
   loaded.notes = expand_import(node, registry);
+  expand_preset(node, registry);
   loaded.config = Value<RenderConfig>::read(node, context, loaded.resolved);
   loaded.files = std::move(context.files);
   check_together(loaded.config, node);
