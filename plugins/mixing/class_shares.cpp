@@ -81,7 +81,7 @@ Simplex explored(Simplex shares, double explore, std::size_t count) {
 
 ClassShares::ClassShares(const Simplex& prior, const Settings& settings)
     : shares_(prior),
-      final_shares_(prior),
+      final_shares_{1},
       certainty_(settings.prior_steps),
       steps_(settings.reservoir) {}
 

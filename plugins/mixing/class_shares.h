@@ -30,7 +30,7 @@ class ClassShares {
   /// Returns the shares for the next training iteration.
   const Simplex& shares() const { return shares_; }
   /// Returns the shares for the final iteration. Methods that are not worth their cost have the
-  /// share 0.
+  /// share 0, and so have all methods until light has been found.
   const Simplex& final_shares() const { return final_shares_; }
 
   void archive(Archive& archive);

@@ -15,6 +15,9 @@
 // makes up for their cost. In training, each method keeps at least the share `explore`, because a
 // method that is not asked cannot earn anything.
 //
+// Classes that found no light in training are not guided in the final iteration. If this holds for
+// all of them, or if no method is worth its cost anywhere, the image is rendered as without guides.
+//
 // At a vertex, the share of a method is scaled by e / (e + `evidence`), where e is the evidence of
 // its model there, and all shares are scaled to sum to 1.
 //
@@ -86,7 +89,9 @@ class CellShares final : public MixingShares {
       : tree_(std::move(tree)),
         shares_(std::move(shares)),
         techniques_(techniques),
-        evidence_(evidence) {}
+        evidence_(evidence) {
+    for (std::size_t i = 0; i < shares_.size(); ++i) asked_[i % techniques_] |= shares_[i] > 0;
+  }
 
   /// Returns the number of the class among the classes of all cells as the key.
   std::uint32_t at(const MixingQuery& query, std::span<float> shares) const override {
@@ -103,11 +108,13 @@ class CellShares final : public MixingShares {
     for (float& share : shares) share /= total;
     return key;
   }
+  bool asks(std::size_t method) const override { return asked_[1 + method]; }
 
  private:
   KdTree tree_;
   std::vector<float> shares_;
   std::size_t techniques_;
+  std::array<bool, kMostTechniques> asked_{};  ///< techniques with a share in any class
   float evidence_;  ///< evidence with which a method has half of its odds
 };
 

@@ -92,25 +92,27 @@ class TinyGuider final : public GuiderOf<TinyModel> {
 /// A share of unguided samples for each region. The methods divide the rest by their weights.
 class TinyShares final : public MixingShares {
  public:
-  TinyShares(std::vector<double> paths, std::vector<float> weights)
-      : paths_(std::move(paths)), weights_(std::move(weights)) {}
+  TinyShares(std::vector<double> paths, std::vector<float> weights, std::size_t silent)
+      : paths_(std::move(paths)), weights_(std::move(weights)), silent_(silent) {}
   std::uint32_t at(const MixingQuery& query, std::span<float> shares) const override {
     const std::uint32_t region = query.places.back().region;
     share_by_weight(weights_, query.places, 1 / (2 + static_cast<float>(paths_.at(region))),
                     shares);
     return region;
   }
+  bool asks(std::size_t method) const override { return method >= silent_; }
 
  private:
   std::vector<double> paths_;
   std::vector<float> weights_;
+  std::size_t silent_;
 };
 
 /// Counts the paths of all iterations, in every region.
 class TinyMixingState final : public MixingState {
  public:
-  explicit TinyMixingState(std::span<const float> weights)
-      : weights_(weights.begin(), weights.end()) {}
+  TinyMixingState(std::span<const float> weights, std::size_t silent)
+      : weights_(weights.begin(), weights.end()), silent_(silent) {}
   void absorb(const PathLog& log) override { found_ += static_cast<double>(log.size()); }
   void update(std::uint32_t regions, std::span<const std::uint32_t> origins, bool) override {
     std::vector<double> next(regions, found_);
@@ -122,7 +124,7 @@ class TinyMixingState final : public MixingState {
     found_ = 0;
   }
   std::shared_ptr<const MixingShares> shares() const override {
-    return std::make_shared<const TinyShares>(paths_, weights_);
+    return std::make_shared<const TinyShares>(paths_, weights_, silent_);
   }
   void archive(Archive& archive) override { archive(found_, paths_); }
 
@@ -130,13 +132,19 @@ class TinyMixingState final : public MixingState {
   double found_ = 0;
   std::vector<double> paths_;
   std::vector<float> weights_;
+  std::size_t silent_;
 };
 
+/// A policy that never asks the first `silent` methods.
 class TinyMixing final : public MixingPolicy {
  public:
+  explicit TinyMixing(std::size_t silent = 0) : silent_(silent) {}
   std::unique_ptr<MixingState> begin(std::span<const float> weights) const override {
-    return std::make_unique<TinyMixingState>(weights);
+    return std::make_unique<TinyMixingState>(weights, silent_);
   }
+
+ private:
+  std::size_t silent_;
 };
 
 /// Returns settings with two learners, where two guiders sample the model of the first learner.
@@ -245,6 +253,28 @@ TEST_CASE("guiding state: cut off anywhere, it is refused") {
     GuidingState resumed(settings(), {});
     CHECK_THROWS_AS(load_from(file.substr(0, size), resumed), InputError);
   }
+}
+
+TEST_CASE(
+    "guiding state: methods that are never asked take no part; without any there is no frame") {
+  GuidingSettings own = settings();
+  const auto methods_at_lens = [&](std::size_t silent) {
+    own.mixing = std::make_shared<const TinyMixing>(silent);
+    GuidingState state(own, {});
+    state.absorb(path_to_light(1));
+    state.update({0, 1});
+    if (state.frame() == nullptr) return std::vector<std::uint32_t>();
+    GuidingQuery query{.current = {.kind = VertexKind::sensor}};
+    Arena arena;
+    std::vector<std::uint32_t> methods;
+    for (const GuidePart& part : state.frame()->query(query, arena).parts) {
+      methods.push_back(part.method);
+    }
+    return methods;
+  };
+  CHECK(methods_at_lens(0) == std::vector<std::uint32_t>{0, 1, 2});
+  CHECK(methods_at_lens(2) == std::vector<std::uint32_t>{2});
+  CHECK(methods_at_lens(3).empty());
 }
 
 }  // namespace pharos

@@ -184,7 +184,7 @@ TEST_CASE("simplex mixing: a guide earns its share step by step") {
   CHECK(few > 0.4);
   CHECK(few < 0.7);
   CHECK(learned_share({}, kOnlyGuideFinds, 5000, 1) < 0.12);
-  CHECK(learned_share({}, kOnlyGuideFinds, 0, 3) == doctest::Approx(0.75));
+  CHECK(learned_share({}, kOnlyGuideFinds, 0, 3) == 1);
 }
 
 TEST_CASE("simplex mixing: a single bright step moves little") {
@@ -259,6 +259,29 @@ TEST_CASE("simplex mixing: of two methods, the one that finds light gets the sha
   ask_both();
   CHECK(shares[1] > 0.85f);
   CHECK(shares[2] == 0);
+}
+
+TEST_CASE("simplex mixing: methods without a share anywhere are not asked in the final image") {
+  for (const auto& [world, is_asked] : {std::pair{kOnlyGuideFinds, true}, {kGuideMisses, false}}) {
+    const auto state = begun();
+    CHECK(state->shares()->asks(0));
+    absorb(*state, world, 2000, 1);
+    state->update(1, {}, false);
+    CHECK(state->shares()->asks(0));  // it may still earn something
+    absorb(*state, world, 2000, 2);
+    state->update(1, {}, true);
+    CHECK(state->shares()->asks(0) == is_asked);
+  }
+}
+
+TEST_CASE("simplex mixing: where no light was found, the final image is not guided") {
+  const auto state = begun();
+  absorb(*state, kOnlyGuideFinds, 2000, 1);
+  state->update(1, {}, true);
+  CHECK(ask(*state).shares[0] < 0.5f);
+  GuidingQuery other = vertex_at({});
+  other.current.kind = VertexKind::volume;
+  CHECK(ask(*state, other).shares[0] == 1);
 }
 
 TEST_CASE("simplex mixing: only finite steps of guided vertices count") {

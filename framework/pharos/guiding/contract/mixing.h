@@ -33,6 +33,9 @@ class MixingShares {
   /// divide its share. Returns a key from which the policy later knows how it decided here; see
   /// RecordedVertex::mixing_key.
   virtual std::uint32_t at(const MixingQuery& query, std::span<float> shares) const = 0;
+  /// Returns whether method `i` may have a positive share anywhere. A method that has none is left
+  /// out of the iteration. If all are, paths are traced as without guides.
+  virtual bool asks(std::size_t /*method*/) const { return true; }
 };
 
 /// The state of a policy during one render. Threads use it in the same way as LearningState.

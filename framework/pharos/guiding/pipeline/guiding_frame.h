@@ -62,7 +62,7 @@ struct Guidance {
 class GuidingFrame {
  public:
   struct Method {
-    std::optional<BoundGuider> guider;  ///< empty while its learner knows nothing
+    std::optional<BoundGuider> guider;  ///< empty if the method is not asked
     GuiderTraits traits;
     /// Number of the first region of its model in the common numbering of all models.
     std::uint32_t first_region = 0;

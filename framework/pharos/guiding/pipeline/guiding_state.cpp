@@ -125,18 +125,20 @@ void GuidingState::rebuild_frame() {
   for (std::size_t i = 1; i < sources_.size(); ++i) {
     first_regions[i] = first_regions[i - 1] + sources_[i - 1].regions;
   }
+  std::shared_ptr<const MixingShares> shares = mixing_->shares();
   std::vector<GuidingFrame::Method> methods;
-  bool is_anything_known = false;
+  bool is_any_asked = false;
   for (const User& user : users_) {
     const std::shared_ptr<const GuidingModel>& model = sources_[user.source].model;
+    const bool is_asked = model != nullptr && shares->asks(methods.size());
     GuidingFrame::Method& method = methods.emplace_back();
-    if (model != nullptr) method.guider.emplace(*user.guider, model);
+    if (is_asked) method.guider.emplace(*user.guider, model);
     method.traits = user.guider->traits();
     method.first_region = first_regions[user.source];
-    is_anything_known |= model != nullptr;
+    is_any_asked |= is_asked;
   }
-  frame_ = is_anything_known
-               ? std::make_shared<const GuidingFrame>(std::move(methods), mixing_->shares())
+  frame_ = is_any_asked
+               ? std::make_shared<const GuidingFrame>(std::move(methods), std::move(shares))
                : nullptr;
 }
 

@@ -18,8 +18,9 @@ class GuidingState {
   GuidingState(const GuidingSettings& settings, const LearningContext& context);
   ~GuidingState();
 
-  /// Returns the frame that guides the next iteration; null as long as nothing is known. The frame
-  /// uses the guiders of the settings and must not outlive the settings.
+  /// Returns the frame that guides the next iteration; null as long as nothing is known, and if the
+  /// mixing policy asks no method. The frame uses the guiders of the settings and must not outlive
+  /// the settings.
   std::shared_ptr<const GuidingFrame> frame() const { return frame_; }
   void absorb(const PathLog& log);
   /// Ends the recording of an iteration. Returns whether training may end, because the guides
