@@ -124,7 +124,8 @@ TEST_CASE("a model of one method among several, and by --set") {
                               "integrator.guiding.model=box.model",
                  .prepare = prepare,
                  .environment = kStandIns},
-                {"either a learner and a guider, or a list of methods"});
+                {"--set integrator.guiding.model=box.model: error: ",
+                 "was learned by 'stub_segments', which the learner 'stub_direction' cannot read"});
 }
 
 }  // namespace

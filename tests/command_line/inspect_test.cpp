@@ -223,7 +223,6 @@ TEST_CASE("inspect: slices and points that cannot be") {
 
 TEST_CASE("inspect: options that do not fit together") {
   check_refused(mistake("box.model -o x.png"), {"--output: error: ", "--slice"});
-  check_refused(mistake("box.model --scene box.yaml"), {"--scene: error: ", "--slice"});
   check_refused(mistake("box.model --slice z=0"), {"--output: error: ", "expected the name"});
   check_refused(mistake("box.model --slice z=0 --cloud -o x.png"), {"--slice", "--cloud"});
   check_refused(mistake("box.model --direction 0,0,0 --scene box.yaml -o x.png"),
@@ -264,6 +263,25 @@ TEST_CASE("inspect: a model without bounds needs a scene") {
   prepare(folder);
   CHECK(contains(inspect(folder, "box.model").out, "bounds   none\n"));
   picture(folder, "--slice z=0 --size 32 --scene box.yaml", "x.png");
+}
+
+TEST_CASE("inspect: shares of techniques, in numbers and in a picture") {
+  const ScratchFolder folder;
+  write_learned_model(folder);
+  const Outcome outcome = inspect(folder, "box.model --scene box.yaml");
+  REQUIRE(outcome.exit_code == 0);
+  CHECK(contains(outcome.out, "mixing"));
+  CHECK(contains(outcome.out, "bounce 2, roughness 0.25"));
+  CHECK(contains(outcome.out, "unguided 0.500, stub_segments 0.500"));
+  const Image shares =
+      picture(folder, "--slice x=0 --shares --bounce 2 --size 64 --scene box.yaml", "shares.exr");
+  CHECK(shares.width() == 60);
+  CHECK(*shares.pixel(5, 10) == 0.5f);
+  CHECK(std::isnan(*shares.pixel(29, 10)));
+  CHECK(*shares.pixel(40, 10) == 0.5f);
+  check_refused(mistake("box.model --shares"), {"--slice"});
+  check_refused(mistake("box.model --slice x=0 --index 1 -o a.png"),
+                {"--index 1: error: the file has 1 models"});
 }
 
 }  // namespace

@@ -173,7 +173,12 @@ TEST_CASE("two methods share one model: one learner is trained, and both guiders
   REQUIRE(state.model(0) != nullptr);
   CHECK(state.model(1) == state.model(0));
   CHECK(state.model_bytes() == state.model(0)->info().bytes);
-  CHECK(state.learner_name(1) == "uniform");
+  const auto learned = state.learned();
+  REQUIRE(learned->models.size() == 1);
+  CHECK(learned->models[0].learner == "uniform");
+  REQUIRE(learned->methods.size() == 2);
+  CHECK(learned->methods[1].model == 0);
+  CHECK(learned->methods[1].weight == 3);
 
   const Wall wall;
   GuidingQuery query = wall.query({0, 0, 0});

@@ -21,7 +21,7 @@ class LearnedFile {
     const std::string guiding = fmt::format(
         "{{ learner: {}, guider: {}, training: {{ iterations: 3 }} }}", learner, guider);
     const RenderResult result = render(path_config(kDiffuseScene, 4, guiding, 32));
-    write_model_file(*result.model, result.learner, path_);
+    write_model_file(*result.learned, path_);
   }
   ~LearnedFile() { std::filesystem::remove(path_); }
   LearnedFile(const LearnedFile&) = delete;
@@ -68,7 +68,7 @@ TEST_CASE("a render with a model file: its model, no training, the whole budget"
   CHECK(iterations == 1);
   CHECK(result.times.training == 0);
   CHECK(result.samples_per_pixel == 24);
-  CHECK(result.learner == "stub_direction");
+  CHECK(result.learned->models.at(0).learner == "stub_direction");
   CHECK(bits(*result.model) == bits(*guiding.model));
   // The model guides paths. Without guiding, the same paths would give the same bits.
   const RenderResult unguided = render(path_config(kDiffuseScene, 4, "", 24));
@@ -120,6 +120,44 @@ TEST_CASE("furnace: two methods that share the model of a file") {
   const std::string config = path_config(kDiffuseScene, 4, guiding, 32);
   CHECK_FALSE(config_from(config).config.integrator->guiding()->learns());
   CHECK(std::abs(furnace_t(config, kDiffuseFurnace)) < kLimit);
+}
+
+TEST_CASE("furnace: a file with two models and what their mixing has learned") {
+  const auto guiding = [](const std::string& more) {
+    return "{ methods: [ { learner: stub_direction, guider: stub_direction, weight: 2 }, { "
+           "learner: "
+           "{ type: stub_direction, refine: true }, guider: stub_direction } ], training: { "
+           "iterations: 3 }, " +
+           more + " }";
+  };
+  const auto config = [&](const std::string& more) {
+    return path_config(kDiffuseScene, 4, guiding(more), 32);
+  };
+  const RenderResult trained = render(config("mixing: simplex"));
+  REQUIRE(trained.learned != nullptr);
+  const std::filesystem::path path =
+      std::filesystem::temp_directory_path() / fmt::format("pharos-two-{}.model", getpid());
+  write_model_file(*trained.learned, path);
+  const std::string again = fmt::format("mixing: simplex, model: '{}'", path.string());
+  const LoadedConfig loaded = config_from(config(again));
+  const GuidingSettings& settings = *loaded.config.integrator->guiding();
+  CHECK_FALSE(settings.learns());
+  CHECK(settings.mixing_state == trained.learned->mixing_state);
+  for (std::size_t i = 0; i < 2; ++i) {
+    CHECK(bits(*settings.methods[i].model) == bits(*trained.learned->models[i].model));
+  }
+  const RenderResult result = RenderJob(loaded.config).run();
+  CHECK(result.learned->mixing_state == trained.learned->mixing_state);
+  CHECK(std::abs(furnace_t(config(again), kDiffuseFurnace)) < kLimit);
+  // Another policy has not learned this.
+  const LoadedConfig other =
+      config_from(config(fmt::format("mixing: fixed, model: '{}'", path.string())));
+  CHECK(other.config.integrator->guiding()->mixing_state.empty());
+  LearnedGuiding damaged = *trained.learned;
+  damaged.mixing_state.resize(damaged.mixing_state.size() / 2);
+  write_model_file(damaged, path);
+  CHECK_THROWS_WITH_AS(config_from(config(again)), doctest::Contains("cut off"), InputError);
+  std::filesystem::remove(path);
 }
 
 TEST_CASE("a model file that is wrong is told of where the config names it") {

@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <pharos/config/module_loader.h>
 #include <pharos/core/error.h>
@@ -15,63 +16,19 @@
 #include <pharos/experiments/pictures/density_slice.h>
 #include <pharos/experiments/pictures/ellipsoid_picture.h>
 #include <pharos/experiments/pictures/scene_outline.h>
-#include <pharos/guiding/pipeline/model_file.h>
 #include <pharos/rendering/render_config.h>
 #include <pharos/rendering/scene_import.h>
 
 #include "commands.h"
 #include "inspect_options.h"
+#include "inspected_file.h"
 #include "threads.h"
 
 namespace pharos {
 namespace {
 
-/// A model and the header of its file.
-struct InspectedModel {
-  ModelHeader header;
-  std::shared_ptr<const GuidingModel> model;
-};
-
-InspectedModel read_model(const std::filesystem::path& path, const Registry& registry) {
-  try {
-    const ModelHeader header = read_model_header(path);
-    if (registry.find(Learner::contract_name, header.learner) == nullptr) {
-      throw InputError(fmt::format(
-          "the model file '{}' was learned by '{}', which no module "
-          "here has: there are {}",
-          path.string(), header.learner, quoted_list(registry.names(Learner::contract_name))));
-    }
-    BuildContext context{registry};
-    ConfigNode resolved;
-    const auto learner =
-        registry.build<Learner>(ConfigNode::scalar(header.learner), context, resolved);
-    return {header, read_model_file(path, *learner)};
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("pharos inspect: error: {}", error.what()));
-  }
-}
-
 std::string point_text(Point3 p) {
   return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x, p.y, p.z);
-}
-
-void print_facts(const InspectedModel& inspected) {
-  const GuidingModel& model = *inspected.model;
-  ModelInfo info = model.info();
-  const Bounds3 bounds = info.bounds;
-  std::vector<ModelFact> facts = {
-      {"model", fmt::format("{}, version {}", inspected.header.model, inspected.header.version)},
-      {"learner", inspected.header.learner},
-      {"saved", fmt::format("{} bytes", inspected.header.bytes)},
-      {"memory", fmt::format("{} bytes", info.bytes)},
-      {"bounds", bounds.empty()
-                     ? "none"
-                     : fmt::format("{} to {}", point_text(bounds.low), point_text(bounds.high))},
-      {"regions", std::to_string(info.regions)}};
-  for (ModelFact& fact : info.facts) facts.push_back(std::move(fact));
-  std::size_t width = 0;
-  for (const ModelFact& fact : facts) width = std::max(width, fact.name.size());
-  for (const ModelFact& fact : facts) fmt::print("{:<{}}  {}\n", fact.name, width, fact.value);
 }
 
 /// A scene and the size of its camera's film.
@@ -108,10 +65,11 @@ struct Picture {
 /// Makes the picture that the options request.
 class Inspection {
  public:
-  Inspection(const InspectOptions& options, const GuidingModel& model, const InspectedScene* scene)
-      : options_(options), model_(model), scene_(scene) {}
+  Inspection(const InspectOptions& options, const InspectedFile& file, const InspectedScene* scene)
+      : options_(options), file_(file), model_(*file.models[options.index]), scene_(scene) {}
 
   Picture picture() const {
+    if (options_.shares) return shares();
     if (!options_.slice.empty()) return slice();
     return options_.cloud ? cloud() : directions();
   }
@@ -150,7 +108,8 @@ class Inspection {
                     model_.info().name));
   }
 
-  Picture slice() const {
+  /// Returns the plane of the slice that was asked for. Its longer edge has `size` pixels.
+  SlicePlane plane(int size) const {
     const auto [axis, value] = parse_slice(options_.slice);
     const Bounds3 box = bounds();
     if (!(value >= box.low[axis] && value <= box.high[axis])) {
@@ -158,16 +117,54 @@ class Inspection {
                        fmt::format("expected a value within the model's bounds, {:.6g} to {:.6g}",
                                    box.low[axis], box.high[axis]));
     }
-    const SlicePlane plane = slice_plane(box, axis, value, options_.size);
-    Picture picture{
-        fmt::format("density at {} = {:.6g}, {}", kAxisNames[axis], value, plane.orientation()),
-        density_slice(model_, plane)};
+    return slice_plane(box, axis, value, size);
+  }
+
+  Picture slice() const {
+    const SlicePlane plane = this->plane(options_.size);
+    Picture picture{fmt::format("density at {} = {:.6g}, {}", kAxisNames[plane.axis],
+                                plane.corner[plane.axis], plane.orientation()),
+                    density_slice(model_, plane)};
     if (scene_ != nullptr) {
       picture.draw_over = [outline = scene_outline(scene_->scene, plane)](Image& colors) {
         draw_over(colors, outline);
       };
     }
     return picture;
+  }
+
+  /// Returns the shares of all techniques on a slice, in panels that fill the picture's width.
+  Picture shares() const {
+    const int columns = static_cast<int>(file_.mixing.methods.size()) + 1;
+    const SlicePlane plane = this->plane(std::max(16, options_.size / columns - kPanelGap));
+    std::string techniques = "unguided";
+    for (const LearnedMethod& method : file_.head.methods) {
+      techniques += ", " + file_.head.models[method.model].learner;
+    }
+    std::vector<ShownVertex> vertices;
+    for (const float roughness : kShownRoughness) vertices.push_back({roughness, options_.bounce});
+    Picture picture{
+        fmt::format("shares at {} = {:.6g}, {}; from left to right: {}; from top to bottom: "
+                    "roughness {:g}",
+                    kAxisNames[plane.axis], plane.corner[plane.axis], plane.orientation(),
+                    techniques, fmt::join(kShownRoughness, ", ")),
+        share_slices(file_.mixing, plane, vertices)};
+    picture.draw_over = [this, plane](Image& colors) { decorate_panels(colors, plane); };
+    return picture;
+  }
+
+  /// Makes the gaps between panels white, and draws the scene's outline over each panel.
+  void decorate_panels(Image& colors, const SlicePlane& plane) const {
+    const Image outline = scene_ == nullptr ? Image() : scene_outline(scene_->scene, plane);
+    Image coverage(colors.width(), colors.height(), {"Y"});
+    for (int y = 0; y < colors.height(); ++y) {
+      for (int x = 0; x < colors.width(); ++x) {
+        const int u = x % (plane.width + kPanelGap), v = y % (plane.height + kPanelGap);
+        const bool is_gap = u >= plane.width || v >= plane.height;
+        *coverage.pixel(x, y) = is_gap ? 1 : outline.empty() ? 0 : *outline.pixel(u, v);
+      }
+    }
+    draw_over(colors, coverage);
   }
 
   Picture directions() const {
@@ -195,6 +192,7 @@ class Inspection {
   }
 
   const InspectOptions& options_;
+  const InspectedFile& file_;
   const GuidingModel& model_;
   const InspectedScene* scene_;
 };
@@ -213,7 +211,7 @@ void write_picture(const Picture& picture, const InspectOptions& options) {
     log_info(fmt::format("{}: {}", options.output.string(), picture.caption));
     return;
   }
-  ColorScale scale = density_scale(picture.density);
+  ColorScale scale = options.shares ? ColorScale{0, 1} : density_scale(picture.density);
   if (const auto range = parse_range(options.range)) scale = {range->low, range->high, true};
   write_png(colored(picture, scale), options.output, 0, false);
   log_info(fmt::format("{}: {}, from {:.3g} to {:.3g}{}", options.output.string(), picture.caption,
@@ -223,10 +221,16 @@ void write_picture(const Picture& picture, const InspectOptions& options) {
 void inspect(const InspectOptions& options) {
   check_options(options);
   const Registry registry = load_default_modules();
-  const InspectedModel inspected = read_model(options.model, registry);
-  if (!options.wants_picture()) return print_facts(inspected);
+  const InspectedFile file = read_inspected(options.model, registry);
   const auto scene = read_scene(options.scene, registry);
-  const Inspection inspection(options, *inspected.model, scene.get());
+  if (!options.wants_picture()) {
+    return print_facts(file, scene == nullptr ? Bounds3() : scene->scene.bounds());
+  }
+  if (options.index >= file.models.size()) {
+    throw InputError(fmt::format("--index {}: error: the file has {} models, counted from 0",
+                                 options.index, file.models.size()));
+  }
+  const Inspection inspection(options, file, scene.get());
   if (!options.ellipsoids.empty()) {
     return write_png(inspection.ellipsoids(), options.output, 0, false);
   }
@@ -237,7 +241,7 @@ void inspect(const InspectOptions& options) {
 
 void add_inspect_command(CLI::App& app, int&) {
   CLI::App* command =
-      app.add_subcommand("inspect", "Tell of a learned model, or make a picture of it");
+      app.add_subcommand("inspect", "Tell of learned models, or make a picture of one");
   const auto options = std::make_shared<InspectOptions>();
   options->add_to(*command);
   command->callback([options] { with_threads(options->threads, [&] { inspect(*options); }); });

@@ -46,7 +46,6 @@ void check_picture_file(const InspectOptions& options) {
 /// Refuses options that describe a picture if no picture was requested.
 void refuse_without_picture(const InspectOptions& options) {
   const std::pair<const char*, bool> given[] = {{"--output", !options.output.empty()},
-                                                {"--scene", !options.scene.empty()},
                                                 {"--range", !options.range.empty()}};
   for (const auto& [name, is_given] : given) {
     if (!is_given) continue;
@@ -92,6 +91,15 @@ void InspectOptions::add_to(CLI::App& command) {
       ->excludes(slice_option)
       ->excludes(direction_option)
       ->excludes(cloud_option);
+  command
+      .add_flag("--shares", shares,
+                "The slice shows how sampling techniques share the samples, not a density")
+      ->needs(slice_option);
+  command.add_option("--bounce", bounce, "Number of the vertices of --shares; the first one is 1")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command.add_option("--index", index, "Number of the model in the file, from 0")
+      ->capture_default_str();
   command.add_option("-o,--output", output, "Picture (.png), or its numbers (.exr)");
   command.add_option("--scene", scene,
                      "Config or scene whose outline a slice shows, and whose view a cloud or "

@@ -28,6 +28,9 @@ struct InspectOptions {
   std::filesystem::path model;
   std::string slice, direction, ellipsoids, range;  ///< as typed; empty if not given
   bool cloud = false;
+  bool shares = false;       ///< of a slice
+  std::uint16_t bounce = 1;  ///< number of the vertices whose shares are shown
+  std::size_t index = 0;     ///< of the model in the file
   std::filesystem::path output, scene;
   int size = 1024;  ///< longer edge of the picture [pixels]
   int threads = 0;

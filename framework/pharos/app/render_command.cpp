@@ -67,8 +67,9 @@ void report(const RenderResult& result, const RenderConfig& config) {
                        result.samples_per_pixel, seconds,
                        static_cast<double>(result.counters.rays) / seconds * 1e-6,
                        result.stopped ? " (interrupted)" : ""));
-  if (!config.output.model.empty() && result.model == nullptr) {
-    log_warning(fmt::format("{}: not written, since nothing was learned", config.output.model));
+  if (!config.output.model.empty() && result.learned == nullptr) {
+    log_warning(fmt::format("{}: not written, since {} was learned", config.output.model,
+                            result.model_bytes > 0 ? "not every model" : "nothing"));
   }
   if (result.first_invalid) {
     const PathKey& key = *result.first_invalid;

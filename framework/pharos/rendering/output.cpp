@@ -36,8 +36,8 @@ void write_outputs(const RenderResult& result, const LoadedConfig& loaded) {
     write_png(result.image, std::filesystem::path(output.image).replace_extension(".png"),
               output.exposure, output.filmic);
   }
-  if (!output.model.empty() && result.model != nullptr) {
-    write_model_file(*result.model, result.learner, output.model);
+  if (!output.model.empty() && result.learned != nullptr) {
+    write_model_file(*result.learned, output.model);
   }
 }
 

@@ -112,7 +112,8 @@ void OutputSettings::describe(Schema<OutputSettings>& s) {
       .check("a name that ends in .exr", is_exr_or_empty);
   s.field("aovs", &OutputSettings::aovs, "Further layers of the EXR file")
       .check("each layer once", has_no_duplicates);
-  s.field("model", &OutputSettings::model, "File for the learned model of the first method");
+  s.field("model", &OutputSettings::model,
+          "File for what was learned: the models of all methods, and their mixing");
   s.field("png", &OutputSettings::png, "Whether to write a tone-mapped PNG beside the EXR file");
   s.field("exposure", &OutputSettings::exposure, "Exposure of the PNG").unit("stops");
   s.field("filmic", &OutputSettings::filmic,
@@ -136,7 +137,12 @@ LoadedConfig load_render_config(const std::filesystem::path& path,
                                 const std::vector<std::string>& overrides,
                                 const Registry& registry) {
   ConfigNode node = read_config_or_scene(path, registry);
-  for (const std::string& assignment : overrides) apply_override(node, assignment);
+  // Presets are expanded at once, so that an override can change what one of them states.
+  expand_preset(node, registry);
+  for (const std::string& assignment : overrides) {
+    apply_override(node, assignment);
+    expand_preset(node, registry);
+  }
   LoadedConfig loaded = build_render_config(node, registry);
   if (loaded.config.output.image.empty()) {
     loaded.config.output.image = path.stem().string() + ".exr";

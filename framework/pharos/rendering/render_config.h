@@ -50,7 +50,7 @@ struct FilmSettings {
 struct OutputSettings {
   std::string image;  ///< EXR file, relative to the current folder; the PNG is written beside it
   std::vector<Layer> aovs;
-  std::string model;  ///< file for the learned model of the first method; empty: not written
+  std::string model;  ///< file for what was learned; empty: not written
   bool png = true;
   float exposure = 0;  ///< exposure of the PNG [stops]
   bool filmic = true;  ///< whether the PNG has a filmic curve

@@ -152,7 +152,7 @@ class RenderJob::Implementation {
     if (guiding_ != nullptr) {
       result_.model_bytes = guiding_->model_bytes();
       result_.model = guiding_->model(0);
-      result_.learner = guiding_->learner_name(0);
+      result_.learned = guiding_->learned();
     }
     return std::move(result_);
   }
@@ -258,7 +258,7 @@ class RenderJob::Implementation {
   /// Updates the guides after a training iteration of `samples` samples per pixel.
   void update_guiding(std::uint32_t samples) {
     const double start = watch_.seconds();
-    if (guiding_->settles()) {
+    if (guiding_->may_end_training(schedule_->fraction(result_.samples_per_pixel, seconds()))) {
       schedule_->end_training();
       iteration_.training_left = 0;
     }

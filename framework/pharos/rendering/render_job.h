@@ -67,8 +67,9 @@ struct RenderResult {
   bool stopped = false;                       ///< whether RenderControl::stop ended it early
   std::size_t model_bytes = 0;                ///< size of the learned models
   std::shared_ptr<const GuidingModel> model;  ///< model of the first method; null if there is none
-  std::string learner;                        ///< plugin name of the learner of `model`
-  std::optional<PathKey> first_invalid;       ///< first path whose value is NaN or infinite
+  /// Everything that was learned; null if a method has learned nothing, and without guiding.
+  std::shared_ptr<const LearnedGuiding> learned;
+  std::optional<PathKey> first_invalid;  ///< first path whose value is NaN or infinite
 };
 
 /// Runs a render config. It divides the budget into iterations and passes, runs their work units on

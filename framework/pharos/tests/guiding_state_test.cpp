@@ -9,6 +9,8 @@
 #include <pharos/core/warp.h>
 #include <pharos/guiding/pipeline/guiding_state.h>
 
+#include "two_directions.h"
+
 namespace pharos {
 namespace {
 
@@ -275,6 +277,47 @@ TEST_CASE(
   CHECK(methods_at_lens(0) == std::vector<std::uint32_t>{0, 1, 2});
   CHECK(methods_at_lens(2) == std::vector<std::uint32_t>{2});
   CHECK(methods_at_lens(3).empty());
+}
+
+/// Ends an iteration of paths that a guide has drawn. Returns whether training may end.
+bool may_end(GuidingState& state, double guide, double spent, std::uint64_t seed) {
+  for (std::uint64_t unit = 0; unit < 100; ++unit) {
+    state.absorb(test::guided_paths(guide, 1000, 100 * seed + unit));
+  }
+  return state.may_end_training(spent);
+}
+
+TEST_CASE("guiding state: training ends when the gain has settled, and goes on without limits") {
+  GuidingSettings own = settings();
+  for (const double tolerance : {0.0, 0.02}) {
+    own.training.tolerance = tolerance;
+    GuidingState state(own, {});
+    CHECK_FALSE(may_end(state, 0.5, 0.1, 1));
+    state.update({0, 1});
+    CHECK_FALSE(may_end(state, 0.9, 0.2, 2));
+    state.update({1, 1});
+    CHECK(may_end(state, 0.9, 0.3, 3) == (tolerance > 0));
+    state.update({2, 0});
+    CHECK(state.frame() != nullptr);
+  }
+}
+
+TEST_CASE("guiding state: a guide that hardly helps is off after training, which ends early") {
+  GuidingSettings own = settings();
+  for (const double least : {0.1, 0.2}) {
+    REQUIRE(test::expected_gain(0.9) == doctest::Approx(0.125).epsilon(0.01));
+    own.training.least_gain = least;
+    own.training.trial = 0.25;
+    GuidingState state(own, {});
+    CHECK_FALSE(may_end(state, 0.5, 0.1, 1));
+    state.update({0, 1});
+    CHECK_FALSE(may_end(state, 0.9, 0.2, 2));
+    state.update({1, 1});
+    CHECK(state.frame() != nullptr);  // it may still improve
+    CHECK(may_end(state, 0.9, 0.3, 3) == (least > 0.125));
+    state.update({2, 0});
+    CHECK((state.frame() == nullptr) == (least > 0.125));
+  }
 }
 
 }  // namespace pharos

@@ -74,29 +74,56 @@ std::string refusal(const TemporaryFolder& folder, const std::string& bytes,
   return input_error_in(folder, [&] { read_model_file(path, *learner_from(learner)); });
 }
 
-/// Returns the bytes of a file with the model `number` of the learner 'counting'.
+/// Returns the bytes of a file with the model `number` of the learner 'counting' and a mixing
+/// policy that has learned "even".
 std::string sound_file(const TemporaryFolder& folder, std::uint32_t number = 7) {
-  write_model_file(NumberModel(number), "counting", folder / "sound.model");
+  write_model_file({.models = {{"counting", std::make_shared<NumberModel>(number)}},
+                    .methods = {{0, 1}},
+                    .mixing = "fair",
+                    .mixing_state = "even"},
+                   folder / "sound.model");
   return content(folder / "sound.model");
 }
 
-/// The offsets of the fields after the names [bytes].
-constexpr std::size_t kVersionAt = 8 + 4 + (4 + 8) + (4 + 8), kLengthAt = kVersionAt + 4,
-                      kModelAt = kLengthAt + 8;
+/// The offsets of some fields [bytes].
+constexpr std::size_t kVersionAt = 8 + 4 + 8 + (8 + 8) + (8 + 8), kLengthAt = kVersionAt + 4,
+                      kMethodsAt = kLengthAt + 8, kMixingAt = kMethodsAt + 8 + 4 + 4,
+                      kMixingLengthAt = kMixingAt + 8 + 4, kModelAt = kMixingLengthAt + 8;
 
 }  // namespace
 
 TEST_CASE("model files: what was written is read") {
   const TemporaryFolder folder;
-  sound_file(folder);
-  const ModelHeader header = read_model_header(folder / "sound.model");
-  CHECK(header.learner == "counting");
-  CHECK(header.model == "a_number");
-  CHECK(header.version == 3);
-  CHECK(header.bytes == 4);
+  CHECK(sound_file(folder).size() == kModelAt + 4 + 4);
+  const ModelFileHead head = read_model_head(folder / "sound.model");
+  REQUIRE(head.models.size() == 1);
+  CHECK(head.models[0].learner == "counting");
+  CHECK(head.models[0].model == "a_number");
+  CHECK(head.models[0].version == 3);
+  CHECK(head.models[0].bytes == 4);
+  CHECK(head.methods.size() == 1);
+  CHECK(head.mixing == "fair");
+  CHECK(read_mixing_state(folder / "sound.model") == "even");
   const auto model = read_model_file(folder / "sound.model", *learner_from("counting"));
   CHECK(model->density(Point3{}) == 7);
-  CHECK(content(folder / "sound.model").size() == kModelAt + 4);
+}
+
+TEST_CASE("model files: several models, chosen by their learner and their order") {
+  const TemporaryFolder folder;
+  const auto number = [](std::uint32_t n) { return std::make_shared<NumberModel>(n); };
+  write_model_file(
+      {.models = {{"counting", number(1)}, {"guessing", number(2)}, {"counting", number(3)}},
+       .methods = {{0, 1}, {2, 0.5f}, {1, 2}}},
+      folder / "three.model");
+  const auto read = [&](const char* learner, std::size_t skip) {
+    return read_model_file(folder / "three.model", *learner_from(learner), skip)->density(Point3{});
+  };
+  CHECK(read("counting", 0) == 1);
+  CHECK(read("guessing", 0) == 2);
+  CHECK(read("counting", 1) == 3);
+  CHECK_THROWS_AS(read("counting", 2), InputError);
+  CHECK(read_model_head(folder / "three.model").methods[1].model == 2);
+  CHECK(read_mixing_state(folder / "three.model").empty());
 }
 
 TEST_CASE("model files: cut off anywhere, or too long") {
@@ -109,10 +136,12 @@ TEST_CASE("model files: cut off anywhere, or too long") {
     CHECK(message.find("the model file 'changed.model' is ") == 0);
     CHECK((message.find("is cut off") != std::string::npos) == (length >= 8));
   }
-  CHECK(refusal(folder, sound.substr(0, kModelAt + 1)) ==
-        "the model file 'changed.model' is cut off: it has 1 of 4 bytes");
+  CHECK(
+      refusal(folder, sound.substr(0, kModelAt + 1)) ==
+      "the model file 'changed.model' is cut off: it has 1 bytes after its head, too few for what "
+      "the head lists");
   CHECK(refusal(folder, sound + "more") ==
-        "the model file 'changed.model' goes on for 4 bytes after its model");
+        "the model file 'changed.model' goes on for 4 bytes after its end");
 }
 
 TEST_CASE("model files: damaged heads") {
@@ -123,12 +152,16 @@ TEST_CASE("model files: damaged heads") {
     return refusal(folder, bytes);
   };
   CHECK(changed(0, 'P') == "the model file 'changed.model' is no model of Pharos");
-  CHECK(changed(8, 1) == "the model file 'changed.model' is of form 1; this Pharos reads form 2");
-  CHECK(changed(13, 2) == "the model file 'changed.model' has a damaged head");
+  CHECK(changed(8, 2) == "the model file 'changed.model' is of form 2; this Pharos reads form 3");
+  CHECK(changed(8 + 4 + 8 + 3, 2) == "the model file 'changed.model' is cut off in its head");
   CHECK(changed(kVersionAt, 2) ==
         "the model file 'changed.model' holds version 2 of the model 'a_number'; the learner "
         "'counting' reads version 3");
-  CHECK(changed(kLengthAt + 7, 1).find("is cut off: it has 4 of ") != std::string::npos);
+  for (const std::size_t length : {kLengthAt, kMixingLengthAt}) {
+    CHECK(changed(length + 7, 1).find("is cut off: it has 8 bytes") != std::string::npos);
+    CHECK(changed(length + 7, '\xff').find("is cut off: it has 8 bytes") != std::string::npos);
+  }
+  CHECK(changed(kMethodsAt + 8, 1) == "the model file 'changed.model' has a damaged head");
   CHECK(refusal(folder, "") == "the model file 'changed.model' is no model of Pharos");
 }
 
@@ -150,11 +183,13 @@ TEST_CASE("model files: what the model makes of the rest") {
   const TemporaryFolder folder;
   CHECK(refusal(folder, sound_file(folder, 0)) ==
         "the model file 'changed.model' cannot be read: the number is damaged");
-  std::string longer = sound_file(folder) + "more";
+  // The length of the model takes from or gives to what the policy has learned.
+  std::string longer = sound_file(folder), shorter = longer;
   longer[kLengthAt] = 8;
+  longer[kMixingLengthAt] = 0;
   CHECK(refusal(folder, longer) == "the model file 'changed.model' holds more than its model");
-  std::string shorter = sound_file(folder).substr(0, kModelAt + 2);
   shorter[kLengthAt] = 2;
+  shorter[kMixingLengthAt] = 6;
   CHECK(refusal(folder, shorter) ==
         "the model file 'changed.model' cannot be read: what was saved is cut off");
 }
@@ -163,15 +198,15 @@ TEST_CASE("model files: no files") {
   const TemporaryFolder folder;
   sound_file(folder);
   const auto read = [&](const char* name) {
-    return input_error_in(folder, [&] { read_model_header(folder / name); });
+    return input_error_in(folder, [&] { read_model_head(folder / name); });
   };
   CHECK(read("sund.model") ==
         "the model file 'sund.model': no such file (did you mean 'sound.model'?)");
-  CHECK(input_error([&] { read_model_header(folder.path()); }).find("found a folder") !=
+  CHECK(input_error([&] { read_model_head(folder.path()); }).find("found a folder") !=
         std::string::npos);
-  CHECK(input_error([] { read_model_header("/dev/zero"); }).find("pipe or device") !=
+  CHECK(input_error([] { read_model_head("/dev/zero"); }).find("pipe or device") !=
         std::string::npos);
-  CHECK_THROWS_AS(write_model_file(NumberModel(1), "counting", folder / "none" / "x"), RunError);
+  CHECK_THROWS_AS(write_model_file({}, folder / "none" / "x"), RunError);
 }
 
 }  // namespace pharos::test

@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <map>
 
 #include <pharos/config/registry.h>
 #include <pharos/guiding/pipeline/guiding_settings.h>
+#include <pharos/guiding/pipeline/guiding_state.h>
 #include <pharos/guiding/pipeline/model_file.h>
 
 namespace pharos {
@@ -10,15 +12,46 @@ namespace {
 constexpr const char* kModelHelp =
     "File of a learned model, which then guides from the start; nothing is learned";
 
-/// Reads the model file of a method, if it has one. `stated` is the config of the method.
-template <class Method>
-void read_model(Method& method, const ConfigNode& stated) {
-  if (method.model_file.empty() || method.learner == nullptr) return;
+/// Calls `read`. An error in a model file is reported where `stated` names the file.
+template <class Read>
+void at_model_key(const ConfigNode& stated, Read&& read) {
   try {
-    method.model = read_model_file(method.model_file, *method.learner);
+    read();
   } catch (const InputError& error) {
     stated.find("model")->fail(error.what());
   }
+}
+
+/// Reads the model files of a list of methods. If `common` is not empty, it is the file of the
+/// methods that have none of their own.
+void read_models(std::vector<GuidingMethod>& methods, const std::filesystem::path& common,
+                 const ConfigNode& stated) {
+  std::map<std::string, std::size_t> read_from_common;  // by learner
+  for (std::size_t i = 0; i < methods.size(); ++i) {
+    GuidingMethod& method = methods[i];
+    if (method.learner == nullptr) continue;
+    const bool has_own = !method.model_file.empty();
+    if (!has_own) method.model_file = common;
+    if (method.model_file.empty()) continue;
+    at_model_key(has_own ? stated.find("methods")->items()[i] : stated, [&] {
+      const std::size_t skip = has_own ? 0 : read_from_common[method.learner->plugin_name()]++;
+      method.model = read_model_file(method.model_file, *method.learner, skip);
+    });
+  }
+}
+
+/// Returns what the mixing policy of `settings` has learned according to the model file, if all
+/// models come from the same file and were mixed by the same policy; otherwise an empty text.
+std::string find_mixing_state(const GuidingSettings& settings) {
+  const std::vector<GuidingMethod> methods = settings.resolved_methods();
+  const std::filesystem::path& file = methods.front().model_file;
+  for (const GuidingMethod& method : methods) {
+    if (!method.shares_model() && method.model_file != file) return "";
+  }
+  const ModelFileHead head = read_model_head(file);
+  const bool fits =
+      head.mixing == settings.mixing->plugin_name() && head.methods.size() == methods.size();
+  return fits ? read_mixing_state(file) : "";
 }
 
 Schema<GuidingSettings> described() {
@@ -43,7 +76,9 @@ void GuidingMethod::describe(Schema<GuidingMethod>& s) {
 void GuidingSettings::describe(Schema<GuidingSettings>& s) {
   s.field("learner", &GuidingSettings::learner, "Turns recorded paths into a model");
   s.field("guider", &GuidingSettings::guider, "Samples the model");
-  s.field("model", &GuidingSettings::model_file, kModelHelp);
+  s.field("model", &GuidingSettings::model_file,
+          "File of what was learned: models of all methods, and their mixing. They guide from the "
+          "start, and nothing is learned");
   s.field("methods", &GuidingSettings::methods,
           "List of several methods, instead of a single learner and guider");
   s.field("mixing", &GuidingSettings::mixing, "How guided and unguided sampling share the samples")
@@ -53,7 +88,8 @@ void GuidingSettings::describe(Schema<GuidingSettings>& s) {
 }
 
 std::vector<GuidingMethod> GuidingSettings::resolved_methods() const {
-  const bool in_place = learner != nullptr || guider != nullptr || !model_file.empty();
+  const bool in_place =
+      learner != nullptr || guider != nullptr || (!model_file.empty() && methods.empty());
   if (in_place == !methods.empty()) {
     throw InputError("guiding needs either a learner and a guider, or a list of methods");
   }
@@ -87,9 +123,23 @@ GuidingSettings Value<GuidingSettings>::read(const ConfigNode& node, BuildContex
                                              ConfigNode& resolved) {
   resolved = ConfigNode::mapping();
   GuidingSettings settings = described().read(node, context, resolved);
-  read_model(settings, node);
-  for (std::size_t i = 0; i < settings.methods.size(); ++i) {
-    read_model(settings.methods[i], node.find("methods")->items()[i]);
+  if (settings.learner != nullptr && !settings.model_file.empty()) {
+    at_model_key(node,
+                 [&] { settings.model = read_model_file(settings.model_file, *settings.learner); });
+  }
+  read_models(settings.methods, settings.model_file, node);
+  bool learns = true;
+  try {
+    learns = settings.learns();
+  } catch (const InputError& error) {
+    node.fail(error.what());
+  }
+  if (!learns) {
+    const bool in_methods = settings.model_file.empty();
+    at_model_key(in_methods ? node.find("methods")->items().front() : node, [&] {
+      settings.mixing_state = find_mixing_state(settings);
+      GuidingState(settings, {});  // checks what was learned
+    });
   }
   return settings;
 }

@@ -38,10 +38,14 @@ struct GuidingSettings {
 
   Ref<Learner> learner;
   Ref<Guider> guider;
-  std::filesystem::path model_file;           ///< of the method in place; see GuidingMethod
+  /// Of the method in place, or of all methods that have no file of their own.
+  std::filesystem::path model_file;
   std::shared_ptr<const GuidingModel> model;  ///< of the method in place; see GuidingMethod
   std::vector<GuidingMethod> methods;
   Ref<MixingPolicy> mixing;
+  /// What `mixing` has learned, as MixingState::archive() saves it. It comes from the model file if
+  /// all models do, and if the policy of that file was the same; otherwise it is empty.
+  std::string mixing_state;
   TrainingSettings training;
 
   static void describe(Schema<GuidingSettings>& schema);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <numeric>
+#include <sstream>
 #include <utility>
 
 #include <pharos/core/error.h>
@@ -67,18 +68,22 @@ struct GuidingState::Source {
 };
 
 GuidingState::GuidingState(const GuidingSettings& settings, const LearningContext& context)
-    : tolerance_(settings.training.tolerance) {
-  if (tolerance_ > 0) gain_.emplace();
+    : policy_(settings.mixing), training_(settings.training) {
+  if (training_.tolerance > 0 || training_.least_gain > 0) gain_.emplace();
   std::vector<float> weights;
   for (const GuidingMethod& method : settings.resolved_methods()) {
     LearningContext own = context;
     own.seed = hash_combine(context.seed, sources_.size());
     if (!method.shares_model()) sources_.emplace_back(method, own);
-    users_.push_back({method.guider, sources_.size() - 1});
+    users_.push_back({method.guider, sources_.size() - 1, method.weight});
     weights.push_back(method.weight);
   }
   mixing_ = settings.mixing->begin(weights);
   mixing_->update(regions(), {}, false);
+  if (!settings.mixing_state.empty()) {
+    std::istringstream in(settings.mixing_state);
+    load(in, *mixing_);
+  }
   rebuild_frame();
 }
 
@@ -95,6 +100,16 @@ void GuidingState::absorb(const PathLog& log) {
   }
 }
 
+bool GuidingState::may_end_training(double spent) {
+  if (!gain_) return false;
+  const bool is_settled = gain_->end_iteration(training_.tolerance);
+  return is_settled || (spent >= training_.trial && is_useless());
+}
+
+bool GuidingState::is_useless() const {
+  return gain_ && frame_ != nullptr && gain_->value() < training_.least_gain;
+}
+
 void GuidingState::update(const TrainingStage& stage) {
   std::vector<std::uint32_t> origins;
   std::uint32_t first = 0;
@@ -105,6 +120,7 @@ void GuidingState::update(const TrainingStage& stage) {
   }
   mixing_->update(static_cast<std::uint32_t>(origins.size()), origins, stage.is_last());
   last_samples_ = std::exchange(samples_, 0);
+  is_off_ = stage.is_last() && is_useless();
   rebuild_frame();
 }
 
@@ -137,7 +153,7 @@ void GuidingState::rebuild_frame() {
     method.first_region = first_regions[user.source];
     is_any_asked |= is_asked;
   }
-  frame_ = is_any_asked
+  frame_ = is_any_asked && !is_off_
                ? std::make_shared<const GuidingFrame>(std::move(methods), std::move(shares))
                : nullptr;
 }
@@ -146,8 +162,20 @@ std::shared_ptr<const GuidingModel> GuidingState::model(std::size_t i) const {
   return sources_[users_[i].source].model;
 }
 
-const std::string& GuidingState::learner_name(std::size_t i) const {
-  return sources_[users_[i].source].learner->plugin_name();
+std::unique_ptr<const LearnedGuiding> GuidingState::learned() const {
+  auto learned = std::make_unique<LearnedGuiding>();
+  for (const Source& source : sources_) {
+    if (source.model == nullptr) return nullptr;
+    learned->models.push_back({source.learner->plugin_name(), source.model});
+  }
+  for (const User& user : users_) {
+    learned->methods.push_back({static_cast<std::uint32_t>(user.source), user.weight});
+  }
+  learned->mixing = policy_->plugin_name();
+  std::ostringstream out;
+  save(out, *mixing_);
+  learned->mixing_state = std::move(out).str();
+  return learned;
 }
 
 std::size_t GuidingState::model_bytes() const {
@@ -163,7 +191,7 @@ void GuidingState::archive(Archive& archive) {
   for (Source& source : sources_) source.archive(archive);
   if (archive.loads()) mixing_->update(regions(), {}, false);
   mixing_->archive(archive);
-  archive(samples_, last_samples_);
+  archive(samples_, last_samples_, is_off_);
   if (gain_) gain_->archive(archive);
   if (archive.loads()) rebuild_frame();
 }

@@ -8,6 +8,7 @@
 #include <pharos/guiding/pipeline/guiding_frame.h>
 #include <pharos/guiding/pipeline/guiding_settings.h>
 #include <pharos/guiding/pipeline/held_out_gain.h>
+#include <pharos/guiding/pipeline/model_file.h>
 
 namespace pharos {
 
@@ -18,14 +19,14 @@ class GuidingState {
   GuidingState(const GuidingSettings& settings, const LearningContext& context);
   ~GuidingState();
 
-  /// Returns the frame that guides the next iteration; null as long as nothing is known, and if the
-  /// mixing policy asks no method. The frame uses the guiders of the settings and must not outlive
-  /// the settings.
+  /// Returns the frame that guides the next iteration; null as long as nothing is known, if the
+  /// mixing policy asks no method, and if the gain of the guides is too small in the end. The frame
+  /// uses the guiders of the settings and must not outlive the settings.
   std::shared_ptr<const GuidingFrame> frame() const { return frame_; }
   void absorb(const PathLog& log);
-  /// Ends the recording of an iteration. Returns whether training may end, because the guides
-  /// hardly explain its paths better than the guides before; see TrainingSettings::tolerance.
-  bool settles() { return gain_ && gain_->settles(tolerance_); }
+  /// Ends the recording of an iteration. `spent` is the share of the budget that was spent. Returns
+  /// whether training may end, because the gain of the guides has settled or is too small to go on.
+  bool may_end_training(double spent);
   void update(const TrainingStage& stage);
 
   /// Returns the number of training samples of the last iteration for each region of the largest
@@ -34,8 +35,8 @@ class GuidingState {
 
   /// Returns the newest model of method `i`; null if there is none yet.
   std::shared_ptr<const GuidingModel> model(std::size_t i) const;
-  /// Returns the plugin name of the learner of method `i`.
-  const std::string& learner_name(std::size_t i) const;
+  /// Returns everything that was learned; null as long as a method has no model.
+  std::unique_ptr<const LearnedGuiding> learned() const;
   /// Returns the memory that all models use [bytes].
   std::size_t model_bytes() const;
 
@@ -49,15 +50,20 @@ class GuidingState {
   struct User {
     Ref<Guider> guider;
     std::size_t source;
+    float weight;
   };
+  /// Returns whether the last iteration was guided, and its gain was too small.
+  bool is_useless() const;
   std::uint32_t regions() const;
   void rebuild_frame();
 
   std::vector<Source> sources_;
   std::vector<User> users_;
+  Ref<MixingPolicy> policy_;
   std::unique_ptr<MixingState> mixing_;
-  double tolerance_;
-  std::optional<HeldOutGain> gain_;  ///< none if training never ends early
+  TrainingSettings training_;
+  std::optional<HeldOutGain> gain_;  ///< none if its value has no consequences
+  bool is_off_ = false;              ///< guiding does not pay
   std::uint64_t samples_ = 0;        ///< training samples of the current iteration
   std::uint64_t last_samples_ = 0;   ///< training samples of the last iteration
   std::shared_ptr<const GuidingFrame> frame_;

@@ -40,12 +40,12 @@ HeldOutGain::Gain HeldOutGain::gain() const {
   return {ratio, std::max(squares, 0.0) / (sums_.weight * sums_.weight)};
 }
 
-bool HeldOutGain::settles(double tolerance) {
+bool HeldOutGain::end_iteration(double tolerance) {
   const Gain before = std::exchange(last_, gain());
   const bool had_last = std::exchange(has_last_, sums_.weight > 0);
   sums_ = {};
   const double error = std::sqrt(before.variance + last_.variance);
-  return had_last && has_last_ && last_.mean - before.mean + 2 * error < tolerance;
+  return had_last && has_last_ && std::abs(last_.mean - before.mean) + 2 * error < tolerance;
 }
 
 }  // namespace pharos

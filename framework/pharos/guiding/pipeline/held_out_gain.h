@@ -17,9 +17,10 @@ class HeldOutGain {
   /// Takes the recorded paths of one work unit. The units give the standard error.
   void absorb(const PathLog& log);
 
-  /// Ends an iteration. Returns whether its gain surpasses that of the iteration before by less
-  /// than `tolerance`, with two standard errors to spare; false after the first iteration.
-  bool settles(double tolerance);
+  /// Ends an iteration. Returns whether the gain has settled: it differs from the gain of the
+  /// iteration before by less than `tolerance`, with two standard errors to spare. False after the
+  /// first iteration.
+  bool end_iteration(double tolerance);
   /// Returns the gain of the last iteration.
   double value() const { return last_.mean; }
 

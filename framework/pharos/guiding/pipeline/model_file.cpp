@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <sstream>
@@ -13,25 +14,13 @@ namespace pharos {
 namespace {
 
 constexpr std::array<char, 8> kMagic{'p', 'h', 'a', 'r', 'o', 's', 'g', 'm'};
-constexpr std::uint32_t kForm = 2;
-/// Largest length of a name [bytes]. It prevents a damaged length from allocating too much memory.
-constexpr std::uint32_t kLongestName = 256;
+constexpr std::uint32_t kForm = 3;
 
 [[noreturn]] void fail(const std::filesystem::path& path, const std::string& what) {
   throw InputError(fmt::format("the model file '{}' {}", path.string(), what));
 }
 
-template <class T>
-void write_number(std::ostream& out, T number) {
-  out.write(reinterpret_cast<const char*>(&number), sizeof number);
-}
-
-void write_name(std::ostream& out, std::string_view name) {
-  write_number(out, static_cast<std::uint32_t>(name.size()));
-  out.write(name.data(), static_cast<std::streamsize>(name.size()));
-}
-
-/// Reads a model file from the beginning, one field at a time.
+/// Reads parts of a model file after its head.
 class FileReader {
  public:
   explicit FileReader(const std::filesystem::path& path) : path_(path) {
@@ -39,72 +28,100 @@ class FileReader {
       throw InputError(fmt::format("the model file '{}': {}", path.string(), problem));
     }
     in_.open(path, std::ios::binary);
-    size_ = std::filesystem::file_size(path);
+    read_head();
+    check_size(std::filesystem::file_size(path));
   }
 
-  ModelHeader header() {
-    if (size_ < kMagic.size() || number<std::array<char, 8>>() != kMagic) {
-      fail(path_, "is no model of Pharos");
+  const ModelFileHead& head() const { return head_; }
+
+  std::string model(std::size_t index) {
+    std::uint64_t skipped = 0;
+    for (std::size_t i = 0; i < index; ++i) skipped += head_.models[i].bytes;
+    return bytes(skipped, head_.models[index].bytes);
+  }
+  std::string mixing() { return bytes(model_bytes(), head_.mixing_bytes); }
+
+ private:
+  void read_head() {
+    std::array<char, kMagic.size()> magic{};
+    in_.read(magic.data(), magic.size());
+    if (!in_ || magic != kMagic) fail(path_, "is no model of Pharos");
+    Archive archive(in_);
+    try {
+      std::uint32_t form = 0;
+      archive(form);
+      if (form != kForm) {
+        fail(path_, fmt::format("is of form {}; this Pharos reads form {}", form, kForm));
+      }
+      archive(head_);
+    } catch (const InputError&) {
+      if (!in_) fail(path_, "is cut off in its head");
+      throw;
     }
-    if (const auto form = number<std::uint32_t>(); form != kForm) {
-      fail(path_, fmt::format("is of form {}; this Pharos reads form {}", form, kForm));
-    }
-    ModelHeader header;
-    header.learner = name();
-    header.model = name();
-    header.version = number<std::uint32_t>();
-    header.bytes = number<std::uint64_t>();
-    check_rest(header.bytes);
-    return header;
+    data_begin_ = static_cast<std::uint64_t>(in_.tellg());
+    const bool is_sound =
+        !head_.models.empty() && !head_.methods.empty() &&
+        std::all_of(head_.methods.begin(), head_.methods.end(), [&](const LearnedMethod& method) {
+          return method.model < head_.models.size() && method.weight > 0;
+        });
+    if (!is_sound) fail(path_, "has a damaged head");
   }
 
-  /// Returns the `bytes` bytes after the head. check_rest() has checked that they exist.
-  std::string rest(std::uint64_t bytes) {
-    std::string text(bytes, '\0');
-    in_.read(text.data(), static_cast<std::streamsize>(bytes));
+  std::uint64_t model_bytes() const {
+    std::uint64_t sum = 0;
+    for (const ModelHeader& model : head_.models) sum += model.bytes;
+    return sum;
+  }
+
+  void check_size(std::uint64_t size) const {
+    const std::uint64_t found = size - data_begin_;
+    std::uint64_t left = found;
+    for (const ModelHeader& model : head_.models) {
+      if (left < model.bytes) fail_short(found);
+      left -= model.bytes;
+    }
+    if (left < head_.mixing_bytes) fail_short(found);
+    left -= head_.mixing_bytes;
+    if (left > 0) fail(path_, fmt::format("goes on for {} bytes after its end", left));
+  }
+  [[noreturn]] void fail_short(std::uint64_t found) const {
+    fail(path_, fmt::format("is cut off: it has {} bytes after its head, too few for what the "
+                            "head lists",
+                            found));
+  }
+
+  /// check_size() has checked that the bytes exist.
+  std::string bytes(std::uint64_t skipped, std::uint64_t count) {
+    std::string text(count, '\0');
+    in_.seekg(static_cast<std::streamoff>(data_begin_ + skipped));
+    in_.read(text.data(), static_cast<std::streamsize>(count));
     if (!in_) fail(path_, "cannot be read");
     return text;
   }
 
- private:
-  template <class T>
-  T number() {
-    T value{};
-    in_.read(reinterpret_cast<char*>(&value), sizeof value);
-    if (!in_) fail(path_, "is cut off in its head");
-    return value;
-  }
-
-  std::string name() {
-    const auto length = number<std::uint32_t>();
-    if (length > kLongestName) fail(path_, "has a damaged head");
-    std::string text(length, '\0');
-    in_.read(text.data(), length);
-    if (!in_) fail(path_, "is cut off in its head");
-    return text;
-  }
-
-  void check_rest(std::uint64_t expected) {
-    const std::uint64_t found = size_ - static_cast<std::uint64_t>(in_.tellg());
-    if (found < expected) {
-      fail(path_, fmt::format("is cut off: it has {} of {} bytes", found, expected));
-    }
-    if (found > expected) {
-      fail(path_, fmt::format("goes on for {} bytes after its model", found - expected));
-    }
-  }
-
   std::filesystem::path path_;
   std::ifstream in_;
-  std::uint64_t size_ = 0;
+  ModelFileHead head_;
+  std::uint64_t data_begin_ = 0;
 };
 
-void check_learner(const std::filesystem::path& path, const ModelHeader& header,
-                   const Learner& learner, const ModelInfo& known) {
-  if (header.learner != learner.plugin_name()) {
-    fail(path, fmt::format("was learned by '{}', which the learner '{}' cannot read",
-                           header.learner, learner.plugin_name()));
+/// Returns the number of the model that read_model_file() looks for.
+std::size_t find_model(const std::filesystem::path& path, const ModelFileHead& head,
+                       const Learner& learner, std::size_t skip) {
+  std::vector<std::string> others;
+  for (std::size_t i = 0; i < head.models.size(); ++i) {
+    const std::string& own = head.models[i].learner;
+    if (own == learner.plugin_name()) {
+      if (skip-- == 0) return i;
+    }
+    others.push_back(own);
   }
+  fail(path, fmt::format("was learned by {}, which the learner '{}' cannot read",
+                         quoted_list(others), learner.plugin_name()));
+}
+
+void check_kind(const std::filesystem::path& path, const ModelHeader& header,
+                const ModelInfo& known) {
   if (header.model != known.name) {
     fail(path, fmt::format("holds a model '{}'; the learner '{}' reads models '{}'", header.model,
                            header.learner, known.name));
@@ -117,37 +134,43 @@ void check_learner(const std::filesystem::path& path, const ModelHeader& header,
 
 }  // namespace
 
-void write_model_file(const GuidingModel& model, std::string_view learner,
-                      const std::filesystem::path& path) {
-  std::ostringstream saved;
-  save(saved, model);
-  const std::string bytes = std::move(saved).str();
-  const ModelInfo info = model.info();
+void write_model_file(const LearnedGuiding& learned, const std::filesystem::path& path) {
+  ModelFileHead head{.methods = learned.methods,
+                     .mixing = learned.mixing,
+                     .mixing_bytes = learned.mixing_state.size()};
+  std::string data;
+  for (const LearnedModel& each : learned.models) {
+    std::ostringstream saved;
+    save(saved, *each.model);
+    const std::string bytes = std::move(saved).str();
+    const ModelInfo info = each.model->info();
+    head.models.push_back({each.learner, info.name, info.version, bytes.size()});
+    data += bytes;
+  }
+  data += learned.mixing_state;
   write_atomically(path, [&](const std::filesystem::path& temporary) {
     std::ofstream out(temporary, std::ios::binary);
     out.write(kMagic.data(), kMagic.size());
-    write_number(out, kForm);
-    write_name(out, learner);
-    write_name(out, info.name);
-    write_number(out, info.version);
-    write_number(out, static_cast<std::uint64_t>(bytes.size()));
-    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    std::uint32_t form = kForm;
+    Archive archive(out);
+    archive(form, head);
+    out.write(data.data(), static_cast<std::streamsize>(data.size()));
     out.flush();
     if (!out) throw RunError(fmt::format("cannot write '{}'", path.string()));
   });
 }
 
-ModelHeader read_model_header(const std::filesystem::path& path) {
-  return FileReader(path).header();
+ModelFileHead read_model_head(const std::filesystem::path& path) {
+  return FileReader(path).head();
 }
 
 std::shared_ptr<const GuidingModel> read_model_file(const std::filesystem::path& path,
-                                                    const Learner& learner) {
+                                                    const Learner& learner, std::size_t skip) {
   FileReader file(path);
-  const ModelHeader header = file.header();
+  const std::size_t index = find_model(path, file.head(), learner, skip);
   std::shared_ptr<GuidingModel> model = learner.empty_model();
-  check_learner(path, header, learner, model->info());
-  std::istringstream in(file.rest(header.bytes));
+  check_kind(path, file.head().models[index], model->info());
+  std::istringstream in(file.model(index));
   try {
     load(in, *model);
   } catch (const InputError& error) {
@@ -155,6 +178,10 @@ std::shared_ptr<const GuidingModel> read_model_file(const std::filesystem::path&
   }
   if (in.peek() != std::istringstream::traits_type::eof()) fail(path, "holds more than its model");
   return model;
+}
+
+std::string read_mixing_state(const std::filesystem::path& path) {
+  return FileReader(path).mixing();
 }
 
 }  // namespace pharos

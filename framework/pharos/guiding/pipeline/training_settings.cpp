@@ -24,10 +24,21 @@ void TrainingSettings::describe(Schema<TrainingSettings>& s) {
           "iterations that would have fewer are longer")
       .at_least(0);
   s.field("tolerance", &TrainingSettings::tolerance,
-          "Training ends once the guides explain the light of an iteration better than the guides "
-          "before by less than this; 0: it uses up its share")
+          "Training ends once the gain of the guides, by which they explain new light better than "
+          "unguided sampling, changes by less than this from one iteration to the next; 0: it uses "
+          "up its share")
       .unit("nats")
       .at_least(0);
+  s.field("least_gain", &TrainingSettings::least_gain,
+          "The final image is not guided if the gain of the guides is less than this; 0: it always "
+          "is")
+      .unit("nats")
+      .at_least(0);
+  s.field("trial", &TrainingSettings::trial,
+          "Training ends if the gain is less than `least_gain` when this share of the budget is "
+          "spent")
+      .at_least(0)
+      .at_most(1);
 }
 
 }  // namespace pharos

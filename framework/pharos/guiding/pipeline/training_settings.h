@@ -33,9 +33,14 @@ struct TrainingSettings {
   std::uint32_t latest_images = 1001;
   /// Least mean number of training samples for each region of the largest model in an iteration.
   double region_samples = 32;
-  /// Training ends once the gain of the guides rises by less than this from one iteration to the
+  /// Training ends once the gain of the guides changes by less than this from one iteration to the
   /// next [nats]; see HeldOutGain. 0: it ends only with its share.
   double tolerance = 0;
+  /// The final image is not guided if the gain of the guides is less than this [nats]. 0: always
+  /// guided.
+  double least_gain = 0;
+  /// Training ends if the gain is less than `least_gain` when this share of the budget is spent.
+  double trial = 1.0 / 16;
 
   static void describe(Schema<TrainingSettings>& schema);
 };
