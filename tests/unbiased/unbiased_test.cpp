@@ -211,10 +211,21 @@ std::vector<Method> simplex_methods() {
           simplex("two", two, "least: 0.05, unguided: 0.3, worth: 1", "discard")};
 }
 
+/// Returns the preset `robust` as it is, and with trainings whose ends depend on what they found.
+std::vector<Method> robust_methods() {
+  return {
+      {"robust", {"=robust"}},
+      {"robust, soon settled", {"=robust", ".training.tolerance=0.5", ".training.least_gain=0"}},
+      {"robust, short trial", {"=robust", ".training.trial=0.1", ".training.least_gain=0.1"}}};
+}
+
+/// A setting of `guiding` begins with the separator that follows `integrator.guiding`, "." if it
+/// has none.
 LoadedConfig load(const std::filesystem::path& config, const std::vector<std::string>& guiding,
                   std::vector<std::string> overrides = {}) {
   for (const std::string& setting : guiding) {
-    overrides.push_back("integrator.guiding." + setting);
+    const bool is_complete = setting.front() == '=' || setting.front() == '.';
+    overrides.push_back((is_complete ? "integrator.guiding" : "integrator.guiding.") + setting);
   }
   return load_render_config(config, overrides, registry());
 }
@@ -289,6 +300,10 @@ TEST_CASE("unbiased: three methods with learned shares under strips of light") {
   compare_proof("strip-lights", {simplex_methods().front()});
 }
 
+TEST_CASE("unbiased: robust guiding, whose training ends where it pays no more") {
+  compare_proof("standing-light", {robust_methods()[1]});
+}
+
 TEST_CASE("unbiased: vertex triplets in fog, with paths from lights") {
   compare_proof("fog-box", {triplet_methods(1).back()});
 }
@@ -346,6 +361,16 @@ TEST_CASE("long: learned shares are unbiased in the proof variant metalwork") {
 }
 TEST_CASE("long: learned shares are unbiased in the proof variant haze") {
   compare_proof("haze", simplex_methods());
+}
+
+TEST_CASE("long: robust guiding is unbiased in the proof variant standing-light") {
+  compare_proof("standing-light", robust_methods());
+}
+TEST_CASE("long: robust guiding is unbiased in the proof variant mirror-chamber") {
+  compare_proof("mirror-chamber", robust_methods());
+}
+TEST_CASE("long: robust guiding is unbiased in the proof variant pool") {
+  compare_proof("pool", robust_methods());
 }
 
 TEST_CASE("long: SD-trees are unbiased in the proof variant camera-obscura") {
