@@ -23,9 +23,10 @@ std::string resolved(const std::string& yaml) {
 }
 
 TEST_CASE("presets: the name of a preset gives the same config as laying it below") {
-  for (const auto& [name, file] : find_presets(registry())) {
+  for (const auto& entry : find_presets(registry())) {
+    const std::string& name = entry.first;
     CAPTURE(name);
-    const ConfigNode preset = read_config(file);
+    const ConfigNode preset = read_config(entry.second);
     const bool states_type = preset.find("integrator")->find("type") != nullptr;
     const std::string own = states_type ? "max_depth: 7" : "type: path, max_depth: 7";
     const ConfigNode over = parse_yaml(cornell(own), "over");
