@@ -1,4 +1,4 @@
-#include <algorithm>
+#include <cmath>
 
 #include <pharos/rendering/image_combiner.h>
 
@@ -30,6 +30,7 @@ Image ImageCombiner::combine() const {
   double total = 0;
   for (const Weighted& w : images_) total += weight(w);
   const Image& first = images_.front().layers;
+  const Weighted& last = images_.back();
   const int variance = first.channel_index("variance.R");
   const int samples = first.channel_index("samples.N");
   Image result(first.width(), first.height(), first.channels());
@@ -40,7 +41,11 @@ Image ImageCombiner::combine() const {
         for (int c = 0; c < first.channel_count(); ++c) {
           const bool is_variance = c >= variance && c < variance + 3;
           const float factor = c == samples ? 1.0f : is_variance ? share * share : share;
-          result.pixel(x, y)[c] += factor * w.layers.pixel(x, y)[c];
+          float value = w.layers.pixel(x, y)[c];
+          if (is_variance && !std::isfinite(value)) {
+            value = last.layers.pixel(x, y)[c] * static_cast<float>(last.samples() / w.samples());
+          }
+          result.pixel(x, y)[c] += factor * value;
         }
       }
     }

@@ -28,13 +28,15 @@ class ImageCombiner {
   /// were taken before it, whether or not their images were added.
   void add(const Film& film, double before);
   bool empty() const { return images_.empty(); }
-  /// Returns the combination. There must be at least one image.
+  /// Returns the combination. There must be at least one image. An image of a single pass has no
+  /// estimate of its variance; its samples are taken to be as noisy as those of the last image.
   Image combine() const;
 
  private:
   struct Weighted {
     Image layers;
     double begin, end;  ///< range of its samples among all samples of a pixel
+    double samples() const { return end - begin; }
   };
   std::uint32_t latest_;
   std::vector<Weighted> images_;

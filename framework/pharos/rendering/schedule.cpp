@@ -55,7 +55,7 @@ std::optional<Iteration> Schedule::next(const Spending& spending) {
   if (budget_.spp) {
     iteration.samples = is_last ? training_samples_ - spending.samples : wanted(spending);
   } else if (kind_ == ScheduleKind::uniform) {
-    iteration.least_samples = spending.region_minimum;
+    if (!is_last) iteration.least_samples = spending.region_minimum;
     iteration.deadline = training_seconds_ - (count - 1) * cost(wanted(spending), spending);
   } else {
     if (!is_last) iteration.samples = wanted(spending);

@@ -187,7 +187,7 @@ Film noisy(float sigma, std::uint64_t passes, std::uint64_t seed) {
   return film;
 }
 
-TEST_CASE("images combine by the places of their samples, whatever their variance") {
+TEST_CASE("images combine by when their samples were taken, whatever their variance") {
   double mean_value = 0, squares = 0, stated = 0;
   const int runs = 200;
   const double pixels = runs * kSize * kSize;
@@ -236,6 +236,22 @@ TEST_CASE("images of guides that know little count less, and only the latest are
   CHECK(combined(3) == doctest::Approx((0.5 + 1.5 * 2 + 60 * 3) / 62));
   CHECK(combined(2) == doctest::Approx((1.5 * 2 + 60 * 3) / 61.5));
   CHECK(combined(1) == doctest::Approx(3));
+}
+
+TEST_CASE("an image of a single pass has the variance of the last image per sample") {
+  ImageCombiner combiner(2);
+  const Film single = noisy(1, 1, 1), many = noisy(1, 63, 2);
+  combiner.add(single, 0);
+  combiner.add(many, 1);
+  const Image last = many.layers(), image = combiner.combine();
+  const int variance = image.channel_index("variance.R");
+  CHECK(std::isinf(single.layers().pixel(4, 4)[variance]));
+  const double per_sample = 63.0 * last.pixel(4, 4)[variance];
+  const double first_weight = 0.125, total_weight = 62;
+  const double expected = (first_weight * first_weight +
+                           (total_weight - first_weight) * (total_weight - first_weight) / 63) *
+                          per_sample / (total_weight * total_weight);
+  CHECK(image.pixel(4, 4)[variance] == doctest::Approx(expected).epsilon(1e-4));
 }
 
 TEST_CASE("the sum of the weights does not depend on where training ends") {

@@ -163,6 +163,12 @@ TEST_CASE("model files: damaged heads") {
   }
   CHECK(changed(kMethodsAt + 8, 1) == "the model file 'changed.model' has a damaged head");
   CHECK(refusal(folder, "") == "the model file 'changed.model' is no model of Pharos");
+  // No render has so many methods, and policies make room for no more.
+  write_model_file({.models = {{"counting", std::make_shared<NumberModel>(7)}},
+                    .methods = std::vector<LearnedMethod>(9)},
+                   folder / "many.model");
+  CHECK(refusal(folder, content(folder / "many.model")) ==
+        "the model file 'changed.model' has a damaged head");
 }
 
 TEST_CASE("model files: of another learner, of another kind or of another version") {

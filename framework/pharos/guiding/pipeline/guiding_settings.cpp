@@ -40,17 +40,33 @@ void read_models(std::vector<GuidingMethod>& methods, const std::filesystem::pat
   }
 }
 
-/// Returns what the mixing policy of `settings` has learned according to the model file, if all
-/// models come from the same file and were mixed by the same policy; otherwise an empty text.
+/// Returns whether the methods of a model file have the same learners and share models in the same
+/// way as `methods`.
+bool same_methods(const ModelFileHead& head, const std::vector<GuidingMethod>& methods) {
+  if (head.methods.size() != methods.size()) return false;
+  std::uint32_t model = 0;
+  for (std::size_t i = 0; i < methods.size(); ++i) {
+    if (i > 0 && !methods[i].shares_model()) ++model;
+    if (head.methods[i].model != model) return false;
+    if (!methods[i].shares_model() &&
+        head.models[model].learner != methods[i].learner->plugin_name()) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Returns what the mixing policy of `settings` has learned according to the model file, if one
+/// file serves all methods and was written by the same methods and policy; otherwise an empty text.
 std::string find_mixing_state(const GuidingSettings& settings) {
+  const std::filesystem::path& file = settings.model_file;
+  if (file.empty()) return "";
   const std::vector<GuidingMethod> methods = settings.resolved_methods();
-  const std::filesystem::path& file = methods.front().model_file;
   for (const GuidingMethod& method : methods) {
     if (!method.shares_model() && method.model_file != file) return "";
   }
   const ModelFileHead head = read_model_head(file);
-  const bool fits =
-      head.mixing == settings.mixing->plugin_name() && head.methods.size() == methods.size();
+  const bool fits = head.mixing == settings.mixing->plugin_name() && same_methods(head, methods);
   return fits ? read_mixing_state(file) : "";
 }
 
@@ -135,8 +151,8 @@ GuidingSettings Value<GuidingSettings>::read(const ConfigNode& node, BuildContex
     node.fail(error.what());
   }
   if (!learns) {
-    const bool in_methods = settings.model_file.empty();
-    at_model_key(in_methods ? node.find("methods")->items().front() : node, [&] {
+    if (settings.model_file.empty()) return settings;
+    at_model_key(node, [&] {
       settings.mixing_state = find_mixing_state(settings);
       GuidingState(settings, {});  // checks what was learned
     });

@@ -43,8 +43,8 @@ struct GuidingSettings {
   std::shared_ptr<const GuidingModel> model;  ///< of the method in place; see GuidingMethod
   std::vector<GuidingMethod> methods;
   Ref<MixingPolicy> mixing;
-  /// What `mixing` has learned, as MixingState::archive() saves it. It comes from the model file if
-  /// all models do, and if the policy of that file was the same; otherwise it is empty.
+  /// What `mixing` has learned, as MixingState::archive() saves it. It comes from `model_file` if
+  /// that serves all methods and was written by the same methods and policy; otherwise it is empty.
   std::string mixing_state;
   TrainingSettings training;
 

@@ -94,20 +94,21 @@ void GuidingState::absorb(const PathLog& log) {
     if (source.state != nullptr) source.state->absorb(log);
   }
   mixing_->absorb(log);
-  if (gain_) gain_->absorb(log);
+  if (gain_ && frame_ != nullptr) gain_->absorb(log);
   for (std::size_t i = 0; i < log.size(); ++i) {
     for (const RecordedVertex& vertex : log[i].vertices) samples_ += vertex.guidable ? 1 : 0;
   }
 }
 
 bool GuidingState::may_end_training(double spent) {
-  if (!gain_) return false;
+  // Iterations without guides say nothing about guides.
+  if (!gain_ || frame_ == nullptr) return false;
   const bool is_settled = gain_->end_iteration(training_.tolerance);
   return is_settled || (spent >= training_.trial && is_useless());
 }
 
 bool GuidingState::is_useless() const {
-  return gain_ && frame_ != nullptr && gain_->value() < training_.least_gain;
+  return gain_ && frame_ != nullptr && gain_->is_below(training_.least_gain);
 }
 
 void GuidingState::update(const TrainingStage& stage) {

@@ -17,10 +17,11 @@ void HeldOutGain::absorb(const PathLog& log) {
       const auto techniques = path.techniques(vertex);
       const double weight = mean(vertex.throughput * vertex.local_weight * incident_[k]);
       if (!vertex.guidable || techniques.empty() || !(weight > 0)) continue;
-      const double ratio = vertex.pdf / techniques[0].density;
-      if (!std::isfinite(ratio) || !std::isfinite(weight)) continue;
+      const double log_ratio =
+          std::log(double{vertex.pdf}) - std::log(double{techniques[0].density});
+      if (!std::isfinite(log_ratio) || !std::isfinite(weight)) continue;
       weights += weight;
-      logs += weight * std::log(ratio);
+      logs += weight * log_ratio;
     }
   }
   sums_.weight += weights;
@@ -28,24 +29,30 @@ void HeldOutGain::absorb(const PathLog& log) {
   sums_.weight_squared += weights * weights;
   sums_.log_squared += logs * logs;
   sums_.product += weights * logs;
+  ++sums_.units;
 }
 
 /// Returns the ratio of the sums. Its variance is that of a ratio of means over work units, to
 /// first order.
 HeldOutGain::Gain HeldOutGain::gain() const {
-  if (!(sums_.weight > 0)) return {};
+  if (!is_measured()) return {};
   const double ratio = sums_.log / sums_.weight;
   const double squares =
       sums_.log_squared - 2 * ratio * sums_.product + ratio * ratio * sums_.weight_squared;
-  return {ratio, std::max(squares, 0.0) / (sums_.weight * sums_.weight)};
+  const auto units = static_cast<double>(sums_.units);
+  return {ratio, units / (units - 1) * std::max(squares, 0.0) / (sums_.weight * sums_.weight)};
 }
 
 bool HeldOutGain::end_iteration(double tolerance) {
   const Gain before = std::exchange(last_, gain());
-  const bool had_last = std::exchange(has_last_, sums_.weight > 0);
+  const bool had_last = std::exchange(has_last_, is_measured());
   sums_ = {};
   const double error = std::sqrt(before.variance + last_.variance);
   return had_last && has_last_ && std::abs(last_.mean - before.mean) + 2 * error < tolerance;
+}
+
+bool HeldOutGain::is_below(double least) const {
+  return has_last_ && last_.mean + 2 * std::sqrt(last_.variance) < least;
 }
 
 }  // namespace pharos

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include <pharos/guiding/record/path_record.h>
@@ -21,7 +22,10 @@ class HeldOutGain {
   /// iteration before by less than `tolerance`, with two standard errors to spare. False after the
   /// first iteration.
   bool end_iteration(double tolerance);
-  /// Returns the gain of the last iteration.
+  /// Returns whether the gain of the last iteration is less than `least`, with two standard errors
+  /// to spare. False if the iteration found no light.
+  bool is_below(double least) const;
+  /// Returns the gain of the last iteration; 0 if it found no light.
   double value() const { return last_.mean; }
 
   void archive(Archive& archive) { archive(sums_, last_, has_last_); }
@@ -30,12 +34,17 @@ class HeldOutGain {
   struct Sums {
     double weight = 0, log = 0;  ///< sums of w and of w log(p / p_u) over work units
     double weight_squared = 0, log_squared = 0, product = 0;
-    void archive(Archive& archive) { archive(weight, log, weight_squared, log_squared, product); }
+    std::uint64_t units = 0;
+    void archive(Archive& archive) {
+      archive(weight, log, weight_squared, log_squared, product, units);
+    }
   };
   struct Gain {
     double mean = 0, variance = 0;
     void archive(Archive& archive) { archive(mean, variance); }
   };
+  /// Returns whether the current iteration has found light in enough work units for an error.
+  bool is_measured() const { return sums_.weight > 0 && sums_.units > 1; }
   Gain gain() const;
 
   Sums sums_;

@@ -8,6 +8,7 @@
 #include <pharos/core/archive.h>
 #include <pharos/core/atomic_file.h>
 #include <pharos/core/error.h>
+#include <pharos/guiding/pipeline/guiding_settings.h>
 #include <pharos/guiding/pipeline/model_file.h>
 
 namespace pharos {
@@ -47,20 +48,21 @@ class FileReader {
     in_.read(magic.data(), magic.size());
     if (!in_ || magic != kMagic) fail(path_, "is no model of Pharos");
     Archive archive(in_);
+    std::uint32_t form = 0;
     try {
-      std::uint32_t form = 0;
       archive(form);
-      if (form != kForm) {
-        fail(path_, fmt::format("is of form {}; this Pharos reads form {}", form, kForm));
-      }
-      archive(head_);
+      if (form == kForm) archive(head_);
     } catch (const InputError&) {
       if (!in_) fail(path_, "is cut off in its head");
-      throw;
+      fail(path_, "has a damaged head");
+    }
+    if (form != kForm) {
+      fail(path_, fmt::format("is of form {}; this Pharos reads form {}", form, kForm));
     }
     data_begin_ = static_cast<std::uint64_t>(in_.tellg());
     const bool is_sound =
         !head_.models.empty() && !head_.methods.empty() &&
+        head_.methods.size() <= GuidingSettings::kMostMethods &&
         std::all_of(head_.methods.begin(), head_.methods.end(), [&](const LearnedMethod& method) {
           return method.model < head_.models.size() && method.weight > 0;
         });

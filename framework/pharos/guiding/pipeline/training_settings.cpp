@@ -20,7 +20,8 @@ void TrainingSettings::describe(Schema<TrainingSettings>& s) {
       .at_least(1)
       .at_most(1001);
   s.field("region_samples", &TrainingSettings::region_samples,
-          "Least mean number of training samples for each region of a model in an iteration; "
+          "Least mean number of training samples for each region of the largest model in an "
+          "iteration; "
           "iterations that would have fewer are longer")
       .at_least(0);
   s.field("tolerance", &TrainingSettings::tolerance,
