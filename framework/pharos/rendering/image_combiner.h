@@ -10,15 +10,15 @@ namespace pharos {
 
 /// Combines images of the same scene that were rendered one after another, while guides learned.
 ///
-/// Sample number s of a pixel, of N in all, has the weight min(1, 16 s / N): full weight if the
-/// guides had learned from at least a sixteenth of all samples, and less before, because the images
-/// of guides that know little may be much noisier. If all images are equally noisy, the weights
-/// cost 2 % of the variance.
+/// Sample number s of a pixel, of N in all, has the weight min(1, 16 s / N). Guides that have
+/// learned from less than a sixteenth of all samples may make much noisier images, so these count
+/// less. If all images are equally noisy, the variance is 2 % larger than with equal weights.
 ///
-/// These weights are unbiased, because they depend on nothing that an image shows, even if what
-/// was found decides when an iteration ends. Weights by inverse variance would be biased, whichever
-/// part of the image the variance is taken from: what one image happens to find lowers the variance
-/// of the next ones.
+/// The weights depend on nothing that an image shows, so the combination is unbiased. As long as no
+/// image is left out, this holds even if the iterations end where their paths decide, because the
+/// sum of all weights stays the same. Weights by inverse variance would be biased, whichever part
+/// of the image the variance is taken from: guides learn from an image, and so what it happens to
+/// find lowers the variance of the images after it.
 class ImageCombiner {
  public:
   /// Only the `latest` images are combined; at least 1.
@@ -29,7 +29,7 @@ class ImageCombiner {
   void add(const Film& film, double before);
   bool empty() const { return images_.empty(); }
   /// Returns the combination. There must be at least one image. An image of a single pass has no
-  /// estimate of its variance; its samples are taken to be as noisy as those of the last image.
+  /// estimate of its variance; its samples are assumed to be as noisy as those of the last image.
   Image combine() const;
 
  private:

@@ -9,24 +9,13 @@
 #include <pharos/core/error.h>
 #include <pharos/core/parallel.h>
 #include <pharos/rendering/image_combiner.h>
+#include <pharos/rendering/pass_sizes.h>
 #include <pharos/rendering/render_job.h>
 #include <pharos/rendering/schedule.h>
 #include <pharos/rendering/window_sensor.h>
 
 namespace pharos {
 namespace {
-
-/// Smallest number of passes of an iteration: enough for an estimate of variance.
-constexpr std::uint32_t kPasses = 8;
-/// Largest number of samples per pixel in a work unit. It limits how long a unit takes, and so how
-/// soon a render stops.
-constexpr std::uint32_t kUnitSamples = 64;
-/// The same for units whose paths are recorded. It limits the memory of logs.
-constexpr std::uint32_t kRecordedUnitSamples = 4;
-
-std::uint32_t unit_samples(const Iteration& iteration) {
-  return iteration.training ? kRecordedUnitSamples : kUnitSamples;
-}
 
 /// Measures wall-clock time without pauses.
 class Stopwatch {
@@ -47,10 +36,6 @@ class Stopwatch {
 
   Clock::time_point start_ = Clock::now();
 };
-
-std::uint32_t round_up(std::uint32_t value, std::uint32_t granule) {
-  return (value + granule - 1) / granule * granule;
-}
 
 /// Returns the parts of the whole film's tiles that lie in `window`.
 std::vector<PixelRect> tiles_of(const PixelRect& window, int edge) {
@@ -75,43 +60,6 @@ SceneParts with_sensor(SceneParts parts, const Ref<Sensor>& sensor) {
   if (sensor != nullptr) parts.sensor = sensor;
   return parts;
 }
-
-/// Chooses the number of samples per pixel of each pass of an iteration. Passes start small, and
-/// each pass doubles the number of samples done, up to a limit. There is thus soon an image to
-/// show, and the sums are powers of two.
-class PassSizes {
- public:
-  /// `now` is the time at which the iteration begins, on the clock of its deadline.
-  PassSizes(const Iteration& iteration, std::uint32_t granule, double now)
-      : iteration_(iteration),
-        limit_(largest(iteration, granule)),
-        size_(granule),
-        start_(now),
-        planned_seconds_(iteration.deadline - now) {}
-
-  /// Returns the size of the next pass after `done` samples at the time `now`; 0 if the iteration
-  /// is over. Passes of timed iterations double only while a pass takes less than 1/128 of the
-  /// iteration's time. A timed iteration ends if it misses the deadline by less now than after
-  /// another pass. The time of a pass is estimated from all passes so far, because a single one may
-  /// have been delayed.
-  std::uint32_t next(std::uint32_t done, double now) {
-    const double pass = done > 0 ? (now - start_) * size_ / done : 0;
-    const bool is_late = iteration_.deadline - now < pass / 2;
-    if (is_late && done >= iteration_.least_samples) return 0;
-    if (pass * 128 < planned_seconds_) size_ = std::clamp(done, size_, limit_);
-    return std::min(size_, iteration_.samples - done);
-  }
-
- private:
-  static std::uint32_t largest(const Iteration& iteration, std::uint32_t granule) {
-    const std::uint32_t wanted = iteration.samples / kPasses + (iteration.samples % kPasses != 0);
-    return round_up(std::min(wanted, unit_samples(iteration)), granule);
-  }
-
-  const Iteration& iteration_;
-  std::uint32_t limit_, size_;
-  double start_, planned_seconds_;
-};
 
 }  // namespace
 
@@ -164,11 +112,11 @@ class RenderJob::Implementation {
     }
     begin({});
     while (begin_iteration()) {
-      if (index_ == key.iteration) return integrator_->replay(key, context());
+      if (iteration_.index == key.iteration) return integrator_->replay(key, context());
       run_iteration();
     }
-    throw InputError(
-        fmt::format("there is no iteration {}: this render has {}", key.iteration, index_ + 1));
+    throw InputError(fmt::format("there is no iteration {}: this render has {}", key.iteration,
+                                 iteration_.index + 1));
   }
 
   const RenderConfig& config() const { return config_; }
@@ -181,7 +129,6 @@ class RenderJob::Implementation {
     result_ = {};
     schedule_.emplace(schedule());
     spending_ = {};
-    next_index_ = 0;
     combiner_ = ImageCombiner(training_.latest_images);
     has_image_ = false;
     last_image_ = make_film().layers();
@@ -209,7 +156,6 @@ class RenderJob::Implementation {
     const std::optional<Iteration> next = schedule_->next(spending_);
     if (!next) return false;
     iteration_ = *next;
-    index_ = next_index_++;
     return true;
   }
 
@@ -262,7 +208,7 @@ class RenderJob::Implementation {
       schedule_->end_training();
       iteration_.training_left = 0;
     }
-    const TrainingStage stage{index_, iteration_.training_left};
+    const TrainingStage stage{iteration_.index, iteration_.training_left};
     guiding_->update(stage);
     if (stage.is_last()) spare_logs_.clear();
     frame_ = guiding_->frame();
@@ -313,7 +259,7 @@ class RenderJob::Implementation {
     const auto unit = [&](std::size_t i) {
       const auto done = static_cast<std::uint32_t>(i / tiles_.size()) * chunk;
       return WorkUnit{.pixels = tiles_[i % tiles_.size()],
-                      .iteration = index_,
+                      .iteration = iteration_.index,
                       .first_sample = first_sample + done,
                       .sample_count = std::min(chunk, size - done)};
     };
@@ -350,8 +296,9 @@ class RenderJob::Implementation {
   /// Returns the progress after `samples` samples per pixel of the current iteration.
   Progress progress(double samples) const {
     const double all = result_.samples_per_pixel + samples;
-    return {.iteration = index_,
-            .iteration_count = index_ + iteration_.training_left + (iteration_.training ? 2 : 1),
+    return {.iteration = iteration_.index,
+            .iteration_count =
+                iteration_.index + iteration_.training_left + (iteration_.training ? 2 : 1),
             .training = iteration_.training,
             .fraction = schedule_->fraction(all, seconds()),
             .seconds = seconds(),
@@ -376,7 +323,6 @@ class RenderJob::Implementation {
   std::optional<Schedule> schedule_;
   Spending spending_;
   Iteration iteration_;  ///< the current one
-  std::uint32_t index_ = 0, next_index_ = 0;
   ImageCombiner combiner_{1};
   Image last_image_;
   bool has_image_ = false;  ///< `last_image_` shows at least one whole pass

@@ -45,13 +45,13 @@ std::optional<Iteration> Schedule::next(const Spending& spending) {
   if (over_) return std::nullopt;
   if (training_over_) {
     over_ = true;
-    if (budget_.seconds) return Iteration{.deadline = *budget_.seconds};
-    return Iteration{.samples = *budget_.spp - spending.samples};
+    if (budget_.seconds) return Iteration{.index = index_, .deadline = *budget_.seconds};
+    return Iteration{.index = index_, .samples = *budget_.spp - spending.samples};
   }
   // Learners were told that this iteration follows, so there is one even if nothing is left for it.
   const std::uint32_t count = std::max(1u, fitting(spending));
   const bool is_last = count == 1;
-  Iteration iteration{.training = true, .training_left = count - 1};
+  Iteration iteration{.index = index_++, .training = true, .training_left = count - 1};
   if (budget_.spp) {
     iteration.samples = is_last ? training_samples_ - spending.samples : wanted(spending);
   } else if (kind_ == ScheduleKind::uniform) {
@@ -62,7 +62,6 @@ std::optional<Iteration> Schedule::next(const Spending& spending) {
     iteration.deadline = training_seconds_ - spending.update_seconds;
   }
   size_ = wanted(spending);
-  ++index_;
   training_over_ = is_last;
   return iteration;
 }

@@ -12,7 +12,8 @@ namespace pharos {
 /// One iteration of a render. It renders an image of its own, and the guides are frozen meanwhile.
 /// It ends after `samples` or at `deadline`, whichever comes first, but not before `least_samples`.
 struct Iteration {
-  bool training = false;  ///< paths are recorded and the models are updated afterward
+  std::uint32_t index = 0;  ///< number of iterations before it
+  bool training = false;    ///< paths are recorded and the models are updated afterward
   /// Samples per pixel.
   std::uint32_t samples = std::numeric_limits<std::uint32_t>::max();
   std::uint32_t least_samples = 1;  ///< per pixel
@@ -39,8 +40,8 @@ struct Spending {
 ///
 /// - `uniform` training has `iterations` parts of equal size.
 /// - `geometric` training doubles the samples from one iteration to the next. With a time budget it
-///   begins with one sample per pixel, and the last training iteration takes what is left of the
-///   training's share when the next one would not fit.
+///   begins with one sample per pixel. If another iteration of twice the size would not fit after
+///   an iteration, that iteration is the last one and uses all the time left for training.
 ///
 /// An iteration that would give the models' regions too few samples is longer, so there are fewer.
 /// If the budget does not suffice, there are fewer iterations, too. The samples that training

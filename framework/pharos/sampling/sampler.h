@@ -100,7 +100,9 @@ struct PixelGrid {
 /// The seed and the number of samples that will be taken.
 struct SamplePlan {
   std::uint64_t seed = 0;
-  std::uint32_t samples_per_pixel = 0;  ///< in the longest iteration; 0: unknown (time budget)
+  /// In the longest iteration, as planned before the render; 0: unknown (time budget). If training
+  /// ends early, the final image has more.
+  std::uint32_t samples_per_pixel = 0;
 };
 
 /// Contract: a source of primary numbers. Samplers differ in how they arrange the numbers of

@@ -38,13 +38,14 @@ struct GuidingSettings {
 
   Ref<Learner> learner;
   Ref<Guider> guider;
-  /// Of the method in place, or of all methods that have no file of their own.
+  /// The model file of the method in place, or of all entries of `methods` that name none.
   std::filesystem::path model_file;
   std::shared_ptr<const GuidingModel> model;  ///< of the method in place; see GuidingMethod
   std::vector<GuidingMethod> methods;
   Ref<MixingPolicy> mixing;
-  /// What `mixing` has learned, as MixingState::archive() saves it. It comes from `model_file` if
-  /// that serves all methods and was written by the same methods and policy; otherwise it is empty.
+  /// The learned state of `mixing`, as MixingState::archive() saves it. It is read from
+  /// `model_file` if all models come from this file and if the same methods and policy wrote it;
+  /// otherwise it is empty.
   std::string mixing_state;
   TrainingSettings training;
 

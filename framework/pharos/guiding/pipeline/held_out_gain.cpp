@@ -32,7 +32,7 @@ void HeldOutGain::absorb(const PathLog& log) {
   ++sums_.units;
 }
 
-/// Returns the ratio of the sums. Its variance is that of a ratio of means over work units, to
+/// Returns the ratio of the sums, and the variance of a ratio of two means over work units, to
 /// first order.
 HeldOutGain::Gain HeldOutGain::gain() const {
   if (!is_measured()) return {};

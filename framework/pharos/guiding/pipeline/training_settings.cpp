@@ -21,8 +21,7 @@ void TrainingSettings::describe(Schema<TrainingSettings>& s) {
       .at_most(1001);
   s.field("region_samples", &TrainingSettings::region_samples,
           "Least mean number of training samples for each region of the largest model in an "
-          "iteration; "
-          "iterations that would have fewer are longer")
+          "iteration; iterations that would have fewer are longer")
       .at_least(0);
   s.field("tolerance", &TrainingSettings::tolerance,
           "Training ends once the gain of the guides, by which they explain new light better than "

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+
+#include <pharos/rendering/schedule.h>
+
+namespace pharos {
+
+/// Returns the largest number of samples per pixel in a work unit of an iteration.
+std::uint32_t unit_samples(const Iteration& iteration);
+
+/// Chooses the number of samples per pixel of each pass of an iteration. Passes start small, and
+/// each pass doubles the number of samples done, up to a limit. There is thus soon an image to
+/// show, and the sums are powers of two.
+class PassSizes {
+ public:
+  /// The smallest pass has `granule` samples. `now` is the time at which the iteration begins, on
+  /// the clock of its deadline [s].
+  PassSizes(const Iteration& iteration, std::uint32_t granule, double now);
+
+  /// Returns the size of the next pass after `done` samples at the time `now` [s]; 0 if the
+  /// iteration is over. Passes of timed iterations double only while a pass takes less than 1/128
+  /// of the iteration's time. A timed iteration ends if it misses the deadline by less now than
+  /// after another pass. The time of a pass is estimated from all passes so far, because a single
+  /// one may have been delayed.
+  std::uint32_t next(std::uint32_t done, double now);
+
+ private:
+  Iteration iteration_;
+  std::uint32_t limit_, size_;
+  double start_, planned_seconds_;
+};
+
+}  // namespace pharos
