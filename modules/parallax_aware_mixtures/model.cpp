@@ -2,9 +2,25 @@
 
 #include <fmt/format.h>
 
+#include <pharos/core/warp.h>
+
 #include "seen_lobes.h"
 
 namespace pharos::parallax_aware_mixtures {
+namespace {
+
+class LobeRadiance final : public RadianceAround {
+ public:
+  explicit LobeRadiance(const SeenLobes& lobes) : lobes_(lobes) {}
+  float relative(Vec3 direction) const override {
+    return lobes_.density(direction) / warp::sphere_pdf();
+  }
+
+ private:
+  const SeenLobes& lobes_;
+};
+
+}  // namespace
 
 ParallaxAwareMixturesModel::ParallaxAwareMixturesModel(KdTree tree, const std::vector<Cell>& cells)
     : tree_(std::move(tree)), places_{{}} {
@@ -57,6 +73,16 @@ double ParallaxAwareMixturesModel::density(Point3 point, const Vec3* direction) 
   Arena arena;
   const SeenLobes* seen = SeenLobes::make(groups(cell), offset(cell, point), {}, arena);
   return seen == nullptr ? 0 : seen->density(*direction);
+}
+
+// The lobes are fitted to samples that are weighted by radiance over density, without the BSDF.
+const RadianceAround* ParallaxAwareMixturesModel::radiance_around(const GuidingQuery& query,
+                                                                  Arena& arena) const {
+  const std::span<const LobeGroup> lobes = groups(query.region);
+  if (lobes.empty()) return nullptr;
+  const SeenLobes* seen =
+      SeenLobes::make(lobes, offset(query.region, query.current.position), {}, arena);
+  return seen == nullptr ? nullptr : arena.make<LobeRadiance>(*seen);
 }
 
 }  // namespace pharos::parallax_aware_mixtures

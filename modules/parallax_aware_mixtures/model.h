@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <pharos/guiding/contract/model.h>
+#include <pharos/guiding/contract/radiance_estimate.h>
 #include <pharos/guiding/toolkit/kd_tree.h>
 
 #include "lobe_mixture.h"
@@ -13,7 +14,7 @@ namespace pharos::parallax_aware_mixtures {
 
 /// A mixture of von Mises-Fisher lobes for each cell of a kd-tree, with the distances of the lobes'
 /// lights. The regions are the cells. A cell without data has no lobes.
-class ParallaxAwareMixturesModel final : public GuidingModel {
+class ParallaxAwareMixturesModel final : public GuidingModel, public RadianceEstimate {
  public:
   static constexpr std::string_view kName = "parallax_aware_mixtures";
 
@@ -38,6 +39,8 @@ class ParallaxAwareMixturesModel final : public GuidingModel {
   /// If `direction` is null, returns the number of samples of the point's cell, because the
   /// distances of lobes are too inaccurate for a density of points.
   double density(Point3 point, const Vec3* direction) const override;
+  RadianceTraits radiance_traits() const override { return {.around = true}; }
+  const RadianceAround* radiance_around(const GuidingQuery& query, Arena& arena) const override;
 
   /// Returns the lobes of a cell. It returns none if nothing is known there.
   std::span<const LobeGroup> groups(std::uint32_t cell) const {

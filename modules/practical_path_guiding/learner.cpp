@@ -58,7 +58,9 @@ std::unique_ptr<LearningState> PracticalPathGuidingLearner::begin(
 }
 
 std::shared_ptr<GuidingModel> PracticalPathGuidingLearner::empty_model() const {
-  return std::make_shared<PracticalPathGuidingModel>();
+  const bool of_radiance = settings_.target == GuidingTarget::radiance;
+  return std::make_shared<PracticalPathGuidingModel>(
+      KdTree(), std::vector<PracticalPathGuidingModel::Cell>(1), of_radiance);
 }
 
 }  // namespace pharos::practical_path_guiding

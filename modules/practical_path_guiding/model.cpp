@@ -7,6 +7,20 @@
 #include <pharos/core/warp.h>
 
 namespace pharos::practical_path_guiding {
+namespace {
+
+class CellRadiance final : public RadianceAround {
+ public:
+  explicit CellRadiance(std::span<const QuadNode> nodes) : density_(nodes) {}
+  float relative(Vec3 direction) const override {
+    return density_.at(warp::square_from_sphere(direction));
+  }
+
+ private:
+  QuadDensity density_;
+};
+
+}  // namespace
 
 PracticalPathGuidingModel::PracticalPathGuidingModel(KdTree tree, const std::vector<Cell>& cells,
                                                      bool of_radiance)
@@ -66,6 +80,12 @@ double PracticalPathGuidingModel::density(Point3 point, const Vec3* direction) c
 // directions.
 float PracticalPathGuidingModel::incident_radiance(Point3 point, Vec3 direction) const {
   return static_cast<float>(density(point, nullptr) * density(point, &direction));
+}
+
+const RadianceAround* PracticalPathGuidingModel::radiance_around(const GuidingQuery& query,
+                                                                 Arena& arena) const {
+  const std::span<const QuadNode> of_cell = nodes(query.region);
+  return of_cell.empty() ? nullptr : arena.make<CellRadiance>(of_cell);
 }
 
 }  // namespace pharos::practical_path_guiding

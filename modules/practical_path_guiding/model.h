@@ -40,8 +40,11 @@ class PracticalPathGuidingModel final : public GuidingModel, public RadianceEsti
   double density(Point3 point, const Vec3* direction) const override;
 
   /// The model knows incident radiance only if its densities are proportional to it.
-  RadianceTraits radiance_traits() const override { return {.incident = of_radiance_}; }
+  RadianceTraits radiance_traits() const override {
+    return {.incident = of_radiance_, .around = of_radiance_};
+  }
   float incident_radiance(Point3 point, Vec3 direction) const override;
+  const RadianceAround* radiance_around(const GuidingQuery& query, Arena& arena) const override;
 
   /// Returns the quadtree of a cell. It is empty if nothing is known there.
   std::span<const QuadNode> nodes(std::uint32_t cell) const {

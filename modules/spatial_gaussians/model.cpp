@@ -6,12 +6,26 @@
 #include <Eigen/Core>
 #include <fmt/format.h>
 
+#include <pharos/core/warp.h>
 #include <pharos/guiding/toolkit/seen_gaussian.h>
+
+#include "seen_mixture.h"
 
 namespace pharos::spatial_gaussians {
 namespace {
 
 constexpr std::size_t kMostComponents = 1u << 26;
+
+class MixtureRadiance final : public RadianceAround {
+ public:
+  explicit MixtureRadiance(const SeenMixture& mixture) : mixture_(mixture) {}
+  float relative(Vec3 direction) const override {
+    return mixture_.density(direction) / warp::sphere_pdf();
+  }
+
+ private:
+  const SeenMixture& mixture_;
+};
 
 bool is_sound(const SpatialGaussian& g) {
   // Beyond these bounds, factors of densities overflow floats.
@@ -108,6 +122,16 @@ double SpatialGaussiansModel::density(Point3 point, const Vec3* direction) const
     samples += samples_[cell];
   }
   return samples > 0 ? total / samples : 0;
+}
+
+// The Gaussians are fitted to samples that are weighted by radiance over density, without the BSDF.
+const RadianceAround* SpatialGaussiansModel::radiance_around(const GuidingQuery& query,
+                                                             Arena& arena) const {
+  const std::span<const SpatialGaussian> components = mixture(query.region);
+  if (components.empty()) return nullptr;
+  const SeenMixture* seen = SeenMixture::make(components, query.current.position, {},
+                                              Technique::exact, arena, whitened_at(query));
+  return seen == nullptr ? nullptr : arena.make<MixtureRadiance>(*seen);
 }
 
 }  // namespace pharos::spatial_gaussians

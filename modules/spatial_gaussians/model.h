@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <pharos/guiding/contract/model.h>
+#include <pharos/guiding/contract/radiance_estimate.h>
 #include <pharos/guiding/contract/spatial_mixture.h>
 #include <pharos/guiding/toolkit/kd_tree.h>
 
@@ -11,7 +12,9 @@ namespace pharos::spatial_gaussians {
 
 /// A mixture of spatial Gaussians for each cell of a kd-tree, over the points from which light
 /// arrives in the cell. The regions are the cells. A cell without data has no components.
-class SpatialGaussiansModel final : public GuidingModel, public SpatialMixture {
+class SpatialGaussiansModel final : public GuidingModel,
+                                    public SpatialMixture,
+                                    public RadianceEstimate {
  public:
   static constexpr std::string_view kName = "spatial_gaussians";
 
@@ -40,6 +43,9 @@ class SpatialGaussiansModel final : public GuidingModel, public SpatialMixture {
     return {whitened_.data() + first_whitened_[query.region],
             whitened_.data() + first_whitened_[query.region + 1]};
   }
+
+  RadianceTraits radiance_traits() const override { return {.around = true}; }
+  const RadianceAround* radiance_around(const GuidingQuery& query, Arena& arena) const override;
 
   /// Returns the mixture of a cell.
   std::span<const SpatialGaussian> mixture(std::uint32_t cell) const {

@@ -29,10 +29,18 @@ class UniformModel final : public GuidingModel, public RadianceEstimate {
   }
   double density(Point3, const Vec3*) const override { return radiance_; }
 
-  RadianceTraits radiance_traits() const override { return {.incident = true}; }
+  RadianceTraits radiance_traits() const override { return {.incident = true, .around = true}; }
   float incident_radiance(Point3, Vec3) const override { return static_cast<float>(radiance_); }
+  const RadianceAround* radiance_around(const GuidingQuery&, Arena& arena) const override {
+    return radiance_ > 0 ? arena.make<SameFromEverywhere>() : nullptr;
+  }
 
  private:
+  class SameFromEverywhere final : public RadianceAround {
+   public:
+    float relative(Vec3) const override { return 1; }
+  };
+
   double radiance_ = 0;
 };
 

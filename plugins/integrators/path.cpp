@@ -21,7 +21,8 @@ namespace pharos {
 PathIntegrator::PathIntegrator(Settings settings) : settings_(std::move(settings)) {}
 
 IntegratorTraits PathIntegrator::traits() const {
-  return {.records = {.light_samples = true}, .guided = true, .guided_camera = true};
+  return {
+      .records = {.light_samples = true}, .guided = true, .guided_camera = true, .resampled = true};
 }
 
 const GuidingSettings* PathIntegrator::guiding() const {

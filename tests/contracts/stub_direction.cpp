@@ -8,6 +8,7 @@
 #include <pharos/config/registry.h>
 #include <pharos/core/warp.h>
 #include <pharos/guiding/contract/guider.h>
+#include <pharos/guiding/contract/radiance_estimate.h>
 
 #include "stubs.h"
 #include "table.h"
@@ -32,10 +33,26 @@ std::uint32_t cell_of(Point3 p, const Bounds3& region, std::uint32_t count) {
       std::clamp(x * static_cast<float>(count), 0.0f, static_cast<float>(count - 1)));
 }
 
-class DirectionModel final : public TableModel {
+class BinRadiance final : public RadianceAround {
+ public:
+  explicit BinRadiance(const double* bins) : bins_(bins) {}
+  float relative(Vec3 direction) const override {
+    return static_cast<float>(kBins * bins_[bin_of(direction)]);
+  }
+
+ private:
+  const double* bins_;
+};
+
+class DirectionModel final : public TableModel, public RadianceEstimate {
  public:
   static constexpr std::string_view kName = "stub_direction";
   using TableModel::TableModel;
+
+  RadianceTraits radiance_traits() const override { return {.around = true}; }
+  const RadianceAround* radiance_around(const GuidingQuery& query, Arena& arena) const override {
+    return table().empty() ? nullptr : arena.make<BinRadiance>(histogram(query.region));
+  }
 
   ModelInfo info() const override {
     ModelInfo info = table_info(kName);

@@ -71,6 +71,21 @@ std::vector<Furnace> furnaces() {
       {"both, ball of fog", kFogBallScene, "max_depth: 100", 1, "bidirectional"}};
 }
 
+/// Furnaces for mixtures: two methods with learned shares, and steps chosen among candidates.
+std::vector<Furnace> mixed_furnaces() {
+  return {
+      {"shares", kDiffuseScene,
+       "max_depth: 4, guiding: { methods: [ { learner: stub_direction, guider: stub_direction }, "
+       "{ learner: uniform, guider: uniform } ], mixing: { type: simplex, evidence: 0, worth: 3 "
+       "}, training: { schedule: geometric } }",
+       kDiffuseFurnace},
+      {"candidates", kDiffuseScene,
+       "max_depth: 4, guiding: { learner: stub_direction, guider: stub_direction, candidates: 4, "
+       "training: { "
+       "iterations: 3 } }",
+       kDiffuseFurnace}};
+}
+
 /// Returns whether the test of a furnace fails under a fault.
 bool turns_red(const Furnace& furnace, const std::string& fault) {
   const std::string config =
@@ -81,8 +96,8 @@ bool turns_red(const Furnace& furnace, const std::string& fault) {
   return std::abs(furnace_t(config, furnace.answer)) > kLimit;
 }
 
-void check_row(const std::string& fault, const std::vector<bool>& expected) {
-  const std::vector<Furnace> all = furnaces();
+void check_row(const std::string& fault, const std::vector<bool>& expected,
+               const std::vector<Furnace>& all = furnaces()) {
   REQUIRE(expected.size() <= all.size());
   for (std::size_t i = 0; i < expected.size(); ++i) {
     CAPTURE(fault);
@@ -132,6 +147,13 @@ TEST_CASE("fault: shining surfaces seen from the lens are not foreshortened") {
 TEST_CASE("fault: paths from the lens ignore the light paths that make them too") {
   check_row("reverse_density_forgotten",
             {green, green, green, green, green, green, green, red, red, red});
+}
+
+TEST_CASE("faults of mixtures") {
+  check_row("none", {green, green}, mixed_furnaces());
+  check_row("shares_forgotten", {red, green}, mixed_furnaces());
+  check_row("shares_learned_too_early", {red, red}, mixed_furnaces());
+  check_row("resampling_unweighted", {green, red}, mixed_furnaces());
 }
 
 }  // namespace pharos::testing

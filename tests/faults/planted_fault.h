@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <string_view>
 #include <utility>
@@ -22,6 +23,9 @@ enum class PlantedFault {
                                 ///< reach light, and omit the density of distances
   camera_cosine_forgotten,      ///< emitting surfaces seen from the lens are not foreshortened
   reverse_density_forgotten,    ///< MIS weights of paths from the lens ignore light paths
+  shares_forgotten,             ///< MIS weights of emission omit the shares of the techniques
+  shares_learned_too_early,     ///< a step is weighted by shares that were learned from it
+  resampling_unweighted,        ///< steps chosen among candidates do not represent the others
 };
 template <>
 struct EnumNames<PlantedFault> {
@@ -35,7 +39,10 @@ struct EnumNames<PlantedFault> {
        {"boundaries_cast_shadows", PlantedFault::boundaries_cast_shadows},
        {"boundaries_count_as_origins", PlantedFault::boundaries_count_as_origins},
        {"camera_cosine_forgotten", PlantedFault::camera_cosine_forgotten},
-       {"reverse_density_forgotten", PlantedFault::reverse_density_forgotten}});
+       {"reverse_density_forgotten", PlantedFault::reverse_density_forgotten},
+       {"shares_forgotten", PlantedFault::shares_forgotten},
+       {"shares_learned_too_early", PlantedFault::shares_learned_too_early},
+       {"resampling_unweighted", PlantedFault::resampling_unweighted}});
 };
 
 /// The current fault, set before a render.
@@ -97,6 +104,9 @@ struct FaultyRules : EstimatorRules {
   static float emission_weight(MisHeuristic heuristic, const Path& path, float light_pdf) {
     float own = path.arrival.total;
     if (planted(PlantedFault::mis_without_guide)) own = path.arrival.unguided;
+    if (planted(PlantedFault::shares_forgotten) && path.arrival.guided > 0) {
+      own = (path.arrival.unguided + path.arrival.guided) / 2;
+    }
     if (planted(PlantedFault::boundaries_count_as_origins)) own /= path.medium_density;
     return pharos::emission_weight(heuristic, own, light_pdf);
   }
@@ -109,6 +119,17 @@ struct FaultyRules : EstimatorRules {
   }
   static float foreshortening(float cosine) {
     return planted(PlantedFault::camera_cosine_forgotten) ? 1 : cosine;
+  }
+  static float drawn_density(const StepDensity& step, float unguided_share) {
+    if (!planted(PlantedFault::shares_learned_too_early) || !(step.guided > 0)) return step.total;
+    // A step along the gradient of the logarithm of the density with respect to the share.
+    constexpr float kRate = 0.1f;
+    const float gradient = (step.unguided - step.guided) / step.total;
+    const float share = std::clamp(unguided_share + kRate * gradient, 0.05f, 0.95f);
+    return share * step.unguided + (1 - share) * step.guided;
+  }
+  static float resampling_weight(float weight) {
+    return planted(PlantedFault::resampling_unweighted) ? 1 : weight;
   }
   static double reverse_density(double density) {
     return planted(PlantedFault::reverse_density_forgotten) ? 0 : density;

@@ -182,6 +182,20 @@ std::vector<Method> simplex_methods() {
           simplex("two", two, "least: 0.05, unguided: 0.3, worth: 1", "discard")};
 }
 
+std::vector<Method> resampled_methods() {
+  const auto with_candidates = [](Method method, int candidates) {
+    method.name += fmt::format(", {} candidates", candidates);
+    method.settings.push_back(fmt::format("candidates={}", candidates));
+    return method;
+  };
+  return {
+      with_candidates(lobes("spatial: kdtree, cell_samples: 8192", "none", "fixed", "combine"), 4),
+      with_candidates(gaussians("p0", 0.1f, "kdtree", "discard"), 8),
+      with_candidates(
+          practical_path_guiding("radiance", "learned", "spatial_filter: nearest", "combine"), 2),
+      with_candidates(simplex_methods().front(), 16)};
+}
+
 std::vector<Method> robust_methods() {
   return {
       {"robust", {"=robust"}},

@@ -41,6 +41,8 @@ std::vector<Method> media_methods();
 /// Returns mixtures of one, two and three methods, with shares near their bounds and with methods
 /// that are left out where they are not worth their cost. Triplets steer discrete events.
 std::vector<Method> simplex_methods();
+/// Returns methods that choose steps among candidates, with fixed and with learned shares.
+std::vector<Method> resampled_methods();
 /// Returns the preset `robust` as it is, and with trainings whose ends depend on what they found.
 std::vector<Method> robust_methods();
 

@@ -96,6 +96,10 @@ TEST_CASE("unbiased: three methods with learned shares under strips of light") {
   compare_proof("strip-lights", {simplex_methods().front()});
 }
 
+TEST_CASE("unbiased: steps chosen among candidates under strips of light") {
+  compare_proof("strip-lights", {resampled_methods().front()});
+}
+
 TEST_CASE("unbiased: robust guiding, whose training ends where it pays no more") {
   compare_proof("standing-light", {robust_methods()[1]});
 }
@@ -157,6 +161,16 @@ TEST_CASE("long: learned shares are unbiased in the proof variant metalwork") {
 }
 TEST_CASE("long: learned shares are unbiased in the proof variant haze") {
   compare_proof("haze", simplex_methods());
+}
+
+TEST_CASE("long: steps chosen among candidates are unbiased in the proof variant strip-lights") {
+  compare_proof("strip-lights", resampled_methods());
+}
+TEST_CASE("long: steps chosen among candidates are unbiased in the proof variant metalwork") {
+  compare_proof("metalwork", resampled_methods());
+}
+TEST_CASE("long: steps chosen among candidates are unbiased in the proof variant haze") {
+  compare_proof("haze", resampled_methods());
 }
 
 TEST_CASE("long: robust guiding is unbiased in the proof variant standing-light") {

@@ -23,8 +23,9 @@ class KeyedSampler final : public PreparedSampler {
 };
 
 /// Returns a frame of one guider that is bound to a model, as in a render. Its densities are
-/// complete.
-GuidingFrame frame_of(const Guider& guider, const std::shared_ptr<const GuidingModel>& model);
+/// complete. Steps are chosen among `candidates` candidates where the model knows the radiance.
+GuidingFrame frame_of(const Guider& guider, const std::shared_ptr<const GuidingModel>& model,
+                      std::uint32_t candidates = 1);
 
 /// The answer of a guide at one vertex.
 class Guided {

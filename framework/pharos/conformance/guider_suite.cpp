@@ -7,6 +7,7 @@
 
 #include <pharos/conformance/fit.h>
 #include <pharos/conformance/guided.h>
+#include <pharos/conformance/resampling_check.h>
 #include <pharos/conformance/suites.h>
 #include <pharos/core/warp.h>
 #include <pharos/statistics/hypothesis.h>
@@ -270,12 +271,13 @@ void check_guider(const Registry& registry, const Subject& guider, const Subject
   Check& save_load = suite.check("save_load");
   Check& furnace = suite.check("furnace");
   Check& places = suite.check("places");
+  Check& resampling = suite.check("resampling");
   std::string why_not;
   const std::vector<Ref<Integrator>> integrators = integrators_for(pair, why_not);
   if (integrators.empty()) {
     why_not = "no integrator can follow: " + why_not;
-    for (Check* c :
-         {&answers, &chi_square, &integral, &determinism, &save_load, &furnace, &places}) {
+    for (Check* c : {&answers, &chi_square, &integral, &determinism, &save_load, &furnace, &places,
+                     &resampling}) {
       c->not_applicable(why_not);
     }
     return;
@@ -284,6 +286,9 @@ void check_guider(const Registry& registry, const Subject& guider, const Subject
     c->not_applicable("the guide knows nothing at any vertex");
   }
   places.not_applicable("there is no model");
+  const bool steers_distance = pair.the_guider().traits().steers_distance;
+  resampling.not_applicable(steers_distance ? "the guider steers distances"
+                                            : "the model knows no radiance around vertices");
   const bool guides_light_paths = pair.the_guider().traits().guides_light_paths;
   int answered = 0;
   for (const bool foggy : {false, true}) {
@@ -298,6 +303,9 @@ void check_guider(const Registry& registry, const Subject& guider, const Subject
     if (model == nullptr) continue;
     const Scene scene(room_parts(Room::lamp, foggy));
     check_places(*model, scene, suite.seed(), places);
+    if (!steers_distance) {
+      check_resampling(pair.the_guider(), model, scene, suite.seed(), resampling);
+    }
     const GuidingFrame frame = frame_of(pair.the_guider(), model);
     answered +=
         check_densities(frame, scene, suite.seed(), Transport::radiance, chi_square, integral);

@@ -60,6 +60,9 @@ RenderCounters& RenderCounters::operator+=(const RenderCounters& other) {
 void check_compatible(const Integrator& integrator, const Sensor& sensor, bool jitter) {
   if (integrator.guiding() == nullptr) return;
   const IntegratorTraits offered = integrator.traits();
+  if (integrator.guiding()->candidates > 1 && !offered.resampled) {
+    throw InputError("the integrator cannot choose steps among several 'candidates'");
+  }
   Ref<Learner> learner;
   for (const GuidingMethod& method : integrator.guiding()->resolved_methods()) {
     if (!method.shares_model()) learner = method.learner;

@@ -92,6 +92,7 @@ struct IntegratorTraits {
   RecordNeeds records;         ///< records that it can make
   bool guided = false;         ///< asks guiders at vertices
   bool guided_camera = false;  ///< lets guiders propose first vertices
+  bool resampled = false;      ///< can choose steps among several candidates
   /// Training iterations make other paths than the final image does.
   bool trains_with_other_paths = false;
 };
@@ -107,7 +108,7 @@ class Integrator : public Component {
   virtual std::unique_ptr<const PreparedIntegrator> prepare(const RenderTarget& target) const = 0;
 };
 
-/// Throws InputError if a learner or guider needs something that the integrator, the sensor or a
+/// Throws InputError if guiding needs something that the integrator, the sensor or a
 /// film without jitter does not offer. The message names both sides.
 void check_compatible(const Integrator& integrator, const Sensor& sensor, bool jitter = true);
 

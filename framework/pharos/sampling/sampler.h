@@ -55,15 +55,29 @@ class VertexStream {
       : stream_(&stream), bounce_(bounce) {}
 
   float get_1d(Purpose purpose, std::uint16_t branch = 0) const {
-    return stream_->get_1d({purpose, bounce_, branch});
+    return stream_->get_1d({purpose, bounce_, shifted(branch)});
   }
   Vec2 get_2d(Purpose purpose, std::uint16_t branch = 0) const {
-    return stream_->get_2d({purpose, bounce_, branch});
+    return stream_->get_2d({purpose, bounce_, shifted(branch)});
   }
+  /// Returns the numbers of candidate `index` for the next step, below kMostCandidates. Candidate 0
+  /// has the numbers of this stream.
+  VertexStream candidate(std::uint32_t index) const {
+    VertexStream stream = *this;
+    stream.first_branch_ = static_cast<std::uint16_t>(index * (0x10000 / kMostCandidates));
+    return stream;
+  }
+  static constexpr std::uint32_t kMostCandidates = 16;
 
  private:
+  /// Branches count modulo 2^16.
+  std::uint16_t shifted(std::uint16_t branch) const {
+    return static_cast<std::uint16_t>(first_branch_ + branch);
+  }
+
   const SampleStream* stream_;
   std::uint16_t bounce_;
+  std::uint16_t first_branch_ = 0;
 };
 
 /// An estimate of radiance at a film position. Its expected value is the expected value of the

@@ -42,6 +42,15 @@ struct EstimatorRules {
   /// Returns the factor that compensates for Russian roulette with this probability of survival.
   static float survivor_weight(float survival) { return 1 / survival; }
 
+  /// Returns the density by which the weight of a step is divided. The step was drawn from a
+  /// mixture with this share of unguided samples.
+  static float drawn_density(const StepDensity& step, float /*unguided_share*/) {
+    return step.total;
+  }
+
+  /// Returns the factor that makes up for the choice among candidates; see sample_resampled_step().
+  static float resampling_weight(float weight) { return weight; }
+
   /// Returns the foreshortening factor of a light that the lens sees, for the cosine at the light.
   static float foreshortening(float cosine) { return cosine; }
 

@@ -151,12 +151,13 @@ class TransportKernel {
                                   .medium_density = segment.passage.medium_density};
     const Rgb transmittance = segment.passage.transmittance;
     set_step_density(guidance, resolved, step.unguided_pdf, path.arrival);
+    path.arrival.total = Rules::drawn_density(path.arrival, guidance.unguided_share);
     path.medium_density = resolved.medium_density;
     const bool plain = !guidance.is_guided() && !scene_.has_media();
     Rgb weight = plain                    ? step.unguided_weight
                  : path.arrival.total > 0 ? step.value * transmittance / path.arrival.total
                                           : Rgb();
-    weight *= step.continuation;
+    weight *= step.continuation * Rules::resampling_weight(step.resampling);
     path.arrived_discretely = path.bounce == 0 || is_discrete(step.event);
     path.throughput *= weight;
     recorder_.step(path, step, guidance, weight, resolved, transmittance);

@@ -10,7 +10,7 @@ bool accept(const LocalScattering& scattering, const Proposal& proposal, Scatter
   step.distance = proposal.distance;
   step.targets = proposal.targets;
   step.within = proposal.within;
-  step.continuation = 1;
+  step.continuation = step.resampling = 1;
   if (is_empty(proposal.events & EventMask::smooth)) {
     for (const DiscreteOutcome& outcome : scattering.discrete()) {
       if (!contains(proposal.events, outcome.event)) continue;
@@ -31,12 +31,54 @@ bool accept(const LocalScattering& scattering, const Proposal& proposal, Scatter
   return true;
 }
 
+/// Returns t / p of a candidate; see sample_resampled_step(). The guides steer no distances, so the
+/// medium's factor cancels.
+float candidate_weight(const Guidance& guidance, const ScatterStep& step) {
+  const ResolvedVertex vertex{.direction = step.direction, .event = step.event};
+  const float density = step_density(guidance, vertex, step.unguided_pdf).total;
+  return density > 0 ? mean(step.value) * guidance.relative_radiance(step.direction) / density : 0;
+}
+
 }  // namespace
 
 bool sample_guided_step(const LocalScattering& scattering, const Guidance& guidance,
                         const VertexStream& stream, ScatterStep& step) {
   const std::optional<Proposal> proposal = guidance.propose(stream);
   return proposal && accept(scattering, *proposal, step);
+}
+
+bool sample_resampled_step(const LocalScattering& scattering, const Guidance& guidance,
+                           const VertexStream& stream, ScatterStep& step) {
+  constexpr std::uint16_t kChoiceBranch = 1;  // of mix_choice; branch 0 chooses techniques
+  const auto count = static_cast<float>(guidance.candidates);
+  const float offset = stream.get_1d(Purpose::mix_choice);
+  float choice = stream.get_1d(Purpose::mix_choice, kChoiceBranch);
+  float total = 0, chosen = 0;
+  ScatterStep candidate;
+  for (std::uint32_t i = 0; i < guidance.candidates; ++i) {
+    const bool unguided = (static_cast<float>(i) + offset) / count < guidance.unguided_share;
+    const VertexStream numbers = stream.candidate(i);
+    if (!(unguided ? sample_unguided_step(scattering, numbers, candidate)
+                   : sample_guided_step(scattering, guidance, numbers, candidate))) {
+      continue;
+    }
+    const float weight = candidate_weight(guidance, candidate);
+    if (!(weight > 0)) continue;
+    total += weight;
+    // The candidate replaces the chosen one with probability weight / total. The number that
+    // decides is uniform again, given the decision.
+    const float taken = weight / total;
+    if (choice < taken) {
+      step = candidate;
+      chosen = weight;
+      choice /= taken;
+    } else {
+      choice = (choice - taken) / (1 - taken);
+    }
+  }
+  if (!(chosen > 0)) return false;
+  step.resampling = total / (count * chosen);
+  return true;
 }
 
 }  // namespace pharos

@@ -15,6 +15,7 @@ struct ScatterStep {
   float unguided_pdf = 0;  ///< density of the BSDF or phase function [1/sr], or probability [1]
   Rgb unguided_weight;     ///< value / unguided_pdf
   float continuation = 1;  ///< compensates for Russian roulette; a factor of the step's weight
+  float resampling = 1;    ///< weight of the choice among candidates; a factor, too
   Proposal::Reach reach = Proposal::Reach::medium;
   float distance = 0;  ///< used with Reach::distance [scene units]
   TargetMask targets = TargetMask::all;
@@ -52,7 +53,7 @@ inline bool sample_unguided_step(const LocalScattering& scattering, const Vertex
   step.reach = Proposal::Reach::medium;
   step.targets = TargetMask::all;
   step.within = nullptr;
-  step.continuation = 1;
+  step.continuation = step.resampling = 1;
   return true;
 }
 
@@ -60,11 +61,22 @@ inline bool sample_unguided_step(const LocalScattering& scattering, const Vertex
 bool sample_guided_step(const LocalScattering& scattering, const Guidance& guidance,
                         const VertexStream& stream, ScatterStep& step);
 
+/// Fills in a step that is resampled among `guidance.candidates` candidates (Talbot et al. 2005).
+/// The candidates x_i are drawn from the mixture of unguided sampling and the guides, of density p,
+/// and each technique draws as many as its share says. One is chosen in proportion to
+/// t(x_i) / p(x_i), where the target t = mean(f |cos|) * radiance is the integrand as far as the
+/// models know it. `step.resampling` becomes the mean of t / p over all candidates, divided by
+/// t / p of the chosen one. With this factor the step estimates without bias what a step drawn from
+/// p does, so p also serves for MIS. Returns false for a valid sample of value zero.
+bool sample_resampled_step(const LocalScattering& scattering, const Guidance& guidance,
+                           const VertexStream& stream, ScatterStep& step);
+
 /// Draws the next step at a vertex from the one-sample mixture of unguided sampling (with
-/// probability `guidance.unguided_share`) and the guides. Returns false for a valid sample of value
-/// zero.
+/// probability `guidance.unguided_share`) and the guides, or by resampling if there are several
+/// candidates. Returns false for a valid sample of value zero.
 inline bool sample_step(const LocalScattering& scattering, const Guidance& guidance,
                         const VertexStream& stream, ScatterStep& step) {
+  if (guidance.candidates > 1) return sample_resampled_step(scattering, guidance, stream, step);
   const bool unguided =
       !guidance.is_guided() || stream.get_1d(Purpose::mix_choice) < guidance.unguided_share;
   return unguided ? sample_unguided_step(scattering, stream, step)

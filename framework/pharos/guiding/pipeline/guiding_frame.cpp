@@ -21,6 +21,11 @@ void normalize(std::span<GuidePart> parts) {
 
 }  // namespace
 
+const RadianceEstimate* find_radiance_around(const GuidingModel& model) {
+  const auto* estimate = dynamic_cast<const RadianceEstimate*>(&model);
+  return estimate != nullptr && estimate->radiance_traits().around ? estimate : nullptr;
+}
+
 std::optional<Proposal> GuidePart::propose(const VertexStream& stream) const {
   std::optional<Proposal> proposal = distribution->propose(stream);
   if (!proposal) return proposal;
@@ -52,6 +57,16 @@ float Guidance::density(const ResolvedVertex& vertex, PartDensities& of_parts) c
   return sum;
 }
 
+float Guidance::relative_radiance(Vec3 direction) const {
+  float known = 0, sum = 0;
+  for (const GuidePart& part : parts) {
+    if (part.radiance == nullptr) continue;
+    known += part.share;
+    sum += part.share * part.radiance->relative(direction);
+  }
+  return unguided_share + (1 - unguided_share) * sum / known;
+}
+
 std::span<const Technique> Guidance::techniques(float unguided, const PartDensities& of_parts,
                                                 std::span<Technique, kMostMethods + 1> out) const {
   out[0] = {unguided_share, unguided};
@@ -63,8 +78,15 @@ std::span<const Technique> Guidance::techniques(float unguided, const PartDensit
   return out.first(1 + methods);
 }
 
-GuidingFrame::GuidingFrame(std::vector<Method> methods, std::shared_ptr<const MixingShares> shares)
-    : methods_(std::move(methods)), shares_(std::move(shares)) {
+GuidingFrame::GuidingFrame(std::vector<Method> methods, std::shared_ptr<const MixingShares> shares,
+                           std::uint32_t candidates)
+    : methods_(std::move(methods)),
+      radiances_(methods_.size(), nullptr),
+      shares_(std::move(shares)),
+      candidates_(candidates) {
+  for (std::size_t i = 0; candidates_ > 1 && i < methods_.size(); ++i) {
+    if (methods_[i].guider) radiances_[i] = find_radiance_around(methods_[i].guider->model());
+  }
   guides_camera_ = std::any_of(methods_.begin(), methods_.end(), [](const Method& method) {
     const GuidingVertex lens{.kind = VertexKind::sensor};
     return method.guider && method.traits.guides_camera &&
@@ -109,6 +131,9 @@ Guidance GuidingFrame::query(GuidingQuery& query, Arena& arena, PathMemories* me
     if (distribution == nullptr) continue;
     parts[answers++] = {distribution, shares[1 + i], i, method.traits.steers_distance,
                         method.traits.steers_events};
+    if (radiances_[i] == nullptr) continue;
+    parts[answers - 1].radiance = radiances_[i]->radiance_around(query, arena);
+    if (parts[answers - 1].radiance != nullptr) guidance.candidates = candidates_;
   }
   query.memory = nullptr;
   if (answers == 0) return guidance;

@@ -8,12 +8,16 @@
 
 #include <pharos/guiding/contract/guider.h>
 #include <pharos/guiding/contract/mixing.h>
+#include <pharos/guiding/contract/radiance_estimate.h>
 #include <pharos/guiding/pipeline/guiding_settings.h>
 
 namespace pharos {
 
 /// The memories of all guides along one path. A copy of a path has its own copy of this array.
 using PathMemories = std::array<const void*, GuidingSettings::kMostMethods>;
+
+/// Returns the estimate of radiance around vertices that a model offers; null: none.
+const RadianceEstimate* find_radiance_around(const GuidingModel& model);
 
 /// A guide that takes part at a vertex.
 struct GuidePart {
@@ -22,6 +26,7 @@ struct GuidePart {
   std::uint32_t method = 0;
   bool steers_distance = false;
   bool steers_events = false;
+  const RadianceAround* radiance = nullptr;  ///< null: unknown, or not needed
 
   std::optional<Proposal> propose(const VertexStream& stream) const;
   /// Returns the density like GuidingDistribution::density(), but always with the medium's factor.
@@ -38,7 +43,8 @@ struct Guidance {
   std::span<const GuidePart> parts = {};  ///< empty: the vertex is sampled unguided
   float unguided_share = 1;
   std::uint32_t mixing_key = kNoMixing;
-  std::uint32_t methods = 0;  ///< number of all methods of the render
+  std::uint32_t methods = 0;     ///< number of all methods of the render
+  std::uint32_t candidates = 1;  ///< candidates of the next step; above 1, it is resampled
 
   bool is_guided() const { return !parts.empty(); }
   /// Draws a proposal from the mixture of the guides.
@@ -50,6 +56,10 @@ struct Guidance {
     PartDensities of_parts;
     return density(vertex, of_parts);
   }
+  /// Returns the incident radiance that the models expect from `direction`, divided by the mean
+  /// over all directions [1]. It is positive: the more of the samples are unguided, the closer it
+  /// is to 1. May be called only if `candidates` is above 1.
+  float relative_radiance(Vec3 direction) const;
   /// Fills in the techniques that could have drawn a step; see PathView::techniques(). `unguided`
   /// is the unguided density of the step, including the medium's factor, and `of_parts` is what
   /// density() filled in for its vertex. Returns the part of `out` that it filled.
@@ -68,7 +78,10 @@ class GuidingFrame {
     std::uint32_t first_region = 0;
   };
 
-  GuidingFrame(std::vector<Method> methods, std::shared_ptr<const MixingShares> shares);
+  /// `candidates` is the number of candidates among which steps are chosen where a model knows the
+  /// incident radiance.
+  GuidingFrame(std::vector<Method> methods, std::shared_ptr<const MixingShares> shares,
+               std::uint32_t candidates = 1);
 
   /// Returns the guidance at a vertex. Sets `query.region` and `query.memory` for each guide. The
   /// parts are made in `arena` and live until the next vertex is known. `memories` refers to
@@ -82,7 +95,10 @@ class GuidingFrame {
   bool can_ask(const Method& method, const GuidingQuery& query) const;
 
   std::vector<Method> methods_;
+  /// For each method the radiance that its model knows; null: none, or it is not needed.
+  std::vector<const RadianceEstimate*> radiances_;
   std::shared_ptr<const MixingShares> shares_;
+  std::uint32_t candidates_;
   bool guides_camera_ = false;
 };
 

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <map>
 
+#include <fmt/format.h>
+
 #include <pharos/config/registry.h>
 #include <pharos/guiding/pipeline/guiding_settings.h>
 #include <pharos/guiding/pipeline/guiding_state.h>
@@ -70,6 +72,29 @@ std::string find_mixing_state(const GuidingSettings& settings) {
   return fits ? read_mixing_state(file) : "";
 }
 
+/// Throws InputError if steps are to be resampled but the methods do not allow it.
+void check_candidates(const GuidingSettings& settings) {
+  if (settings.candidates == 1) return;
+  bool knows_radiance = false;
+  std::shared_ptr<const GuidingModel> model;
+  for (const GuidingMethod& method : settings.resolved_methods()) {
+    if (method.guider->traits().steers_distance) {
+      throw InputError(fmt::format(
+          "'candidates' above 1 needs guiders that leave distances to media, but '{}' steers them",
+          method.guider->plugin_name()));
+    }
+    if (!method.shares_model()) {
+      model = method.model != nullptr ? method.model : method.learner->empty_model();
+    }
+    knows_radiance |= find_radiance_around(*model) != nullptr;
+  }
+  if (!knows_radiance) {
+    throw InputError(
+        "'candidates' above 1 needs a model that knows the radiance around a vertex, "
+        "but no method has one");
+  }
+}
+
 Schema<GuidingSettings> described() {
   Schema<GuidingSettings> schema;
   GuidingSettings::describe(schema);
@@ -99,6 +124,13 @@ void GuidingSettings::describe(Schema<GuidingSettings>& s) {
           "List of several methods, instead of a single learner and guider");
   s.field("mixing", &GuidingSettings::mixing, "How guided and unguided sampling share the samples")
       .otherwise("fixed");
+  s.field(
+       "candidates", &GuidingSettings::candidates,
+       "Number of candidates for each step of the final image, drawn from the mixture of all "
+       "techniques. If it is above 1, one is chosen in proportion to its BSDF times the radiance "
+       "that the models expect")
+      .at_least(1)
+      .at_most(VertexStream::kMostCandidates);
   s.field("training", &GuidingSettings::training,
           "How the budget is divided between training and the final image");
 }
@@ -147,6 +179,7 @@ GuidingSettings Value<GuidingSettings>::read(const ConfigNode& node, BuildContex
   bool learns = true;
   try {
     learns = settings.learns();
+    check_candidates(settings);
   } catch (const InputError& error) {
     node.fail(error.what());
   }

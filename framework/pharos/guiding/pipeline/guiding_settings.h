@@ -47,6 +47,8 @@ struct GuidingSettings {
   /// `model_file` if all models come from this file and if the same methods and policy wrote it;
   /// otherwise it is empty.
   std::string mixing_state;
+  /// Number of candidates for each step of the final image; see sample_resampled_step().
+  std::uint32_t candidates = 1;
   TrainingSettings training;
 
   static void describe(Schema<GuidingSettings>& schema);

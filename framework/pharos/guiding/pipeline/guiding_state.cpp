@@ -68,7 +68,10 @@ struct GuidingState::Source {
 };
 
 GuidingState::GuidingState(const GuidingSettings& settings, const LearningContext& context)
-    : policy_(settings.mixing), training_(settings.training) {
+    : policy_(settings.mixing),
+      training_(settings.training),
+      candidates_(settings.candidates),
+      is_final_(!settings.learns()) {
   if (training_.tolerance > 0 || training_.least_gain > 0) gain_.emplace();
   std::vector<float> weights;
   for (const GuidingMethod& method : settings.resolved_methods()) {
@@ -121,7 +124,8 @@ void GuidingState::update(const TrainingStage& stage) {
   }
   mixing_->update(static_cast<std::uint32_t>(origins.size()), origins, stage.is_last());
   last_samples_ = std::exchange(samples_, 0);
-  is_off_ = stage.is_last() && is_useless();
+  is_final_ = stage.is_last();
+  is_off_ = is_final_ && is_useless();
   rebuild_frame();
 }
 
@@ -155,7 +159,8 @@ void GuidingState::rebuild_frame() {
     is_any_asked |= is_asked;
   }
   frame_ = is_any_asked && !is_off_
-               ? std::make_shared<const GuidingFrame>(std::move(methods), std::move(shares))
+               ? std::make_shared<const GuidingFrame>(std::move(methods), std::move(shares),
+                                                      is_final_ ? candidates_ : 1)
                : nullptr;
 }
 
@@ -188,11 +193,11 @@ std::size_t GuidingState::model_bytes() const {
 }
 
 void GuidingState::archive(Archive& archive) {
-  archive.heading("guiding", 2);
+  archive.heading("guiding", 3);
   for (Source& source : sources_) source.archive(archive);
   if (archive.loads()) mixing_->update(regions(), {}, false);
   mixing_->archive(archive);
-  archive(samples_, last_samples_, is_off_);
+  archive(samples_, last_samples_, is_final_, is_off_);
   if (gain_) gain_->archive(archive);
   if (archive.loads()) rebuild_frame();
 }

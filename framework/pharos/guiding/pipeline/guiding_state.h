@@ -63,6 +63,8 @@ class GuidingState {
   std::unique_ptr<MixingState> mixing_;
   TrainingSettings training_;
   std::optional<HeldOutGain> gain_;  ///< none if its value has no consequences
+  std::uint32_t candidates_ = 1;     ///< in the final image
+  bool is_final_ = false;            ///< the next iteration is the final image
   bool is_off_ = false;              ///< guiding does not pay
   std::uint64_t samples_ = 0;        ///< training samples of the current iteration
   std::uint64_t last_samples_ = 0;   ///< training samples of the last iteration
