@@ -33,6 +33,10 @@ void FocalSettings::describe(Schema<FocalSettings>& s) {
           "Number of training iterations that narrow the density to true focal points: the last "
           "ones, and at most a third of all")
       .at_least(0);
+  s.field("burn_in", &S::burn_in,
+          "Number of iterations after which all others narrow the density, instead of the last "
+          "`narrowing_iterations`")
+      .at_least(0);
   s.field("splat_extent", &S::splat_extent,
           "Where a path adds mass: along the whole line of each segment (paper), or only along the "
           "segment itself unless its end is nearly specular (authors' code)");

@@ -36,6 +36,7 @@ struct FocalSettings {
   float split_threshold = 1e-3f;
   int max_depth = 14;
   int narrowing_iterations = 5;
+  std::optional<int> burn_in;  ///< iterations before narrowing; none: all but the last ones
   SplatExtent splat_extent = SplatExtent::line;
   float glossy_roughness = 0.3f;
   SplatWeight splat_weight = SplatWeight::length;

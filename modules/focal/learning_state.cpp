@@ -70,6 +70,9 @@ FocalLearningState::FocalLearningState(const FocalSettings& settings,
 }
 
 bool FocalLearningState::next_narrows(const TrainingStage& stage) const {
+  if (settings_.burn_in) {
+    return stage.iteration + 1 >= static_cast<std::uint32_t>(*settings_.burn_in);
+  }
   const std::uint32_t iterations = stage.iteration + 1 + stage.left;
   return narrowing_ ||
          stage.left <=
@@ -98,6 +101,7 @@ void FocalLearningState::splat_waiting() {
     });
   });
   for (const FocalSums& group : groups_) sums_.add(group);
+  splatted_ += waiting_.size();
   waiting_.clear();
 }
 
@@ -118,6 +122,7 @@ Learned FocalLearningState::update(const TrainingStage& stage) {
     const double kept = knows_something_ ? decay : 0;
     fold(converging_.masses, sums_.converging, kept, static_cast<double>(paths_));
     fold(diverging_.masses, sums_.diverging, kept, static_cast<double>(paths_));
+    segments_ = kept * segments_ + static_cast<double>(splatted_);
     const double mass = converging_.mass() + diverging_.mass();
     refine(mass);
     if (growths_left_ > 0 && !next_narrows(stage)) grow_region(mass);
@@ -125,7 +130,7 @@ Learned FocalLearningState::update(const TrainingStage& stage) {
   }
   // Only a learned density can be narrowed.
   narrowing_ = knows_something_ && next_narrows(stage);
-  paths_ = 0;
+  paths_ = splatted_ = 0;
   return {knows_something_ ? model(stage.is_last()) : nullptr};
 }
 
@@ -153,20 +158,23 @@ void FocalLearningState::grow_region(double total_mass) {
 }
 
 std::shared_ptr<const GuidingModel> FocalLearningState::model(bool last) const {
-  if (!last || settings_.prune_ratio == 0) return std::make_shared<FocalModel>(density_);
+  const auto segments = static_cast<float>(segments_);
+  if (!last || settings_.prune_ratio == 0) return std::make_shared<FocalModel>(density_, segments);
   return std::make_shared<FocalModel>(
       FocalDensity{pruned(density_.converging, settings_.prune_ratio),
-                   pruned(density_.diverging, settings_.prune_ratio)});
+                   pruned(density_.diverging, settings_.prune_ratio)},
+      segments);
 }
 
 void FocalLearningState::archive(Archive& archive) {
   const auto expect = [&](bool holds) {
     archive.expect(holds, "what was learned of focal points");
   };
-  archive.heading("focal_learning", 2);
-  archive(converging_, diverging_, knows_something_, narrowing_, max_depth_, growths_left_, paths_);
+  archive.heading("focal_learning", 3);
+  archive(converging_, diverging_, knows_something_, narrowing_, max_depth_, growths_left_, paths_,
+          segments_, splatted_);
   expect(converging_.octree.box() == diverging_.octree.box() && max_depth_ >= 0 &&
-         max_depth_ < Octree::kMostLevels);
+         max_depth_ < Octree::kMostLevels && segments_ >= 0);
   if (archive.loads()) use_octrees();
   archive(sums_.converging, sums_.diverging, waiting_);
   expect(sums_.converging.size() == converging_.masses.size() &&

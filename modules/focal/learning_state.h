@@ -39,12 +39,14 @@ class FocalLearningState final : public LearningState {
   int growths_left_;  ///< how often the region may still double
   LearningOctree converging_, diverging_;
   FocalDensity density_;  ///< density of the current iteration
+  double segments_ = 0;   ///< behind the masses; those of earlier iterations count less
   bool knows_something_ = false;
   bool narrowing_ = false;
 
   // Data of the current iteration.
   FocalSums sums_;
   std::uint64_t paths_ = 0;
+  std::uint64_t splatted_ = 0;     ///< number of segments in the sums
   std::vector<Segment> waiting_;   ///< segments that wait to be splatted
   std::vector<Rgb> incident_;      ///< scratch
   std::vector<FocalSums> groups_;  ///< scratch

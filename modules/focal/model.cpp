@@ -20,7 +20,7 @@ Vec3 to_float(const Double3& v) {
 }  // namespace
 
 ModelInfo FocalModel::info() const {
-  ModelInfo info{.name = std::string(kName), .version = 2, .bytes = density_.size_bytes()};
+  ModelInfo info{.name = std::string(kName), .version = 3, .bytes = density_.size_bytes()};
   const Box& box = density_.converging.box();
   info.bounds = {to_float(box.low), to_float(box.low) + to_float(box.size)};
   info.facts = {depth_fact("converging", density_.converging),
@@ -30,13 +30,13 @@ ModelInfo FocalModel::info() const {
 }
 
 void FocalModel::archive(Archive& archive) {
-  archive(density_.converging, density_.diverging);
+  archive(density_.converging, density_.diverging, segments_);
   // Sampling assumes that the masses add up to one.
   constexpr double kRounding = 1e-4;
   const double mass = density_.converging.mass() + density_.diverging.mass();
-  archive.expect(
-      density_.converging.box() == density_.diverging.box() && std::abs(mass - 1) <= kRounding,
-      "the focal model");
+  archive.expect(density_.converging.box() == density_.diverging.box() && segments_ >= 0 &&
+                     std::abs(mass - 1) <= kRounding,
+                 "the focal model");
 }
 
 }  // namespace pharos::focal

@@ -165,6 +165,7 @@ Learned VertexTripletsLearningState::fit() const {
   for (std::size_t c = 0; c < fits.size(); ++c) {
     knowledge.push_back(std::move(fits[c].knowledge));
     knowledge.back().share = static_cast<float>(knowledge.back().share / total);
+    knowledge.back().samples = static_cast<float>(cells_[c].reservoir.size());
     for (FirstVertex& first : fits[c].camera) {
       first.gaussian.weight = static_cast<float>(first.gaussian.weight / total);
       if (first.gaussian.weight > 0) camera.push_back(first);

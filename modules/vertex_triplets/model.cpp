@@ -32,6 +32,8 @@ VertexTripletsModel::VertexTripletsModel(const ModelKind& kind, Octree tree,
   for (std::uint32_t i = 0; i < tree_.cell_count(); ++i) {
     const Point3 center = tree_.cube(i).center;
     shares_.push_back(cells[i].share);
+    samples_.push_back(cells[i].samples);
+    all_samples_ += cells[i].samples;
     pairs_.add_cell(center, cells[i].pairs);
     triplets_.add_cell(center, cells[i].triplets);
     if (kind_.both_ways) reversed_.add_cell(center, reversed_runs(cells[i].triplets));
@@ -48,7 +50,7 @@ void ModelKind::archive(Archive& archive) {
 void VertexTripletsModel::archive(Archive& archive) {
   std::vector<CellKnowledge> cells;
   for (std::uint32_t i = 0; !archive.loads() && i < tree_.cell_count(); ++i) {
-    cells.push_back({shares_[i], pairs_.runs(i), triplets_.runs(i)});
+    cells.push_back({shares_[i], samples_[i], pairs_.runs(i), triplets_.runs(i)});
   }
   archive(kind_, sample_bytes_, tree_, cells, camera_);
   if (!archive.loads()) return;
@@ -61,22 +63,24 @@ void VertexTripletsModel::archive(Archive& archive) {
 }
 
 Place VertexTripletsModel::place(const GuidingVertex& vertex) const {
-  if (vertex.kind == VertexKind::sensor) return {.evidence = camera_.empty() ? 0.0f : 1.0f};
+  if (vertex.kind == VertexKind::sensor) {
+    return {.evidence = camera_.empty() ? 0.0f : std::max(all_samples_, 1.0f)};
+  }
   const std::uint32_t cell = tree_.cell_at(vertex.position);
   const bool is_known = pairs_.knows_something(cell) || triplets_.knows_something(cell);
-  return {cell, is_known ? 1.0f : 0.0f};
+  return {cell, is_known ? std::max(samples_[cell], 1.0f) : 0.0f};
 }
 
 std::size_t VertexTripletsModel::size_bytes() const {
   return tree_.size_bytes() + pairs_.size_bytes() + triplets_.size_bytes() +
          reversed_.size_bytes() + camera_.size_bytes() +
-         shares_.size() * (sizeof(float) + sizeof(std::uint32_t));
+         shares_.size() * (2 * sizeof(float) + sizeof(std::uint32_t));
 }
 
 ModelInfo VertexTripletsModel::info() const {
   const std::size_t bytes = size_bytes();
   return {.name = std::string(kName),
-          .version = 2,
+          .version = 3,
           .bytes = bytes,
           .regions = tree_.cell_count(),
           .facts = {{"vertices", kind_.prefix == Prefix::pair ? "pairs"

@@ -14,14 +14,15 @@ namespace pharos::vertex_triplets {
 
 /// The learned data of one cell.
 struct CellKnowledge {
-  float share = 0;  ///< share of the cell in the total weight
+  float share = 0;    ///< share of the cell in the total weight
+  float samples = 0;  ///< number of samples that the mixtures were fitted to
   // Only the mixtures of the model's prefix are used. The other vector is empty.
   std::vector<ConditionalMixtures<3>::Run> pairs;
   std::vector<ConditionalMixtures<6>::Run> triplets;
 
   void archive(Archive& archive) {
-    archive(share, pairs, triplets);
-    archive.expect(share >= 0, "the model of vertex triplets");
+    archive(share, samples, pairs, triplets);
+    archive.expect(share >= 0 && samples >= 0, "the model of vertex triplets");
   }
 };
 
@@ -80,7 +81,9 @@ class VertexTripletsModel final : public GuidingModel, public SpatialMixture {
 
   ModelKind kind_;
   Octree tree_;
-  std::vector<float> shares_;  ///< share of each cell in the total weight
+  std::vector<float> shares_;   ///< share of each cell in the total weight
+  std::vector<float> samples_;  ///< number of samples behind the mixtures of each cell
+  float all_samples_ = 0;       ///< sum of `samples_`
   ConditionalMixtures<3> pairs_{ConditionalMixtures<3>::Direction::from_sensor};
   ConditionalMixtures<6> triplets_{ConditionalMixtures<6>::Direction::from_sensor};
   ConditionalMixtures<6> reversed_{ConditionalMixtures<6>::Direction::from_lights};

@@ -79,11 +79,8 @@ Simplex explored(Simplex shares, double explore, std::size_t count) {
 
 }  // namespace
 
-ClassShares::ClassShares(const Simplex& prior, const Settings& settings)
-    : shares_(prior),
-      final_shares_{1},
-      certainty_(settings.prior_steps),
-      steps_(settings.reservoir) {}
+ClassShares::ClassShares(const StagedShares& prior, const Settings& settings)
+    : shares_(prior), steps_(settings.reservoir) {}
 
 void ClassShares::add(const FoundStep& step, RandomStream& random) {
   steps_.insert(step, step.weight, random);
@@ -96,24 +93,36 @@ void ClassShares::drop_steps() {
   weights_ = squares_ = 0;
 }
 
-void ClassShares::learn(const Settings& settings, std::size_t count) {
-  if (!(squares_ > 0)) return drop_steps();
-  std::vector<FoundStep> steps;
-  steps_.for_each([&](FoundStep step, double weight) {
-    step.weight = weight;
-    steps.push_back(step);
-  });
-  const ShareSearch search(steps, settings, count);
-  const double worth = weights_ * weights_ / squares_, part = worth / (worth + certainty_);
-  final_shares_ = blended(search.best(search.worthwhile()), part, shares_);
-  shares_ = explored(blended(search.best(search.all()), part, shares_), settings.explore, count);
-  certainty_ = settings.decay * (certainty_ + worth);
+void ClassShares::learn(const Settings& settings, std::size_t count, const StagedShares& prior) {
+  const double before = certainty_;
+  if (squares_ > 0) {
+    std::vector<FoundStep> steps;
+    steps_.for_each([&](FoundStep step, double weight) {
+      step.weight = weight;
+      steps.push_back(step);
+    });
+    const ShareSearch search(steps, settings, count);
+    const double worth = weights_ * weights_ / squares_;
+    own_.final = search.best(search.worthwhile());
+    own_.training = blended(search.best(search.all()), worth / (worth + before), own_.training);
+    certainty_ += worth;
+  }
   drop_steps();
+  shares_ = prior;
+  if (certainty_ > 0) {
+    const double part = certainty_ / (certainty_ + settings.prior_steps);
+    shares_.final = blended(own_.final, part, prior.found_light ? prior.final : prior.training);
+    shares_.found_light = true;
+    shares_.training =
+        explored(blended(own_.training, part, prior.training), settings.explore, count);
+  }
+  if (certainty_ > before) certainty_ *= settings.decay;
 }
 
 void ClassShares::archive(Archive& archive) {
   std::uint64_t capacity = steps_.capacity();
-  archive(shares_, final_shares_, certainty_, weights_, squares_, capacity);
+  archive(shares_.training, shares_.final, shares_.found_light, own_.training, own_.final,
+          certainty_, weights_, squares_, capacity);
   archive.expect(capacity > 0 && capacity <= SimplexMixing::Settings::kMostSteps,
                  "what was learned of mixing");
   if (archive.loads()) steps_ = statistics::VarOptReservoir<FoundStep>(capacity);
@@ -124,8 +133,9 @@ void ClassShares::archive(Archive& archive) {
     return shares[0] > 0 && std::abs(sum - 1) < 1e-6 &&
            *std::min_element(shares.begin(), shares.end()) >= 0;
   };
-  archive.expect(is_simplex(shares_) && is_simplex(final_shares_) && certainty_ >= 0 &&
-                     weights_ >= 0 && squares_ >= 0,
+  const bool has_own = certainty_ == 0 || (is_simplex(own_.training) && is_simplex(own_.final));
+  archive.expect(is_simplex(shares_.training) && is_simplex(shares_.final) && has_own &&
+                     certainty_ >= 0 && weights_ >= 0 && squares_ >= 0,
                  "what was learned of mixing");
 }
 

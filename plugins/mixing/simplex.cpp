@@ -8,15 +8,18 @@
 // estimates would be E[x^2 / q]. The policy minimizes this convex function of s over the steps of
 // an iteration (step_cost.h). Each class keeps a weighted reservoir of its steps.
 //
-// Guides must earn their shares. Every class begins with the share `unguided` of unguided sampling,
-// as if `prior_steps` steps had been seen. The shares of an iteration count as many steps as their
-// weights are worth, (sum w)^2 / sum w^2, so a single bright step moves little. In the final
-// iteration, methods are asked only where they lower the second moment by the factor `worth` that
-// makes up for their cost. In training, each method keeps at least the share `explore`, because a
-// method that is not asked cannot earn anything.
+// Guides must earn their shares. Learning begins with the share `unguided` of unguided sampling.
+// Each class learns once for the whole scene, with these shares as the prior, and again in each
+// cell, with the shares of the whole scene as the prior. Cells that found no light thus learn from
+// others. A prior counts like `prior_steps` steps. The shares of an iteration count as many steps
+// as their weights are worth, (sum w)^2 / sum w^2, so a single bright step moves little. In the
+// final iteration, methods are asked only where they lower the second moment by the factor `worth`
+// that makes up for their cost. In training, each method keeps at least the share `explore`,
+// because a method that is not asked cannot earn anything.
 //
-// Classes that found no light in training are not guided in the final iteration. If this holds for
-// all of them, or if no method is worth its cost anywhere, the image is rendered as without guides.
+// Classes that found no light anywhere in training are not guided in the final iteration. If this
+// holds for all of them, or if no method is worth its cost anywhere, the image is rendered as
+// without guides.
 //
 // At a vertex, the share of a method is scaled by e / (e + `evidence`), where e is the evidence of
 // its model there, and all shares are scaled to sum to 1.
@@ -127,7 +130,9 @@ class SimplexState final : public MixingState {
     prior = normalized(prior);
     for (double& share : prior) share *= 1 - settings.unguided;
     prior[0] = settings.unguided;
-    cells_[0].classes.assign(kClasses, ClassShares(prior, settings));
+    prior_ = {.training = prior, .final = {1}};
+    scene_.fill(ClassShares(prior_, settings));
+    cells_[0].classes.assign(kClasses, ClassShares(prior_, settings));
   }
 
   void absorb(const PathLog& log) override {
@@ -140,8 +145,11 @@ class SimplexState final : public MixingState {
 
   void update(std::uint32_t, std::span<const std::uint32_t>, bool last) override {
     teach();
+    for (ClassShares& each : scene_) each.learn(settings_, techniques_, prior_);
     parallel_for(cells_.size(), [&](std::size_t i) {
-      for (ClassShares& each : cells_[i].classes) each.learn(settings_, techniques_);
+      for (std::uint32_t k = 0; k < kClasses; ++k) {
+        cells_[i].classes[k].learn(settings_, techniques_, scene_[k].shares());
+      }
     });
     is_last_ = last;
   }
@@ -150,7 +158,7 @@ class SimplexState final : public MixingState {
     std::vector<float> all;
     for (std::size_t i = 0; i < cells_.size(); ++i) {
       for (const ClassShares& each : cells_[i].classes) {
-        const Simplex& own = is_last_ ? each.final_shares() : each.shares();
+        const Simplex& own = is_last_ ? each.shares().final : each.shares().training;
         for (std::size_t k = 0; k < techniques_; ++k) all.push_back(static_cast<float>(own[k]));
       }
     }
@@ -159,8 +167,8 @@ class SimplexState final : public MixingState {
   }
 
   void archive(Archive& archive) override {
-    archive.heading("simplex mixing", 1);
-    archive(lesson_, is_last_, steps_);
+    archive.heading("simplex mixing", 2);
+    archive(lesson_, is_last_, steps_, scene_);
     cells_.archive(archive);
   }
 
@@ -185,6 +193,12 @@ class SimplexState final : public MixingState {
   }
 
   void teach() {
+    parallel_for(kClasses, [&](std::size_t k) {
+      RandomStream random(lesson_, k, 1);
+      for (const Step& step : steps_) {
+        if (step.vertex_class == k) scene_[k].add(step.found, random);
+      }
+    });
     const CellDivision division{.cell_samples = settings_.cell_steps, .max_depth = 24};
     cells_.learn(steps_, division, [&](Cell& cell, std::span<const Step> steps, std::size_t i) {
       RandomStream random(lesson_, i);
@@ -196,6 +210,8 @@ class SimplexState final : public MixingState {
 
   const Settings settings_;
   std::size_t techniques_;
+  StagedShares prior_;
+  std::array<ClassShares, kClasses> scene_;  ///< of each class, in all cells together
   KdTreeCells<Step, Cell> cells_;
   std::vector<Step> steps_;   ///< collected since the last call of teach()
   std::uint64_t lesson_ = 0;  ///< number of calls of teach(); a key of random numbers

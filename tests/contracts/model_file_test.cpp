@@ -153,10 +153,20 @@ TEST_CASE("furnace: a file with two models and what their mixing has learned") {
   const LoadedConfig other =
       config_from(config(fmt::format("mixing: fixed, model: '{}'", path.string())));
   CHECK(other.config.integrator->guiding()->mixing_state.empty());
+  const LoadedConfig changed = config_from(config(
+      fmt::format("mixing: {{ type: simplex, cell_steps: 99 }}, model: '{}'", path.string())));
+  CHECK(changed.config.integrator->guiding()->mixing_state.empty());
   LearnedGuiding damaged = *trained.learned;
   damaged.mixing_state.resize(damaged.mixing_state.size() / 2);
   write_model_file(damaged, path);
-  CHECK_THROWS_WITH_AS(config_from(config(again)), doctest::Contains("cut off"), InputError);
+  CHECK_THROWS_WITH_AS(
+      config_from(config(again)),
+      doctest::Contains(fmt::format("the model file '{}' cannot be read: ", path.string()).c_str()),
+      InputError);
+  damaged.mixing_state = trained.learned->mixing_state + "more";
+  write_model_file(damaged, path);
+  CHECK_THROWS_WITH_AS(config_from(config(again)),
+                       doctest::Contains("holds more than its policy has learned"), InputError);
   std::filesystem::remove(path);
 }
 

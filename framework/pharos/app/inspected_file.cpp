@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <sstream>
 
 #include <fmt/format.h>
 
@@ -11,10 +10,10 @@
 namespace pharos {
 namespace {
 
-/// Builds the plugin of contract C with the name `name`, which `what` in the file names.
+/// Builds the plugin of contract C with the name `name`, by which the file was `what`.
 template <class C>
 Ref<C> plugin(const std::filesystem::path& path, const char* what, const std::string& name,
-              const Registry& registry) {
+              const Registry& registry, const ConfigNode& config) {
   if (registry.find(C::contract_name, name) == nullptr) {
     throw InputError(
         fmt::format("the model file '{}' was {} by '{}', which no module here has: there are {}",
@@ -22,7 +21,7 @@ Ref<C> plugin(const std::filesystem::path& path, const char* what, const std::st
   }
   BuildContext context{registry};
   ConfigNode resolved;
-  return registry.build<C>(ConfigNode::scalar(name), context, resolved);
+  return registry.build<C>(config, context, resolved);
 }
 
 /// Reads what the mixing policy has learned about the models that were read before.
@@ -40,11 +39,11 @@ LearnedMixing read_mixing(const InspectedFile& file, const std::filesystem::path
     weights.push_back(method.weight);
     mixing.methods.push_back({file.models[method.model], first_regions[method.model]});
   }
-  const auto policy = plugin<MixingPolicy>(path, "mixed", file.head.mixing, registry);
+  const auto policy = plugin<MixingPolicy>(path, "mixed", file.head.mixing, registry,
+                                           parse_yaml(file.head.mixing_config, path.string()));
   const auto state = policy->begin(weights);
   state->update(regions, {}, false);
-  std::istringstream in(read_mixing_state(path));
-  load(in, *state);
+  load_mixing_state(path, read_mixing_state(path), *state);
   mixing.shares = state->shares();
   return mixing;
 }
@@ -53,7 +52,8 @@ InspectedFile read(const std::filesystem::path& path, const Registry& registry) 
   InspectedFile file{.head = read_model_head(path)};
   std::map<std::string, std::size_t> read_before;  // by learner
   for (const ModelHeader& header : file.head.models) {
-    const auto learner = plugin<Learner>(path, "learned", header.learner, registry);
+    const auto learner = plugin<Learner>(path, "learned", header.learner, registry,
+                                         ConfigNode::scalar(header.learner));
     file.models.push_back(read_model_file(path, *learner, read_before[header.learner]++));
   }
   file.mixing = read_mixing(file, path, registry);

@@ -311,10 +311,10 @@ TEST_CASE("guiding state: a guide that hardly helps is off after training, which
     GuidingState state(own, {});
     CHECK_FALSE(may_end(state, 0.5, 0.1, 1));
     state.update({0, 1});
-    CHECK_FALSE(may_end(state, 0.9, 0.2, 2));
+    CHECK_FALSE(may_end(state, 0.9, 0.2, 3));
     state.update({1, 1});
     CHECK(state.frame() != nullptr);  // it may still improve
-    CHECK(may_end(state, 0.9, 0.3, 3) == (least > 0.125));
+    CHECK(may_end(state, 0.9, 0.3, 8) == (least > 0.125));
     state.update({2, 0});
     CHECK((state.frame() == nullptr) == (least > 0.125));
   }

@@ -38,6 +38,19 @@ TEST_CASE("held-out gain: training settles when guides improve no further, and n
   CHECK_FALSE(settles(gain, 0.5, 1000, 7, 0.02));  // worse than before, for now
 }
 
+TEST_CASE("held-out gain: whether it rises") {
+  HeldOutGain gain;
+  settles(gain, 0.5, 1000, 1, 0);
+  CHECK(gain.rises(0.05));  // there is nothing to compare with
+  settles(gain, 0.5, 1000, 2, 0);
+  CHECK_FALSE(gain.rises(0.05));
+  settles(gain, 0.9, 1000, 3, 0);
+  CHECK(gain.rises(0.05));
+  CHECK_FALSE(gain.rises(1));
+  settles(gain, 0.5, 1000, 4, 0);
+  CHECK_FALSE(gain.rises(0.05));
+}
+
 TEST_CASE("held-out gain: iterations without light tell nothing") {
   HeldOutGain gain;
   settles(gain, 0.9, 1000, 1, 0.02);

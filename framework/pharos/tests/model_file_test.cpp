@@ -80,6 +80,7 @@ std::string sound_file(const TemporaryFolder& folder, std::uint32_t number = 7) 
   write_model_file({.models = {{"counting", std::make_shared<NumberModel>(number)}},
                     .methods = {{0, 1}},
                     .mixing = "fair",
+                    .mixing_config = "fair: 1",
                     .mixing_state = "even"},
                    folder / "sound.model");
   return content(folder / "sound.model");
@@ -88,7 +89,8 @@ std::string sound_file(const TemporaryFolder& folder, std::uint32_t number = 7) 
 /// The offsets of some fields [bytes].
 constexpr std::size_t kVersionAt = 8 + 4 + 8 + (8 + 8) + (8 + 8), kLengthAt = kVersionAt + 4,
                       kMethodsAt = kLengthAt + 8, kMixingAt = kMethodsAt + 8 + 4 + 4,
-                      kMixingLengthAt = kMixingAt + 8 + 4, kModelAt = kMixingLengthAt + 8;
+                      kMixingLengthAt = kMixingAt + (8 + 4) + (8 + 7),
+                      kModelAt = kMixingLengthAt + 8;
 
 }  // namespace
 
@@ -103,6 +105,7 @@ TEST_CASE("model files: what was written is read") {
   CHECK(head.models[0].bytes == 4);
   CHECK(head.methods.size() == 1);
   CHECK(head.mixing == "fair");
+  CHECK(head.mixing_config == "fair: 1");
   CHECK(read_mixing_state(folder / "sound.model") == "even");
   const auto model = read_model_file(folder / "sound.model", *learner_from("counting"));
   CHECK(model->density(Point3{}) == 7);
@@ -121,7 +124,12 @@ TEST_CASE("model files: several models, chosen by their learner and their order"
   CHECK(read("counting", 0) == 1);
   CHECK(read("guessing", 0) == 2);
   CHECK(read("counting", 1) == 3);
-  CHECK_THROWS_AS(read("counting", 2), InputError);
+  CHECK_THROWS_WITH_AS(read("counting", 2),
+                       doctest::Contains("has only 2 models of the learner 'counting'"),
+                       InputError);
+  CHECK_THROWS_WITH_AS(read("guessing", 1),
+                       doctest::Contains("has only one model of the learner 'guessing'"),
+                       InputError);
   CHECK(read_model_head(folder / "three.model").methods[1].model == 2);
   CHECK(read_mixing_state(folder / "three.model").empty());
 }
@@ -152,7 +160,7 @@ TEST_CASE("model files: damaged heads") {
     return refusal(folder, bytes);
   };
   CHECK(changed(0, 'P') == "the model file 'changed.model' is no model of Pharos");
-  CHECK(changed(8, 2) == "the model file 'changed.model' is of form 2; this Pharos reads form 3");
+  CHECK(changed(8, 3) == "the model file 'changed.model' is of form 3; this Pharos reads form 4");
   CHECK(changed(8 + 4 + 8 + 3, 2) == "the model file 'changed.model' is cut off in its head");
   CHECK(changed(kVersionAt, 2) ==
         "the model file 'changed.model' holds version 2 of the model 'a_number'; the learner "

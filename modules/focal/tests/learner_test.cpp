@@ -203,6 +203,16 @@ TEST_CASE("focal learner: decay keeps a share of what earlier iterations found")
   CHECK(kept > 0.2);
 }
 
+TEST_CASE("focal learner: narrowing after a burn-in, whenever training ends") {
+  const double last = hits(*trained({.narrowing_iterations = 5}));
+  const double early = hits(*trained({.narrowing_iterations = 0, .burn_in = 1}));
+  MESSAGE("share of directions through the hole: " << last << ", narrowed early " << early);
+  CHECK(early > 0.8 * last);
+  // A burn-in longer than training narrows nothing.
+  const double never = hits(*trained({.burn_in = 1000}));
+  CHECK(never == doctest::Approx(hits(*trained({.narrowing_iterations = 0}))));
+}
+
 TEST_CASE("focal learner: narrowing has a decay of its own") {
   // The last of three iterations narrows.
   const auto after = [](float decay, float narrowing_decay) {

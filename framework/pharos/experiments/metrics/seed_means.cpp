@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include <pharos/experiments/metrics/seed_means.h>
@@ -7,7 +8,8 @@
 namespace pharos {
 namespace {
 
-/// The values of all methods. Each method has one value per seed.
+/// The values of all methods. Each method has one value per seed. The seeds of a method are the
+/// first ones of a method with more seeds.
 using MethodValues = std::vector<std::vector<double>>;
 
 bool has_run(const ExperimentResults& results, const std::string& scene,
@@ -24,7 +26,8 @@ std::vector<std::uint64_t> common_seeds(const ExperimentResults& results,
   for (std::uint64_t i = 0; i < results.config.seeds; ++i) {
     const std::uint64_t seed = results.config.first_seed + i;
     const auto has_it = [&](const ExperimentMethod& method) {
-      return results.find(scene, method.name, seed) != nullptr ||
+      return i >= results.config.seeds_of(method) ||
+             results.find(scene, method.name, seed) != nullptr ||
              !has_run(results, scene, method.name);
     };
     if (std::all_of(methods.begin(), methods.end(), has_it)) seeds.push_back(seed);
@@ -45,16 +48,16 @@ MethodValues values_of(const ExperimentResults& results, const std::string& scen
   return values;
 }
 
-bool is_known(const std::vector<double>& values) {
+bool is_known(std::span<const double> values) {
   return !values.empty() &&
          std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
 }
 
-bool is_positive(const std::vector<double>& values) {
+bool is_positive(std::span<const double> values) {
   return std::all_of(values.begin(), values.end(), [](double v) { return v > 0; });
 }
 
-ReportCell cell_of(const std::vector<double>& values, const std::vector<double>& baseline,
+ReportCell cell_of(std::span<const double> values, std::span<const double> baseline,
                    bool geometric) {
   ReportCell cell;
   if (!is_known(values)) return cell;
@@ -64,9 +67,11 @@ ReportCell cell_of(const std::vector<double>& values, const std::vector<double>&
   cell.value = mean.value;
   if (several) cell.interval = mean.interval;
   if (!geometric || !is_known(baseline)) return cell;
-  const statistics::Bounded ratio = statistics::mean_ratio(values, baseline);
+  const std::size_t pairs = std::min(values.size(), baseline.size());
+  const statistics::Bounded ratio =
+      statistics::mean_ratio(values.first(pairs), baseline.first(pairs));
   cell.ratio = ratio.value;
-  if (several) cell.ratio_interval = ratio.interval;
+  if (pairs > 1) cell.ratio_interval = ratio.interval;
   return cell;
 }
 
@@ -82,7 +87,7 @@ std::size_t baseline_index(const ExperimentConfig& config) {
 ReportTable::Row row_over_seeds(const ExperimentResults& results, const std::string& scene,
                                 bool has_ratios, const RunValue& value) {
   const MethodValues values = values_of(results, scene, value);
-  const auto allows_logarithm = [](const std::vector<double>& v) {
+  const auto allows_logarithm = [](std::span<const double> v) {
     return !is_known(v) || is_positive(v);
   };
   const bool geometric = has_ratios && std::all_of(values.begin(), values.end(), allows_logarithm);

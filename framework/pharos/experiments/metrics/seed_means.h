@@ -14,7 +14,7 @@ using RunValue = std::function<double(const RunRecord& run, const RunRecord* bas
 
 /// Returns one row of a table: for each method the mean of a scene's runs. Only those seeds count
 /// that all methods have, except methods without any run of the scene, because other seeds could
-/// not be compared.
+/// not be compared. A method that is to have fewer seeds than others is asked for its own only.
 ///
 /// With `has_ratios`, and if all values of the row are positive, the means are geometric and come
 /// with the geometric mean of the ratios to the baseline of the same seed. Otherwise the means are

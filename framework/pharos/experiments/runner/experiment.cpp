@@ -89,7 +89,9 @@ class Runner {
       : registry_(registry), control_(control) {
     results_.config = config;
     results_.plan = std::move(plan);
-    results_.run_count = results_.plan.cells.size() * config.seeds;
+    for (const PlannedCell& cell : results_.plan.cells) {
+      results_.run_count += config.seeds_of(config.methods[cell.method]);
+    }
   }
 
   ExperimentResults run() {
@@ -126,7 +128,9 @@ class Runner {
     const std::uint64_t first = results_.config.first_seed;
     for (std::uint64_t seed = first; seed < first + results_.config.seeds; ++seed) {
       for (const PlannedCell& cell : results_.plan.cells) {
-        if (cell.scene < results_.references.size()) runs.push_back({&cell, seed, {}});
+        const bool has_seed =
+            seed < first + results_.config.seeds_of(results_.config.methods[cell.method]);
+        if (has_seed && cell.scene < results_.references.size()) runs.push_back({&cell, seed, {}});
       }
     }
     return runs;

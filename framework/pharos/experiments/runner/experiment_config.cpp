@@ -89,6 +89,9 @@ void ExperimentMethod::describe(Schema<ExperimentMethod>& s) {
   s.field("config", &ExperimentMethod::config,
           "Config such as a preset; its values override every scene's config");
   s.field("settings", &ExperimentMethod::settings, "Values that override both configs");
+  s.field("seeds", &ExperimentMethod::seeds,
+          "Runs on each scene, if there shall be fewer than of other methods")
+      .at_least(1);
 }
 
 void ExperimentConfig::describe(Schema<ExperimentConfig>& s) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <filesystem>
@@ -43,6 +44,7 @@ struct ExperimentMethod {
   std::string name;
   std::filesystem::path config;  ///< such as a preset; `settings` override it; empty: none
   ConfigNode settings = ConfigNode::mapping();
+  std::optional<std::uint32_t> seeds;  ///< runs on each scene, if fewer than of other methods
 
   static void describe(Schema<ExperimentMethod>& schema);
 };
@@ -75,6 +77,11 @@ struct ExperimentConfig {
   /// Returns the budget of every run of a scene.
   const Budget& budget_of(const ExperimentScene& scene) const {
     return scene.budget ? *scene.budget : budget;
+  }
+
+  /// Returns the number of runs of a method on each scene.
+  std::uint32_t seeds_of(const ExperimentMethod& method) const {
+    return std::min(method.seeds.value_or(seeds), seeds);
   }
 
   static void describe(Schema<ExperimentConfig>& schema);

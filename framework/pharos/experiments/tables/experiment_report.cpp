@@ -33,10 +33,23 @@ std::string budgets_text(const ExperimentConfig& config) {
   return text;
 }
 
+/// Returns text such as "8; 4 of slow, old".
+std::string seeds_text(const ExperimentConfig& config) {
+  std::map<std::uint32_t, std::string> fewer;
+  for (const ExperimentMethod& method : config.methods) {
+    const std::uint32_t seeds = config.seeds_of(method);
+    if (seeds == config.seeds) continue;
+    fewer[seeds] += (fewer[seeds].empty() ? "" : ", ") + method.name;
+  }
+  std::string text = std::to_string(config.seeds);
+  for (const auto& [seeds, names] : fewer) text += fmt::format("; {} of {}", seeds, names);
+  return text;
+}
+
 std::vector<std::pair<std::string, std::string>> facts_of(const ExperimentResults& results) {
   std::vector<std::pair<std::string, std::string>> facts{
       {"Budget of a run", budgets_text(results.config)},
-      {"Seeds", std::to_string(results.config.seeds)},
+      {"Seeds", seeds_text(results.config)},
       {"Baseline", results.config.baseline},
       {"Pharos", version()},
       {"Threads", std::to_string(thread_count())}};

@@ -139,6 +139,20 @@ TEST_CASE("means are over the seeds that all methods have") {
   CHECK_FALSE(errors.rows[0].cells[0].interval);
 }
 
+TEST_CASE("a method may have fewer seeds than others, and is compared with the same seeds") {
+  ExperimentResults results = results_of({run("base", 1, 1, 0.01), run("fast", 1, 0.5, 0.01),
+                                          run("base", 2, 4, 0.01), run("base", 3, 2, 0.01)});
+  results.config.seeds = 3;
+  results.config.methods[1].seeds = 1;
+  const ReportTable errors = table(summary_tables(results), "relative_mse");
+  const std::vector<ReportCell>& cells = errors.rows[0].cells;
+  CHECK(cells[0].value == doctest::Approx(2.0 / 64));
+  CHECK(cells[0].interval);
+  CHECK(cells[1].value == doctest::Approx(0.5 / 64));
+  CHECK(*cells[1].ratio == doctest::Approx(0.5));
+  CHECK_FALSE(cells[1].ratio_interval);
+}
+
 TEST_CASE("a row's means are of one kind, and errors of zero have a table") {
   const ExperimentResults results = results_of({run("base", 1, 1, 0.01), run("fast", 1, 0, 0.01),
                                                 run("base", 2, 9, 0.01), run("fast", 2, 1, 0.01)});

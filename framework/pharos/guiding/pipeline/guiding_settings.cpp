@@ -59,7 +59,8 @@ bool same_methods(const ModelFileHead& head, const std::vector<GuidingMethod>& m
 }
 
 /// Returns what the mixing policy of `settings` has learned according to the model file, if one
-/// file serves all methods and was written by the same methods and policy; otherwise an empty text.
+/// file serves all methods and was written by the same methods and by the policy with the same
+/// settings; otherwise an empty text.
 std::string find_mixing_state(const GuidingSettings& settings) {
   const std::filesystem::path& file = settings.model_file;
   if (file.empty()) return "";
@@ -68,7 +69,7 @@ std::string find_mixing_state(const GuidingSettings& settings) {
     if (!method.shares_model() && method.model_file != file) return "";
   }
   const ModelFileHead head = read_model_head(file);
-  const bool fits = head.mixing == settings.mixing->plugin_name() && same_methods(head, methods);
+  const bool fits = head.mixing_config == settings.mixing_config && same_methods(head, methods);
   return fits ? read_mixing_state(file) : "";
 }
 
@@ -171,6 +172,9 @@ GuidingSettings Value<GuidingSettings>::read(const ConfigNode& node, BuildContex
                                              ConfigNode& resolved) {
   resolved = ConfigNode::mapping();
   GuidingSettings settings = described().read(node, context, resolved);
+  if (const ConfigNode* mixing = resolved.find("mixing")) {
+    settings.mixing_config = to_flow_yaml(*mixing);
+  }
   if (settings.learner != nullptr && !settings.model_file.empty()) {
     at_model_key(node,
                  [&] { settings.model = read_model_file(settings.model_file, *settings.learner); });

@@ -43,9 +43,12 @@ struct GuidingSettings {
   std::shared_ptr<const GuidingModel> model;  ///< of the method in place; see GuidingMethod
   std::vector<GuidingMethod> methods;
   Ref<MixingPolicy> mixing;
+  /// The config of `mixing` with all its settings, as YAML on one line. Empty if the settings were
+  /// not read from a config.
+  std::string mixing_config;
   /// The learned state of `mixing`, as MixingState::archive() saves it. It is read from
-  /// `model_file` if all models come from this file and if the same methods and policy wrote it;
-  /// otherwise it is empty.
+  /// `model_file` if all models come from this file and if the same methods and the policy with
+  /// the same settings wrote it; otherwise it is empty.
   std::string mixing_state;
   /// Number of candidates for each step of the final image; see sample_resampled_step().
   std::uint32_t candidates = 1;

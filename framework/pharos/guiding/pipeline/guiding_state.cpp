@@ -69,6 +69,7 @@ struct GuidingState::Source {
 
 GuidingState::GuidingState(const GuidingSettings& settings, const LearningContext& context)
     : policy_(settings.mixing),
+      policy_config_(settings.mixing_config),
       training_(settings.training),
       candidates_(settings.candidates),
       is_final_(!settings.learns()) {
@@ -84,8 +85,7 @@ GuidingState::GuidingState(const GuidingSettings& settings, const LearningContex
   mixing_ = settings.mixing->begin(weights);
   mixing_->update(regions(), {}, false);
   if (!settings.mixing_state.empty()) {
-    std::istringstream in(settings.mixing_state);
-    load(in, *mixing_);
+    load_mixing_state(settings.model_file, settings.mixing_state, *mixing_);
   }
   rebuild_frame();
 }
@@ -107,7 +107,8 @@ bool GuidingState::may_end_training(double spent) {
   // Iterations without guides say nothing about guides.
   if (!gain_ || frame_ == nullptr) return false;
   const bool is_settled = gain_->end_iteration(training_.tolerance);
-  return is_settled || (spent >= training_.trial && is_useless());
+  if (is_useless()) return spent >= training_.trial && !gain_->rises(training_.tolerance);
+  return is_settled;
 }
 
 bool GuidingState::is_useless() const {
@@ -178,6 +179,7 @@ std::unique_ptr<const LearnedGuiding> GuidingState::learned() const {
     learned->methods.push_back({static_cast<std::uint32_t>(user.source), user.weight});
   }
   learned->mixing = policy_->plugin_name();
+  learned->mixing_config = policy_config_;
   std::ostringstream out;
   save(out, *mixing_);
   learned->mixing_state = std::move(out).str();
@@ -193,7 +195,7 @@ std::size_t GuidingState::model_bytes() const {
 }
 
 void GuidingState::archive(Archive& archive) {
-  archive.heading("guiding", 3);
+  archive.heading("guiding", 4);
   for (Source& source : sources_) source.archive(archive);
   if (archive.loads()) mixing_->update(regions(), {}, false);
   mixing_->archive(archive);

@@ -60,6 +60,7 @@ class GuidingState {
   std::vector<Source> sources_;
   std::vector<User> users_;
   Ref<MixingPolicy> policy_;
+  std::string policy_config_;
   std::unique_ptr<MixingState> mixing_;
   TrainingSettings training_;
   std::optional<HeldOutGain> gain_;  ///< none if its value has no consequences

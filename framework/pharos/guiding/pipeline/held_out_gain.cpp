@@ -44,11 +44,19 @@ HeldOutGain::Gain HeldOutGain::gain() const {
 }
 
 bool HeldOutGain::end_iteration(double tolerance) {
-  const Gain before = std::exchange(last_, gain());
-  const bool had_last = std::exchange(has_last_, is_measured());
+  before_ = std::exchange(last_, gain());
+  has_before_ = std::exchange(has_last_, is_measured());
   sums_ = {};
-  const double error = std::sqrt(before.variance + last_.variance);
-  return had_last && has_last_ && std::abs(last_.mean - before.mean) + 2 * error < tolerance;
+  return has_before_ && has_last_ &&
+         std::abs(last_.mean - before_.mean) + 2 * error_of_change() < tolerance;
+}
+
+bool HeldOutGain::rises(double tolerance) const {
+  return !has_before_ || last_.mean - before_.mean > std::max(tolerance, error_of_change());
+}
+
+double HeldOutGain::error_of_change() const {
+  return std::sqrt(before_.variance + last_.variance);
 }
 
 bool HeldOutGain::is_below(double least) const {

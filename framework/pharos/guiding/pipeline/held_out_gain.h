@@ -22,13 +22,17 @@ class HeldOutGain {
   /// iteration before by less than `tolerance`, with two standard errors to spare. False after the
   /// first iteration.
   bool end_iteration(double tolerance);
+  /// Returns whether the gain of the last iteration exceeds the gain of the iteration before by
+  /// more than `tolerance` and by more than a standard error. True after the first iteration,
+  /// because the gain may rise from there.
+  bool rises(double tolerance) const;
   /// Returns whether the gain of the last iteration is less than `least`, with two standard errors
   /// to spare. False if the iteration found no light.
   bool is_below(double least) const;
   /// Returns the gain of the last iteration; 0 if it found no light.
   double value() const { return last_.mean; }
 
-  void archive(Archive& archive) { archive(sums_, last_, has_last_); }
+  void archive(Archive& archive) { archive(sums_, last_, has_last_, before_, has_before_); }
 
  private:
   struct Sums {
@@ -46,10 +50,11 @@ class HeldOutGain {
   /// Returns whether the current iteration has found light in enough work units for an error.
   bool is_measured() const { return sums_.weight > 0 && sums_.units > 1; }
   Gain gain() const;
+  double error_of_change() const;
 
   Sums sums_;
-  Gain last_;
-  bool has_last_ = false;
+  Gain last_, before_;  ///< of the last iteration and the one before
+  bool has_last_ = false, has_before_ = false;
   std::vector<Rgb> incident_;  ///< of one path; a member, so that it keeps its memory
 };
 

@@ -15,7 +15,7 @@ namespace pharos {
 namespace {
 
 constexpr std::array<char, 8> kMagic{'p', 'h', 'a', 'r', 'o', 's', 'g', 'm'};
-constexpr std::uint32_t kForm = 3;
+constexpr std::uint32_t kForm = 4;
 
 [[noreturn]] void fail(const std::filesystem::path& path, const std::string& what) {
   throw InputError(fmt::format("the model file '{}' {}", path.string(), what));
@@ -111,12 +111,16 @@ class FileReader {
 std::size_t find_model(const std::filesystem::path& path, const ModelFileHead& head,
                        const Learner& learner, std::size_t skip) {
   std::vector<std::string> others;
+  std::size_t found = 0;
   for (std::size_t i = 0; i < head.models.size(); ++i) {
     const std::string& own = head.models[i].learner;
-    if (own == learner.plugin_name()) {
-      if (skip-- == 0) return i;
-    }
+    if (own == learner.plugin_name() && found++ == skip) return i;
     others.push_back(own);
+  }
+  if (found > 0) {
+    fail(path, fmt::format("has only {} of the learner '{}'",
+                           found == 1 ? "one model" : fmt::format("{} models", found),
+                           learner.plugin_name()));
   }
   fail(path, fmt::format("was learned by {}, which the learner '{}' cannot read",
                          quoted_list(others), learner.plugin_name()));
@@ -134,11 +138,26 @@ void check_kind(const std::filesystem::path& path, const ModelHeader& header,
   }
 }
 
+/// Loads an object from `saved`, a part of the file. Throws InputError with the text `surplus` if
+/// something is left.
+template <class Saved>
+void load_all(const std::filesystem::path& path, const std::string& saved, Saved& object,
+              const char* surplus) {
+  std::istringstream in(saved);
+  try {
+    load(in, object);
+  } catch (const InputError& error) {
+    fail(path, fmt::format("cannot be read: {}", error.what()));
+  }
+  if (in.peek() != std::istringstream::traits_type::eof()) fail(path, surplus);
+}
+
 }  // namespace
 
 void write_model_file(const LearnedGuiding& learned, const std::filesystem::path& path) {
   ModelFileHead head{.methods = learned.methods,
                      .mixing = learned.mixing,
+                     .mixing_config = learned.mixing_config,
                      .mixing_bytes = learned.mixing_state.size()};
   std::string data;
   for (const LearnedModel& each : learned.models) {
@@ -172,18 +191,17 @@ std::shared_ptr<const GuidingModel> read_model_file(const std::filesystem::path&
   const std::size_t index = find_model(path, file.head(), learner, skip);
   std::shared_ptr<GuidingModel> model = learner.empty_model();
   check_kind(path, file.head().models[index], model->info());
-  std::istringstream in(file.model(index));
-  try {
-    load(in, *model);
-  } catch (const InputError& error) {
-    fail(path, fmt::format("cannot be read: {}", error.what()));
-  }
-  if (in.peek() != std::istringstream::traits_type::eof()) fail(path, "holds more than its model");
+  load_all(path, file.model(index), *model, "holds more than its model");
   return model;
 }
 
 std::string read_mixing_state(const std::filesystem::path& path) {
   return FileReader(path).mixing();
+}
+
+void load_mixing_state(const std::filesystem::path& path, const std::string& saved,
+                       MixingState& state) {
+  load_all(path, saved, state, "holds more than its policy has learned");
 }
 
 }  // namespace pharos

@@ -7,16 +7,18 @@
 #include <vector>
 
 #include <pharos/guiding/contract/learner.h>
+#include <pharos/guiding/contract/mixing.h>
 
 /// Files of what a render has learned: train once, render many times. A file consists of a head,
 /// which any program can read, and of the data that GuidingModel::archive() and
 /// MixingState::archive() write. Numbers are little-endian.
 ///
 ///     8 bytes   "pharosgm"
-///     uint32    version of this form, 3
+///     uint32    version of this form, 4
 ///     list      models: ModelHeader       (a list: its length as uint64, its elements)
 ///     list      methods: LearnedMethod
 ///     text      plugin name of the mixing policy    (a text: its length as uint64, its bytes)
+///     text      settings of the policy, as YAML on one line
 ///     uint64    length of what the policy has learned [bytes]
 ///     the models in the same order, then what the policy has learned
 ///
@@ -46,9 +48,10 @@ struct ModelFileHead {
   std::vector<ModelHeader> models;
   std::vector<LearnedMethod> methods;
   std::string mixing;              ///< plugin name of the mixing policy
+  std::string mixing_config;       ///< the policy with its settings: a config of one line
   std::uint64_t mixing_bytes = 0;  ///< length of what the policy has learned [bytes]
 
-  void archive(Archive& archive) { archive(models, methods, mixing, mixing_bytes); }
+  void archive(Archive& archive) { archive(models, methods, mixing, mixing_config, mixing_bytes); }
 };
 
 /// A model and the plugin name of the learner that has learned it.
@@ -61,8 +64,9 @@ struct LearnedModel {
 struct LearnedGuiding {
   std::vector<LearnedModel> models;
   std::vector<LearnedMethod> methods;
-  std::string mixing;        ///< plugin name of the mixing policy
-  std::string mixing_state;  ///< what MixingState::archive() saves
+  std::string mixing;         ///< plugin name of the mixing policy
+  std::string mixing_config;  ///< GuidingSettings::mixing_config
+  std::string mixing_state;   ///< what MixingState::archive() saves
 };
 
 /// Writes what was learned. The file appears whole or not at all. Throws RunError if it cannot be
@@ -84,5 +88,10 @@ std::shared_ptr<const GuidingModel> read_model_file(const std::filesystem::path&
 /// Returns what the mixing policy of a file has learned, as MixingState::archive() has saved it.
 /// Throws InputError in the same cases as read_model_head().
 std::string read_mixing_state(const std::filesystem::path& path);
+
+/// Loads `saved`, which read_mixing_state() returned for the file, into the state of a policy with
+/// the same settings. Throws InputError if `saved` is damaged.
+void load_mixing_state(const std::filesystem::path& path, const std::string& saved,
+                       MixingState& state);
 
 }  // namespace pharos

@@ -35,8 +35,8 @@ void TrainingSettings::describe(Schema<TrainingSettings>& s) {
       .unit("nats")
       .at_least(0);
   s.field("trial", &TrainingSettings::trial,
-          "Training ends if the gain is less than `least_gain` when this share of the budget is "
-          "spent")
+          "Training ends if the gain is less than `least_gain` and rises by no more than "
+          "`tolerance` when this share of the budget is spent")
       .at_least(0)
       .at_most(1);
 }

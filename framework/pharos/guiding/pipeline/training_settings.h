@@ -39,7 +39,8 @@ struct TrainingSettings {
   /// The final image is not guided if the gain of the guides is less than this [nats]. 0: always
   /// guided.
   double least_gain = 0;
-  /// Training ends if the gain is less than `least_gain` when this share of the budget is spent.
+  /// Training ends if the gain is less than `least_gain` and rises by no more than `tolerance` when
+  /// this share of the budget is spent.
   double trial = 1.0 / 16;
 
   static void describe(Schema<TrainingSettings>& schema);
