@@ -39,7 +39,8 @@ class FocalLearningState final : public LearningState {
   int growths_left_;  ///< how often the region may still double
   LearningOctree converging_, diverging_;
   FocalDensity density_;  ///< density of the current iteration
-  double segments_ = 0;   ///< behind the masses; those of earlier iterations count less
+  double segments_ = 0;   ///< number of segments that the masses come from; `decay` lowers the
+                          ///< numbers of earlier iterations
   bool knows_something_ = false;
   bool narrowing_ = false;
 

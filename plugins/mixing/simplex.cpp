@@ -193,12 +193,8 @@ class SimplexState final : public MixingState {
   }
 
   void teach() {
-    parallel_for(kClasses, [&](std::size_t k) {
-      RandomStream random(lesson_, k, 1);
-      for (const Step& step : steps_) {
-        if (step.vertex_class == k) scene_[k].add(step.found, random);
-      }
-    });
+    RandomStream of_scene(lesson_, 0, 1);
+    for (const Step& step : steps_) scene_[step.vertex_class].add(step.found, of_scene);
     const CellDivision division{.cell_samples = settings_.cell_steps, .max_depth = 24};
     cells_.learn(steps_, division, [&](Cell& cell, std::span<const Step> steps, std::size_t i) {
       RandomStream random(lesson_, i);

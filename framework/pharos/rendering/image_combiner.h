@@ -16,9 +16,8 @@ namespace pharos {
 ///
 /// The weights depend on nothing that an image shows, so the combination is unbiased. As long as no
 /// image is left out, this holds even if the iterations end where their paths decide, because the
-/// sum of all weights stays the same. Weights by inverse variance would be biased, whichever part
-/// of the image the variance is taken from: guides learn from an image, and so what it happens to
-/// find lowers the variance of the images after it.
+/// sum of all weights stays the same. Weights by inverse variance would be biased: when an image
+/// happens to find light, the guides learn from it, and the variance of later images is lower.
 class ImageCombiner {
  public:
   /// Only the `latest` images are combined; at least 1.
@@ -28,8 +27,8 @@ class ImageCombiner {
   /// were taken before it, whether or not their images were added.
   void add(const Film& film, double before);
   bool empty() const { return images_.empty(); }
-  /// Returns the combination. There must be at least one image. An image of a single pass has no
-  /// estimate of its variance; its samples are assumed to be as noisy as those of the last image.
+  /// Returns the combination. There must be at least one image. The variance of an image of a
+  /// single pass is unknown; the variance of one sample is then taken from the last image.
   Image combine() const;
 
  private:

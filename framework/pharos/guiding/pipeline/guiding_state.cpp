@@ -69,7 +69,8 @@ struct GuidingState::Source {
 
 GuidingState::GuidingState(const GuidingSettings& settings, const LearningContext& context)
     : policy_(settings.mixing),
-      policy_config_(settings.mixing_config),
+      policy_config_(settings.mixing_config.empty() ? settings.mixing->plugin_name()
+                                                    : settings.mixing_config),
       training_(settings.training),
       candidates_(settings.candidates),
       is_final_(!settings.learns()) {
