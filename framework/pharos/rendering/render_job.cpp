@@ -208,6 +208,7 @@ class RenderJob::Implementation {
       schedule_->end_training();
       iteration_.training_left = 0;
     }
+    spending_.largest_share = guiding_->worthwhile_share();
     const TrainingStage stage{iteration_.index, iteration_.training_left};
     guiding_->update(stage);
     if (stage.is_last()) spare_logs_.clear();

@@ -30,9 +30,9 @@ Schedule::Schedule(const Budget& budget, const TrainingSettings& training, std::
     training_seconds_ = *budget.seconds * training.share;
   } else {
     const auto total = static_cast<std::uint32_t>(std::floor(*budget.spp * training.share));
-    most_ =
-        kind_ == ScheduleKind::uniform ? std::min(most_, total) : doubling_iterations(most_, total);
-    const std::uint32_t parts = kind_ == ScheduleKind::uniform ? most_ : (1u << most_) - 1;
+    most_ = std::min(most_, total);
+    const std::uint32_t parts =
+        kind_ == ScheduleKind::uniform ? most_ : (1u << doubling_iterations(most_, total)) - 1;
     first_ = most_ > 0 ? total / parts : 0;
     training_samples_ = first_ * parts;
     const std::uint32_t left = *budget.spp - training_samples_;
@@ -49,11 +49,16 @@ std::optional<Iteration> Schedule::next(const Spending& spending) {
     return Iteration{.index = index_, .samples = *budget_.spp - spending.samples};
   }
   // Learners were told that this iteration follows, so there is one even if nothing is left for it.
-  const std::uint32_t count = std::max(1u, fitting(spending));
-  const bool is_last = count == 1;
-  Iteration iteration{.index = index_++, .training = true, .training_left = count - 1};
+  const std::uint32_t count = std::max(1u, fitting(spending)), most = largest(spending);
+  const double rest = left(spending) - cost(wanted(spending), spending);
+  const bool is_last =
+      index_ + 1 == most_ || (count == 1 && (left(spending) <= cost(most, spending) ||
+                                             rest < cost(spending.region_minimum, spending)));
+  Iteration iteration{.index = index_++, .training = true, .samples = most};
+  if (!is_last) iteration.training_left = std::max(1u, count - 1);
   if (budget_.spp) {
-    iteration.samples = is_last ? training_samples_ - spending.samples : wanted(spending);
+    iteration.samples =
+        is_last ? std::min(most, training_samples_ - spending.samples) : wanted(spending);
   } else if (kind_ == ScheduleKind::uniform) {
     if (!is_last) iteration.least_samples = spending.region_minimum;
     iteration.deadline = training_seconds_ - (count - 1) * cost(wanted(spending), spending);
@@ -66,9 +71,24 @@ std::optional<Iteration> Schedule::next(const Spending& spending) {
   return iteration;
 }
 
+double Schedule::left(const Spending& spending) const {
+  return budget_.spp ? static_cast<double>(training_samples_) - spending.samples
+                     : training_seconds_ - spending.seconds;
+}
+
+std::uint32_t Schedule::largest(const Spending& spending) const {
+  if (spending.largest_share >= 1) return kMostSamples;
+  const double samples =
+      budget_.spp ? spending.largest_share * *budget_.spp
+                  : (spending.largest_share * *budget_.seconds - spending.update_seconds) /
+                        spending.seconds_per_sample;
+  return std::max(static_cast<std::uint32_t>(std::clamp(samples, 1.0, double{kMostSamples})),
+                  spending.region_minimum);
+}
+
 std::uint32_t Schedule::wanted(const Spending& spending) const {
   const bool doubles = kind_ == ScheduleKind::geometric && size_ > 0;
-  return std::max(doubles ? doubled(size_) : first_, spending.region_minimum);
+  return std::clamp(doubles ? doubled(size_) : first_, spending.region_minimum, largest(spending));
 }
 
 double Schedule::cost(std::uint32_t samples, const Spending& spending) const {
@@ -79,8 +99,7 @@ double Schedule::cost(std::uint32_t samples, const Spending& spending) const {
 }
 
 std::uint32_t Schedule::fitting(const Spending& spending) const {
-  double left = budget_.spp ? static_cast<double>(training_samples_) - spending.samples
-                            : training_seconds_ - spending.seconds;
+  double left = this->left(spending);
   // Parts of equal time absorb what iterations and updates before them took too long.
   const double tolerance = budget_.seconds && kind_ == ScheduleKind::uniform ? 0.5 : 0;
   std::uint32_t size = wanted(spending), count = 0;

@@ -33,6 +33,9 @@ struct Spending {
   double update_seconds = 0;      ///< of the last update
   /// Samples per pixel with which every region of the models gets enough training samples.
   std::uint32_t region_minimum = 1;
+  /// Largest share of the budget that the next training iteration may take [1]. An iteration of
+  /// `region_minimum` samples is always allowed.
+  double largest_share = 1;
 };
 
 /// Divides a budget into training iterations and the final image, one iteration at a time. A sample
@@ -44,6 +47,7 @@ struct Spending {
 ///   an iteration, that iteration is the last one and uses all the time left for training.
 ///
 /// An iteration that would give the models' regions too few samples is longer, so there are fewer.
+/// An iteration that may take only a small share of the budget is shorter, so there are more.
 /// If the budget does not suffice, there are fewer iterations, too. The samples that training
 /// leaves over go to the final image in whole granules of `granule` samples (the preferred number
 /// of a sampler), and the rest go to the last training iteration. Without training, the budget is
@@ -64,7 +68,11 @@ class Schedule {
   double fraction(double samples, double seconds) const;
 
  private:
-  /// Returns the size of the next training iteration if nothing limits it [spp].
+  /// Returns the part of the budget that is left for training [spp or seconds].
+  double left(const Spending& spending) const;
+  /// Returns the largest size that the next training iteration may have [spp].
+  std::uint32_t largest(const Spending& spending) const;
+  /// Returns the size of the next training iteration if enough is left for it [spp].
   std::uint32_t wanted(const Spending& spending) const;
   /// Returns the part of the budget that a training iteration of `samples` takes [spp or seconds].
   double cost(std::uint32_t samples, const Spending& spending) const;

@@ -14,6 +14,7 @@ struct Machine {
   double seconds_per_sample = kSecondsPerSample;
   double update_seconds = kUpdateSeconds;
   std::uint32_t region_minimum = 1;  ///< after the first iteration
+  double largest_share = 1;          ///< after the first iteration
 };
 
 /// Runs a schedule as a render would, on a clock of its own. Returns the samples and the times that
@@ -50,6 +51,7 @@ Run run(const Budget& budget, const TrainingSettings& training, std::uint32_t gr
       spent.update_seconds = machine.update_seconds;
       spent.seconds += machine.update_seconds;
       spent.region_minimum = machine.region_minimum;
+      spent.largest_share = machine.largest_share;
     }
     result.iterations.push_back(*iteration);
     result.samples.push_back(done);
@@ -157,6 +159,30 @@ TEST_CASE("regions that need more samples than there is time for do not exceed t
     CHECK(seconds < 42);
     CHECK(all.seconds.back() > 18);
   }
+}
+
+TEST_CASE("iterations that may take only a small share of the budget are shorter and more") {
+  const TrainingSettings geometric{.schedule = ScheduleKind::geometric};
+  const Machine machine{.largest_share = 1.0 / 16};
+  // Without the limit: 1, 2, 4, 8, 16, 33 samples, then the image.
+  CHECK(run({.spp = 128}, geometric, 1, machine).samples ==
+        std::vector<std::uint32_t>{1, 2, 4, 8, 8, 8, 8, 8, 8, 8, 65});
+  const Run all = run({.seconds = 40.0}, geometric, 1, machine);
+  REQUIRE(all.samples.size() > 8);
+  for (std::size_t i = 1; i + 1 < all.samples.size(); ++i) {
+    CHECK(all.seconds[i] + kUpdateSeconds <= 2.5);
+    const bool is_last = i + 2 == all.samples.size();
+    CHECK((all.iterations[i].training_left == 0) == is_last);
+  }
+  CHECK(all.seconds.back() < 23);
+  const Run dear = run({.spp = 128}, geometric, 1, {.region_minimum = 20, .largest_share = 0.01});
+  CHECK(dear.samples == std::vector<std::uint32_t>{1, 20, 20, 20, 67});
+}
+
+TEST_CASE("the number of training iterations is limited, however short they are") {
+  const TrainingSettings training{.schedule = ScheduleKind::geometric, .iterations = 5};
+  const Run all = run({.spp = 1024}, training, 1, {.largest_share = 1.0 / 128});
+  CHECK(all.samples == std::vector<std::uint32_t>{16, 8, 8, 8, 8, 976});
 }
 
 TEST_CASE("training can end early, and the image gets the rest") {

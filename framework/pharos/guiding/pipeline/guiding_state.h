@@ -27,6 +27,9 @@ class GuidingState {
   /// Ends the recording of an iteration. `spent` is the share of the budget that was spent. Returns
   /// whether training may end, because the gain of the guides has settled or is too small to go on.
   bool may_end_training(double spent);
+  /// Returns the largest share of the budget that the next training iteration is worth [1]: all of
+  /// it, or TrainingSettings::trial as long as the gain of the guides is too small.
+  double worthwhile_share() const { return is_useless() ? training_.trial : 1; }
   void update(const TrainingStage& stage);
 
   /// Returns the number of training samples of the last iteration for each region of the largest

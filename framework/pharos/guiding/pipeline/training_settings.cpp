@@ -36,7 +36,8 @@ void TrainingSettings::describe(Schema<TrainingSettings>& s) {
       .at_least(0);
   s.field("trial", &TrainingSettings::trial,
           "Training ends if the gain is less than `least_gain` and rises by no more than "
-          "`tolerance` when this share of the budget is spent")
+          "`tolerance` when this share of the budget is spent; until the gain is large enough, no "
+          "iteration takes more than this share")
       .at_least(0)
       .at_most(1);
 }

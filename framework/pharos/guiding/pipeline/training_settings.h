@@ -40,7 +40,8 @@ struct TrainingSettings {
   /// guided.
   double least_gain = 0;
   /// Training ends if the gain is less than `least_gain` and rises by no more than `tolerance` when
-  /// this share of the budget is spent.
+  /// this share of the budget is spent. As long as the gain is less than `least_gain`, no iteration
+  /// takes more than this share.
   double trial = 1.0 / 16;
 
   static void describe(Schema<TrainingSettings>& schema);
