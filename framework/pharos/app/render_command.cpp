@@ -67,6 +67,10 @@ void report(const RenderResult& result, const RenderConfig& config) {
                        result.samples_per_pixel, seconds,
                        static_cast<double>(result.counters.rays) / seconds * 1e-6,
                        result.stopped ? " (interrupted)" : ""));
+  if (result.gain) {
+    log_info(fmt::format("the guides' gain is {:.2g} nats a step{}", result.gain->nats,
+                         result.gain->is_off ? ", too little: the image is not guided" : ""));
+  }
   if (!config.output.model.empty() && result.learned == nullptr) {
     log_warning(fmt::format("{}: not written, since {} was learned", config.output.model,
                             result.model_bytes > 0 ? "not every model" : "nothing"));

@@ -98,6 +98,7 @@ class RenderJob::Implementation {
     result_.image = combiner_.empty() ? last_image_ : combiner_.combine();
     result_.stopped = stopped();
     if (guiding_ != nullptr) {
+      result_.gain = guiding_->gain();
       result_.model_bytes = guiding_->model_bytes();
       result_.model = guiding_->model(0);
       result_.learned = guiding_->learned();

@@ -65,6 +65,7 @@ struct RenderResult {
   RenderCounters counters;
   RenderTimes times;
   bool stopped = false;                       ///< whether RenderControl::stop ended it early
+  std::optional<GuideGain> gain;              ///< none if nothing depends on the guides' gain
   std::size_t model_bytes = 0;                ///< size of the learned models
   std::shared_ptr<const GuidingModel> model;  ///< model of the first method; null if there is none
   /// Everything that was learned; null if a method has learned nothing, and without guiding.

@@ -318,6 +318,9 @@ TEST_CASE("guiding state: a guide that hardly helps is off after training, which
     CHECK(may_end(state, 0.8, 0.3, 3) == (least > 0.125));
     state.update({2, 0});
     CHECK((state.frame() == nullptr) == (least > 0.125));
+    REQUIRE(state.gain().has_value());
+    CHECK(state.gain()->is_off == (least > 0.125));
+    CHECK(state.gain()->nats == doctest::Approx(test::expected_gain(0.8)).epsilon(0.05));
   }
 }
 

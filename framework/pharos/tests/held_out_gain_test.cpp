@@ -38,23 +38,28 @@ TEST_CASE("held-out gain: training settles when guides improve no further, and n
   CHECK_FALSE(settles(gain, 0.5, 1000, 7, 0.02));  // worse than before, for now
 }
 
-TEST_CASE("held-out gain: whether it rises") {
+TEST_CASE("held-out gain: whether it suffices, or will if it rises by as much again") {
   HeldOutGain gain;
   settles(gain, 0.5, 1000, 1, 0);
-  CHECK(gain.rises(0.05));  // there is nothing to compare with
-  settles(gain, 0.5, 1000, 2, 0);
-  CHECK_FALSE(gain.rises(0.05));
-  settles(gain, 0.9, 1000, 3, 0);
-  CHECK(gain.rises(0.05));
-  CHECK_FALSE(gain.rises(1));
-  settles(gain, 0.5, 1000, 4, 0);
-  CHECK_FALSE(gain.rises(0.05));
+  CHECK(gain.is_below(0.1));
+  CHECK_FALSE(gain.is_below(-0.1));
+  CHECK(gain.may_reach(100));  // there is nothing to compare with
+  settles(gain, 0.9, 1000, 2, 0);
+  CHECK(gain.may_be_below(gain.value()));  // because it is uncertain
+  CHECK_FALSE(gain.may_be_below(gain.value() - 0.1));
+  const double rise = expected_gain(0.9) - expected_gain(0.5);
+  CHECK(gain.may_reach(expected_gain(0.9) + 0.9 * rise));
+  CHECK_FALSE(gain.may_reach(expected_gain(0.9) + 1.1 * rise));
+  settles(gain, 0.5, 1000, 3, 0);
+  CHECK_FALSE(gain.may_reach(expected_gain(0.5) + 0.1));  // a fall counts as no rise
+  CHECK(gain.may_reach(expected_gain(0.5) - 0.1));
 }
 
 TEST_CASE("held-out gain: iterations without light tell nothing") {
   HeldOutGain gain;
   settles(gain, 0.9, 1000, 1, 0.02);
   CHECK_FALSE(gain.end_iteration(0.02));
+  CHECK_FALSE(gain.is_below(100));
   CHECK_FALSE(settles(gain, 0.9, 1000, 2, 0.02));
   CHECK(settles(gain, 0.9, 1000, 3, 0.02));
 }

@@ -81,6 +81,10 @@ std::vector<RunMeasure> all_measures() {
   add("rays_per_second", "rays a second", "millions/s", "Over training, updates and rendering",
       Better::higher, true,
       [](const R& r) { return mega(static_cast<double>(r.rays)) / r.seconds(); });
+  add("gain", "gain of the guides", "nats",
+      "How much better the guides explained the light of the last training iteration than unguided "
+      "sampling does, a step of a path",
+      Better::neither, false, [](const R& r) { return r.gain.value_or(kNone); });
   add("model_bytes", "learned models", "MiB", "Size of the learned models in memory", Better::lower,
       false, [](const R& r) { return mebi(static_cast<double>(r.model_bytes)); });
   add("peak_bytes", "peak memory", "MiB", "The most memory that the process held during the run",

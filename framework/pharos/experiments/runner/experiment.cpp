@@ -236,6 +236,8 @@ class Runner {
             .times = result.times,
             .rays = result.counters.rays,
             .invalid_paths = result.counters.invalid_paths,
+            .gain = result.gain ? std::optional(result.gain->nats) : std::nullopt,
+            .guiding_is_off = result.gain && result.gain->is_off,
             .model_bytes = result.model_bytes,
             .peak_bytes = {},
             .errors = {},

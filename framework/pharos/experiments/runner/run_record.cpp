@@ -12,7 +12,7 @@ namespace {
 using nlohmann::json;
 
 /// The format version of record files.
-constexpr int kFormat = 2;
+constexpr int kFormat = 3;
 
 ImageErrors errors_from(const json& node) {
   ImageErrors errors;
@@ -22,6 +22,10 @@ ImageErrors errors_from(const json& node) {
   }
   errors.invalid_pixels = node.value("invalid_pixels", std::size_t{0});
   return errors;
+}
+
+std::optional<double> optional_number(const json& node) {
+  return node.is_number() ? std::optional(node.get<double>()) : std::nullopt;
 }
 
 RunRecord record_from(const json& node) {
@@ -41,11 +45,12 @@ RunRecord record_from(const json& node) {
                              .rendering = node.at("seconds_rendering")},
                    .rays = node.at("rays"),
                    .invalid_paths = node.at("invalid_paths"),
+                   .gain = optional_number(node.at("gain")),
+                   .guiding_is_off = node.at("guiding_is_off"),
                    .model_bytes = node.at("model_bytes"),
-                   .peak_bytes = {},
+                   .peak_bytes = optional_number(node.at("peak_bytes")),
                    .errors = errors_from(node.at("errors")),
                    .checkpoints = {}};
-  if (node.at("peak_bytes").is_number()) record.peak_bytes = node.at("peak_bytes").get<double>();
   for (const json& checkpoint : node.at("checkpoints")) {
     record.checkpoints.push_back({checkpoint.at("samples_per_pixel"), checkpoint.at("seconds"),
                                   errors_from(checkpoint.at("errors"))});
@@ -94,6 +99,8 @@ json to_json(const RunRecord& record) {
           {"seconds_rendering", record.times.rendering},
           {"rays", record.rays},
           {"invalid_paths", record.invalid_paths},
+          {"gain", record.gain ? json(*record.gain) : json(nullptr)},
+          {"guiding_is_off", record.guiding_is_off},
           {"model_bytes", record.model_bytes},
           {"peak_bytes", record.peak_bytes ? json(*record.peak_bytes) : json(nullptr)},
           {"errors", to_json(record.errors)},

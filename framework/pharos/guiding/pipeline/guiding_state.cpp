@@ -108,7 +108,7 @@ bool GuidingState::may_end_training(double spent) {
   // Iterations without guides say nothing about guides.
   if (!gain_ || frame_ == nullptr) return false;
   const bool is_settled = gain_->end_iteration(training_.tolerance);
-  if (is_useless()) return spent >= training_.trial && !gain_->rises(training_.tolerance);
+  if (is_useless()) return spent >= training_.trial && !gain_->may_reach(training_.least_gain);
   return is_settled;
 }
 
@@ -129,6 +129,11 @@ void GuidingState::update(const TrainingStage& stage) {
   is_final_ = stage.is_last();
   is_off_ = is_final_ && is_useless();
   rebuild_frame();
+}
+
+std::optional<GuideGain> GuidingState::gain() const {
+  if (!gain_ || !gain_->is_known()) return std::nullopt;
+  return GuideGain{gain_->value(), is_off_};
 }
 
 double GuidingState::samples_per_region() const {

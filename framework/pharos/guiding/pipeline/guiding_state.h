@@ -12,6 +12,12 @@
 
 namespace pharos {
 
+/// How much the guides help after training.
+struct GuideGain {
+  double nats = 0;      ///< gain in the last training iteration, see HeldOutGain
+  bool is_off = false;  ///< it is less than TrainingSettings::least_gain: the image is not guided
+};
+
 /// The learning side of a render. It holds the state and the newest model of every method, and the
 /// state of the mixing policy.
 class GuidingState {
@@ -28,10 +34,14 @@ class GuidingState {
   /// whether training may end, because the gain of the guides has settled or is too small to go on.
   bool may_end_training(double spent);
   /// Returns the largest share of the budget that the next training iteration is worth [1]: all of
-  /// it, or TrainingSettings::trial as long as the gain of the guides is too small.
-  double worthwhile_share() const { return is_useless() ? training_.trial : 1; }
+  /// it, or TrainingSettings::trial as long as the gain of the guides may be too small.
+  double worthwhile_share() const {
+    return gain_ && gain_->may_be_below(training_.least_gain) ? training_.trial : 1;
+  }
   void update(const TrainingStage& stage);
 
+  /// Returns the gain of the guides; none if nothing depends on it, or if no iteration was guided.
+  std::optional<GuideGain> gain() const;
   /// Returns the number of training samples of the last iteration for each region of the largest
   /// model.
   double samples_per_region() const;

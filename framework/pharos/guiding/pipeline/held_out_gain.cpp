@@ -47,20 +47,13 @@ bool HeldOutGain::end_iteration(double tolerance) {
   before_ = std::exchange(last_, gain());
   has_before_ = std::exchange(has_last_, is_measured());
   sums_ = {};
+  const double error_of_change = std::sqrt(before_.variance + last_.variance);
   return has_before_ && has_last_ &&
-         std::abs(last_.mean - before_.mean) + 2 * error_of_change() < tolerance;
+         std::abs(last_.mean - before_.mean) + 2 * error_of_change < tolerance;
 }
 
-bool HeldOutGain::rises(double tolerance) const {
-  return !has_before_ || last_.mean - before_.mean > std::max(tolerance, error_of_change());
-}
-
-double HeldOutGain::error_of_change() const {
-  return std::sqrt(before_.variance + last_.variance);
-}
-
-bool HeldOutGain::is_below(double least) const {
-  return has_last_ && last_.mean + 2 * std::sqrt(last_.variance) < least;
+bool HeldOutGain::may_be_below(double least) const {
+  return has_last_ && last_.mean - std::sqrt(last_.variance) < least;
 }
 
 }  // namespace pharos

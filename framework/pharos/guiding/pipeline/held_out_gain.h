@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -22,13 +23,20 @@ class HeldOutGain {
   /// iteration before by less than `tolerance`, with two standard errors to spare. False after the
   /// first iteration.
   bool end_iteration(double tolerance);
-  /// Returns whether the gain of the last iteration exceeds the gain of the iteration before by
-  /// more than `tolerance` and by more than a standard error. True after the first iteration,
-  /// because the gain may rise from there.
-  bool rises(double tolerance) const;
-  /// Returns whether the gain of the last iteration is less than `least`, with two standard errors
-  /// to spare. False if the iteration found no light.
-  bool is_below(double least) const;
+  /// Returns whether the gain of the last iteration is less than `least`. False if the iteration
+  /// found no light.
+  bool is_below(double least) const { return has_last_ && last_.mean < least; }
+  /// Returns whether it is uncertain that the gain of the last iteration is at least `least`: it is
+  /// not one standard error above. False if the iteration found no light.
+  bool may_be_below(double least) const;
+  /// Returns whether the gain reaches `least` in the next iteration if it rises by as much as from
+  /// the iteration before to the last one. True after the first iteration, because the gain may
+  /// rise from there.
+  bool may_reach(double least) const {
+    return !has_before_ || last_.mean + std::max(0.0, last_.mean - before_.mean) >= least;
+  }
+  /// Returns whether the last iteration found light.
+  bool is_known() const { return has_last_; }
   /// Returns the gain of the last iteration; 0 if it found no light.
   double value() const { return last_.mean; }
 
@@ -50,7 +58,6 @@ class HeldOutGain {
   /// Returns whether the current iteration has found light in enough work units for an error.
   bool is_measured() const { return sums_.weight > 0 && sums_.units > 1; }
   Gain gain() const;
-  double error_of_change() const;
 
   Sums sums_;
   Gain last_, before_;  ///< of the last iteration and the one before

@@ -39,9 +39,9 @@ struct TrainingSettings {
   /// The final image is not guided if the gain of the guides is less than this [nats]. 0: always
   /// guided.
   double least_gain = 0;
-  /// Training ends if the gain is less than `least_gain` and rises by no more than `tolerance` when
-  /// this share of the budget is spent. As long as the gain is less than `least_gain`, no iteration
-  /// takes more than this share.
+  /// Training ends if the gain is less than `least_gain`, and will be if it rises by as much again,
+  /// when this share of the budget is spent. As long as the gain may be less, no iteration takes
+  /// more than this share.
   double trial = 1.0 / 16;
 
   static void describe(Schema<TrainingSettings>& schema);
