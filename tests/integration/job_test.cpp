@@ -110,6 +110,24 @@ TEST_CASE("what watching takes is not charged to a time budget") {
   CHECK(last < 0.9);
 }
 
+TEST_CASE("guides of little gain cost little, and the image goes on without them") {
+  double training = 0;
+  const RenderResult result = render_watched(
+      cornell(
+          "integrator: { type: path, guiding: { learner: stub_direction, guider: stub_direction, "
+          "training: { schedule: geometric, least_gain: 100, trial: 0.03 } } }\n"
+          "budget: { spp: 64 }\n"),
+      [&](const RenderSnapshot& snapshot) {
+        if (snapshot.progress.training) training = snapshot.progress.samples_per_pixel;
+      });
+  // One sample without a guide, two with one, and one more, because the trial allows no longer
+  // iteration. Training then ends.
+  CHECK(training == 4);
+  CHECK(result.samples_per_pixel == 64);
+  REQUIRE(result.gain.has_value());
+  CHECK(result.gain->is_off);
+}
+
 TEST_CASE("training counts within the budget") {
   const RenderResult result =
       render(cornell("budget: { spp: 64 }\nintegrator: { type: path, guiding: { learner: "

@@ -50,12 +50,9 @@ std::optional<Iteration> Schedule::next(const Spending& spending) {
   }
   // Learners were told that this iteration follows, so there is one even if nothing is left for it.
   const std::uint32_t count = std::max(1u, fitting(spending)), most = largest(spending);
-  const double rest = left(spending) - cost(wanted(spending), spending);
-  const bool is_last =
-      index_ + 1 == most_ || (count == 1 && (left(spending) <= cost(most, spending) ||
-                                             rest < cost(spending.region_minimum, spending)));
-  Iteration iteration{.index = index_++, .training = true, .samples = most};
-  if (!is_last) iteration.training_left = std::max(1u, count - 1);
+  const bool is_last = count == 1;
+  Iteration iteration{
+      .index = index_++, .training = true, .samples = most, .training_left = count - 1};
   if (budget_.spp) {
     iteration.samples =
         is_last ? std::min(most, training_samples_ - spending.samples) : wanted(spending);
@@ -78,10 +75,15 @@ double Schedule::left(const Spending& spending) const {
 
 std::uint32_t Schedule::largest(const Spending& spending) const {
   if (spending.largest_share >= 1) return kMostSamples;
-  const double samples =
-      budget_.spp ? spending.largest_share * *budget_.spp
-                  : (spending.largest_share * *budget_.seconds - spending.update_seconds) /
-                        spending.seconds_per_sample;
+  double samples = spending.largest_share;
+  if (budget_.spp) {
+    samples *= *budget_.spp;
+  } else {
+    // Where updates are dear, rendering takes at least half of the time.
+    const double update = spending.update_seconds;
+    const double rendering = std::max(spending.largest_share * *budget_.seconds - update, update);
+    samples = rendering / std::max(spending.seconds_per_sample, 1e-9);
+  }
   return std::max(static_cast<std::uint32_t>(std::clamp(samples, 1.0, double{kMostSamples})),
                   spending.region_minimum);
 }
@@ -105,7 +107,7 @@ std::uint32_t Schedule::fitting(const Spending& spending) const {
   std::uint32_t size = wanted(spending), count = 0;
   while (index_ + count < most_ && left >= (1 - tolerance) * cost(size, spending)) {
     left -= cost(size, spending);
-    if (kind_ == ScheduleKind::geometric) size = doubled(size);
+    if (kind_ == ScheduleKind::geometric) size = std::min(doubled(size), largest(spending));
     ++count;
   }
   return count;

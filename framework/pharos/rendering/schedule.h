@@ -33,8 +33,8 @@ struct Spending {
   double update_seconds = 0;      ///< of the last update
   /// Samples per pixel with which every region of the models gets enough training samples.
   std::uint32_t region_minimum = 1;
-  /// Largest share of the budget that the next training iteration may take [1]. An iteration of
-  /// `region_minimum` samples is always allowed.
+  /// Largest share of the budget that the next training iteration may take, update included [1].
+  /// It may always have `region_minimum` samples, and render for as long as an update takes.
   double largest_share = 1;
 };
 
@@ -47,7 +47,8 @@ struct Spending {
 ///   an iteration, that iteration is the last one and uses all the time left for training.
 ///
 /// An iteration that would give the models' regions too few samples is longer, so there are fewer.
-/// An iteration that may take only a small share of the budget is shorter, so there are more.
+/// An iteration that may take only a small share of the budget is shorter, so there may be more, up
+/// to `iterations`; what training then does not use goes to the final image.
 /// If the budget does not suffice, there are fewer iterations, too. The samples that training
 /// leaves over go to the final image in whole granules of `granule` samples (the preferred number
 /// of a sampler), and the rest go to the last training iteration. Without training, the budget is

@@ -115,7 +115,7 @@ struct PixelGrid {
 struct SamplePlan {
   std::uint64_t seed = 0;
   /// In the longest iteration, as planned before the render; 0: unknown (time budget). If training
-  /// ends early, the final image has more.
+  /// takes less than planned, the final image has more.
   std::uint32_t samples_per_pixel = 0;
 };
 

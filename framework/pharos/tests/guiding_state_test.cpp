@@ -307,16 +307,21 @@ TEST_CASE("guiding state: a guide that hardly helps is off after training, which
   for (const double least : {0.1, 0.2}) {
     REQUIRE(test::expected_gain(0.9) == doctest::Approx(0.125).epsilon(0.01));
     own.training.least_gain = least;
-    own.training.trial = 0.25;
+    own.training.trial = 0.15;
     GuidingState state(own, {});
     CHECK_FALSE(may_end(state, 0.5, 0.1, 1));
-    state.update({0, 1});
-    CHECK_FALSE(may_end(state, 0.9, 0.2, 2));
-    state.update({1, 1});
+    CHECK(state.worthwhile_share() == 1);  // nothing is known: no guide had a model
+    state.update({0, 3});
+    CHECK_FALSE(may_end(state, 0.5, 0.2, 2));  // there is nothing to compare with
+    CHECK(state.worthwhile_share() == 0.15);
+    state.update({1, 2});
+    CHECK_FALSE(may_end(state, 0.9, 0.25, 3));  // another such rise would suffice
+    CHECK(state.worthwhile_share() == (least > 0.125 ? 0.15 : 1));
+    state.update({2, 1});
     CHECK(state.frame() != nullptr);         // it may still improve
     CHECK(test::expected_gain(0.8) < 0.11);  // less than before, so the gain does not rise
-    CHECK(may_end(state, 0.8, 0.3, 3) == (least > 0.125));
-    state.update({2, 0});
+    CHECK(may_end(state, 0.8, 0.3, 4) == (least > 0.125));
+    state.update({3, 0});
     CHECK((state.frame() == nullptr) == (least > 0.125));
     REQUIRE(state.gain().has_value());
     CHECK(state.gain()->is_off == (least > 0.125));

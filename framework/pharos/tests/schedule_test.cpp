@@ -15,6 +15,7 @@ struct Machine {
   double update_seconds = kUpdateSeconds;
   std::uint32_t region_minimum = 1;  ///< after the first iteration
   double largest_share = 1;          ///< after the first iteration
+  std::size_t limited = 1000;        ///< number of iterations after which there is no limit
 };
 
 /// Runs a schedule as a render would, on a clock of its own. Returns the samples and the times that
@@ -51,7 +52,8 @@ Run run(const Budget& budget, const TrainingSettings& training, std::uint32_t gr
       spent.update_seconds = machine.update_seconds;
       spent.seconds += machine.update_seconds;
       spent.region_minimum = machine.region_minimum;
-      spent.largest_share = machine.largest_share;
+      const bool is_limited = result.iterations.size() + 1 < machine.limited;
+      spent.largest_share = is_limited ? machine.largest_share : 1;
     }
     result.iterations.push_back(*iteration);
     result.samples.push_back(done);
@@ -164,19 +166,49 @@ TEST_CASE("regions that need more samples than there is time for do not exceed t
 TEST_CASE("iterations that may take only a small share of the budget are shorter and more") {
   const TrainingSettings geometric{.schedule = ScheduleKind::geometric};
   const Machine machine{.largest_share = 1.0 / 16};
-  // Without the limit: 1, 2, 4, 8, 16, 33 samples, then the image.
-  CHECK(run({.spp = 128}, geometric, 1, machine).samples ==
-        std::vector<std::uint32_t>{1, 2, 4, 8, 8, 8, 8, 8, 8, 8, 65});
-  const Run all = run({.seconds = 40.0}, geometric, 1, machine);
-  REQUIRE(all.samples.size() > 8);
-  for (std::size_t i = 1; i + 1 < all.samples.size(); ++i) {
-    CHECK(all.seconds[i] + kUpdateSeconds <= 2.5);
-    const bool is_last = i + 2 == all.samples.size();
-    CHECK((all.iterations[i].training_left == 0) == is_last);
+  // Without the limit: 1, 2, 4, 8, 16, 32 samples, then the image.
+  const Run counted = run({.spp = 128}, geometric, 1, machine);
+  CHECK(counted.samples == std::vector<std::uint32_t>{1, 2, 4, 8, 8, 8, 8, 8, 8, 8, 65});
+  for (std::uint32_t i = 1; i < 10; ++i) CHECK(counted.iterations[i].training_left == 9 - i);
+  const Run timed = run({.seconds = 40.0}, geometric, 1, machine);
+  REQUIRE(timed.samples.size() > 8);
+  for (std::size_t i = 1; i + 1 < timed.samples.size(); ++i) {
+    CHECK(timed.seconds[i] + kUpdateSeconds <= 2.5);
+    const bool is_last = i + 2 == timed.samples.size();
+    CHECK((timed.iterations[i].training_left == 0) == is_last);
   }
-  CHECK(all.seconds.back() < 23);
-  const Run dear = run({.spp = 128}, geometric, 1, {.region_minimum = 20, .largest_share = 0.01});
-  CHECK(dear.samples == std::vector<std::uint32_t>{1, 20, 20, 20, 67});
+  CHECK(timed.seconds.back() < 23);
+}
+
+TEST_CASE("a small share of the budget: no iteration is tiny because little is left") {
+  const TrainingSettings geometric{.schedule = ScheduleKind::geometric};
+  CHECK(run({.spp = 1000}, geometric, 1, {.largest_share = 1.0 / 16}).samples ==
+        std::vector<std::uint32_t>{1, 2, 4, 8, 16, 32, 62, 62, 62, 751});
+  const Machine regions{.region_minimum = 20, .largest_share = 0.01};
+  CHECK(run({.spp = 128}, geometric, 1, regions).samples ==
+        std::vector<std::uint32_t>{1, 20, 20, 20, 67});
+  CHECK(run({.spp = 128}, geometric, 64, regions).total() == 128);
+}
+
+TEST_CASE("a small share of the budget: uniform training is shorter") {
+  CHECK(run({.spp = 96}, {.iterations = 3}, 1, {.largest_share = 1.0 / 16}).samples ==
+        std::vector<std::uint32_t>{16, 6, 6, 68});
+  const Run timed = run({.seconds = 40.0}, {.iterations = 4}, 1, {.largest_share = 1.0 / 16});
+  REQUIRE(timed.seconds.size() == 5);
+  for (std::size_t i = 1; i < 4; ++i) CHECK(timed.seconds[i] + kUpdateSeconds <= 2.5);
+}
+
+TEST_CASE("a small share of the budget: doubling goes on where it stopped") {
+  const TrainingSettings geometric{.schedule = ScheduleKind::geometric};
+  CHECK(run({.spp = 512}, geometric, 1, {.largest_share = 1.0 / 64, .limited = 6}).samples ==
+        std::vector<std::uint32_t>{1, 2, 4, 8, 8, 8, 16, 32, 176, 257});
+}
+
+TEST_CASE("a small share of the budget: long updates do not take most of the time") {
+  const TrainingSettings geometric{.schedule = ScheduleKind::geometric};
+  const Run timed =
+      run({.seconds = 40.0}, geometric, 1, {.update_seconds = 1, .largest_share = 1.0 / 64});
+  for (std::size_t i = 3; i + 1 < timed.seconds.size(); ++i) CHECK(timed.seconds[i] == 1);
 }
 
 TEST_CASE("the number of training iterations is limited, however short they are") {

@@ -25,7 +25,7 @@ struct LearningContext {
 struct TrainingStage {
   std::uint32_t iteration = 0;  ///< counted from 0
   /// Expected number of training iterations that follow. It may turn out larger or smaller, because
-  /// time budgets and `tolerance` end training when they see fit, but 0 is certain.
+  /// time budgets and the gain of the guides decide when training ends, but 0 is certain.
   std::uint32_t left = 0;
 
   bool is_last() const { return left == 0; }

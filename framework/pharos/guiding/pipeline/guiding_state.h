@@ -34,7 +34,7 @@ class GuidingState {
   /// whether training may end, because the gain of the guides has settled or is too small to go on.
   bool may_end_training(double spent);
   /// Returns the largest share of the budget that the next training iteration is worth [1]: all of
-  /// it, or TrainingSettings::trial as long as the gain of the guides may be too small.
+  /// it, or TrainingSettings::trial if the gain of the guides is known and may be too small.
   double worthwhile_share() const {
     return gain_ && gain_->may_be_below(training_.least_gain) ? training_.trial : 1;
   }

@@ -30,8 +30,8 @@ class HeldOutGain {
   /// not one standard error above. False if the iteration found no light.
   bool may_be_below(double least) const;
   /// Returns whether the gain reaches `least` in the next iteration if it rises by as much as from
-  /// the iteration before to the last one. True after the first iteration, because the gain may
-  /// rise from there.
+  /// the iteration before to the last one. True as long as the iteration before is unknown, because
+  /// the gain may rise from there.
   bool may_reach(double least) const {
     return !has_before_ || last_.mean + std::max(0.0, last_.mean - before_.mean) >= least;
   }

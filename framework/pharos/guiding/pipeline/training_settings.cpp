@@ -35,9 +35,9 @@ void TrainingSettings::describe(Schema<TrainingSettings>& s) {
       .unit("nats")
       .at_least(0);
   s.field("trial", &TrainingSettings::trial,
-          "Training ends if the gain is less than `least_gain`, and will be if it rises by as much "
-          "again, when this share of the budget is spent; until the gain is surely large enough, "
-          "no iteration takes more than this share")
+          "Once this share of the budget is spent, training ends if the gain is less than "
+          "`least_gain`, and would be after another rise like the last one. Until the gain exceeds "
+          "`least_gain` by a standard error, this share also limits each iteration")
       .at_least(0)
       .at_most(1);
 }

@@ -39,9 +39,9 @@ struct TrainingSettings {
   /// The final image is not guided if the gain of the guides is less than this [nats]. 0: always
   /// guided.
   double least_gain = 0;
-  /// Training ends if the gain is less than `least_gain`, and will be if it rises by as much again,
-  /// when this share of the budget is spent. As long as the gain may be less, no iteration takes
-  /// more than this share.
+  /// Once this share of the budget is spent, training ends if the gain is less than `least_gain`,
+  /// and would be after another rise like the last one. A gain that exceeds `least_gain` by less
+  /// than a standard error limits the next iteration to this share; see Spending::largest_share.
   double trial = 1.0 / 16;
 
   static void describe(Schema<TrainingSettings>& schema);
