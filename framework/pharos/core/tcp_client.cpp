@@ -45,18 +45,19 @@ void wait_writable(int socket, const std::stop_token& stop, double seconds) {
 
 }  // namespace
 
-std::vector<TcpClient::Address> TcpClient::look_up(const HostPort& server) {
+TcpClient::Lookup TcpClient::look_up(const HostPort& server) {
   addrinfo hints{};
   hints.ai_socktype = SOCK_STREAM;
   addrinfo* list = nullptr;
   const int error =
       getaddrinfo(server.host.c_str(), std::to_string(server.port).c_str(), &hints, &list);
-  if (error == EAI_SYSTEM) fail(errno);
-  if (error != 0) throw RunError(gai_strerror(error));
+  if (error == EAI_SYSTEM)
+    return {.addresses = {}, .problem = std::system_category().message(errno)};
+  if (error != 0) return {.addresses = {}, .problem = gai_strerror(error)};
   const std::unique_ptr<addrinfo, decltype(&freeaddrinfo)> owner(list, freeaddrinfo);
-  std::vector<Address> found;
+  Lookup found;
   for (const addrinfo* entry = list; entry != nullptr; entry = entry->ai_next) {
-    Address& address = found.emplace_back();
+    Address& address = found.addresses.emplace_back();
     std::memcpy(&address.storage, entry->ai_addr, entry->ai_addrlen);
     address.size = entry->ai_addrlen;
   }
@@ -66,14 +67,16 @@ std::vector<TcpClient::Address> TcpClient::look_up(const HostPort& server) {
 std::vector<TcpClient::Address> TcpClient::addresses(const std::stop_token& stop, double seconds) {
   // A lookup that took too long for an earlier call may have finished by now.
   if (!lookup_.valid()) {
-    std::packaged_task<std::vector<Address>()> task([server = server_] { return look_up(server); });
+    std::packaged_task<Lookup()> task([server = server_] { return look_up(server); });
     lookup_ = task.get_future();
     std::thread(std::move(task)).detach();
   }
   wait(stop, seconds, [&](std::chrono::milliseconds slice) {
     return lookup_.wait_for(slice) == std::future_status::ready;
   });
-  return lookup_.get();
+  Lookup found = lookup_.get();
+  if (!found.problem.empty()) throw RunError(found.problem);
+  return std::move(found.addresses);
 }
 
 void TcpClient::connect(const std::stop_token& stop, double seconds) {

@@ -4,6 +4,7 @@
 #include <netinet/in.h>
 #include <span>
 #include <stop_token>
+#include <string>
 #include <vector>
 
 #include <pharos/core/host_port.h>
@@ -35,14 +36,20 @@ class TcpClient {
     sockaddr_storage storage{};
     socklen_t size = 0;
   };
-  static std::vector<Address> look_up(const HostPort& server);
+  /// What a lookup has found. A problem is a text, not an exception: the thread sanitizer cannot
+  /// see how the standard library counts the threads that hold an exception.
+  struct Lookup {
+    std::vector<Address> addresses;
+    std::string problem;  ///< empty if there is none
+  };
+  static Lookup look_up(const HostPort& server);
   std::vector<Address> addresses(const std::stop_token& stop, double seconds);
   void connect_to(const Address& address, const std::stop_token& stop, double seconds);
 
   HostPort server_;
   /// The addresses of the server once they are known. The system offers no way to cancel a lookup.
   /// The lookup therefore runs in a thread of its own, which is left behind if it takes too long.
-  std::future<std::vector<Address>> lookup_;
+  std::future<Lookup> lookup_;
   int socket_ = -1;
 };
 
