@@ -51,8 +51,9 @@ TcpClient::Lookup TcpClient::look_up(const HostPort& server) {
   addrinfo* list = nullptr;
   const int error =
       getaddrinfo(server.host.c_str(), std::to_string(server.port).c_str(), &hints, &list);
-  if (error == EAI_SYSTEM)
+  if (error == EAI_SYSTEM) {
     return {.addresses = {}, .problem = std::system_category().message(errno)};
+  }
   if (error != 0) return {.addresses = {}, .problem = gai_strerror(error)};
   const std::unique_ptr<addrinfo, decltype(&freeaddrinfo)> owner(list, freeaddrinfo);
   Lookup found;

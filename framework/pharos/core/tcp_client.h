@@ -36,8 +36,8 @@ class TcpClient {
     sockaddr_storage storage{};
     socklen_t size = 0;
   };
-  /// What a lookup has found. A problem is a text, not an exception: the thread sanitizer cannot
-  /// see how the standard library counts the threads that hold an exception.
+  /// The result of a lookup. It holds an error message instead of an exception, because the thread
+  /// sanitizer does not see the counter that keeps an exception alive in several threads.
   struct Lookup {
     std::vector<Address> addresses;
     std::string problem;  ///< empty if there is none

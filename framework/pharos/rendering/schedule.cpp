@@ -101,12 +101,12 @@ double Schedule::cost(std::uint32_t samples, const Spending& spending) const {
 }
 
 std::uint32_t Schedule::fitting(const Spending& spending) const {
-  double left = this->left(spending);
+  double rest = left(spending);
   // Parts of equal time absorb what iterations and updates before them took too long.
   const double tolerance = budget_.seconds && kind_ == ScheduleKind::uniform ? 0.5 : 0;
   std::uint32_t size = wanted(spending), count = 0;
-  while (index_ + count < most_ && left >= (1 - tolerance) * cost(size, spending)) {
-    left -= cost(size, spending);
+  while (index_ + count < most_ && rest >= (1 - tolerance) * cost(size, spending)) {
+    rest -= cost(size, spending);
     if (kind_ == ScheduleKind::geometric) size = std::min(doubled(size), largest(spending));
     ++count;
   }
