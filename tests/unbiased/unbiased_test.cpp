@@ -131,7 +131,8 @@ TEST_CASE("long: unbiased in the proof variant camera-obscura") {
   compare_proof("camera-obscura", focal_methods());
 }
 TEST_CASE("long: unbiased in the proof variant dining-room") {
-  compare_proof("dining-room", focal_methods());
+  // Images of training make the result noisier here than elsewhere.
+  compare_proof("dining-room", focal_methods(), {"budget={ spp: 192 }"});
 }
 TEST_CASE("long: unbiased in the proof variant disco-ball") {
   compare_proof("disco-ball", focal_methods());
