@@ -20,9 +20,9 @@ class PassSizes {
 
   /// Returns the size of the next pass after `done` samples at the time `now` [s]; 0 if the
   /// iteration is over. Passes of timed iterations double only while a pass takes less than 1/128
-  /// of the iteration's time. A timed iteration ends when it is nearer to its deadline now than it
-  /// would be after another pass. The time of a pass is estimated from all passes so far, because a
-  /// single one may have been delayed.
+  /// of the iteration's time. A timed iteration ends before a pass that would exceed the deadline
+  /// by more than the time that is left. The time of a pass is estimated from all passes so far,
+  /// because a single one may have been delayed.
   std::uint32_t next(std::uint32_t done, double now);
 
  private:
