@@ -10,35 +10,32 @@ namespace pharos {
 namespace {
 
 using Settings = SimplexMixing::Settings;
-using Asked = std::array<bool, kMostTechniques>;
 
 /// The steps of one iteration, and the rules by which shares are found for them.
 class ShareSearch {
  public:
-  ShareSearch(const std::vector<FoundStep>& steps, const Settings& settings, std::size_t count)
-      : steps_(steps), settings_(settings), count_(count) {}
+  ShareSearch(const std::vector<FoundStep>& steps, const Settings& settings, std::size_t count,
+              const TechniqueSet& in_use)
+      : steps_(steps), settings_(settings), count_(count), in_use_(in_use) {}
 
-  Asked all() const {
-    Asked asked{};
-    std::fill_n(asked.begin(), count_, true);
-    return asked;
-  }
+  /// Returns the best shares of all techniques.
+  Simplex best() const { return best(in_use_); }
   /// Returns the best shares of the techniques that may be asked.
-  Simplex best(const Asked& asked) const {
+  Simplex best(const TechniqueSet& asked) const {
     return with_least_unguided(least_cost(steps_, asked, count_, settings_.objective),
                                settings_.least, count_);
   }
   /// Leaves out, one after another, the method without which the cost rises least, as long as it
   /// rises by less than the factor `worth`.
-  Asked worthwhile() const {
-    Asked asked = all();
+  TechniqueSet worthwhile() const {
+    TechniqueSet asked = in_use_;
     double now = cost(asked);
     while (true) {
       std::size_t cheapest = 0;
       double next = settings_.worth * now;
       for (std::size_t i = 1; i < count_; ++i) {
         if (!asked[i]) continue;
-        Asked without = asked;
+        TechniqueSet without = asked;
         without[i] = false;
         const double value = cost(without);
         if (value < next) next = value, cheapest = i;
@@ -50,14 +47,21 @@ class ShareSearch {
   }
 
  private:
-  double cost(const Asked& asked) const {
+  double cost(const TechniqueSet& asked) const {
     return cost_of(steps_, best(asked), count_, settings_.objective);
   }
 
   std::span<const FoundStep> steps_;
   const Settings& settings_;
   std::size_t count_;
+  const TechniqueSet& in_use_;
 };
+
+/// Sets the shares of techniques that are not in use to 0.
+Simplex restricted(Simplex shares, const TechniqueSet& in_use) {
+  for (std::size_t i = 0; i < shares.size(); ++i) shares[i] = in_use[i] ? shares[i] : 0;
+  return normalized(shares);
+}
 
 /// Returns `part` times new shares plus the rest of the known ones. Methods without a new share get
 /// none.
@@ -69,10 +73,11 @@ Simplex blended(const Simplex& found, double part, const Simplex& known) {
   return normalized(shares);
 }
 
-/// Gives each method at least its part of the share `explore`.
-Simplex explored(Simplex shares, double explore, std::size_t count) {
-  for (std::size_t i = 1; i < count; ++i) {
-    shares[i] = std::max(shares[i], explore / static_cast<double>(count - 1));
+/// Gives each method in use at least its part of the share `explore`.
+Simplex explored(Simplex shares, double explore, const TechniqueSet& in_use) {
+  const auto methods = std::count(in_use.begin() + 1, in_use.end(), true);
+  for (std::size_t i = 1; i < shares.size(); ++i) {
+    if (in_use[i]) shares[i] = std::max(shares[i], explore / static_cast<double>(methods));
   }
   return normalized(shares);
 }
@@ -93,36 +98,42 @@ void ClassShares::drop_steps() {
   weights_ = squares_ = 0;
 }
 
-void ClassShares::learn(const Settings& settings, std::size_t count, const StagedShares& prior) {
+void ClassShares::learn(const Settings& settings, std::size_t count, const TechniqueSet& in_use,
+                        const StagedShares& prior) {
   const double before = certainty_;
+  if (before > 0) {
+    own_.training = restricted(own_.training, in_use);
+    own_.final = restricted(own_.final, in_use);
+  }
   if (squares_ > 0) {
     std::vector<FoundStep> steps;
     steps_.for_each([&](FoundStep step, double weight) {
       step.weight = weight;
       steps.push_back(step);
     });
-    const ShareSearch search(steps, settings, count);
+    const ShareSearch search(steps, settings, count, in_use);
     const double worth = weights_ * weights_ / squares_;
     own_.final = search.best(search.worthwhile());
-    own_.training = blended(search.best(search.all()), worth / (worth + before), own_.training);
+    own_.training = blended(search.best(), worth / (worth + before), own_.training);
     certainty_ += worth;
   }
   drop_steps();
   shares_ = prior;
+  shares_.training = restricted(prior.training, in_use);
+  shares_.final = restricted(prior.final, in_use);
   if (certainty_ > 0) {
     const double part = certainty_ / (certainty_ + settings.prior_steps);
-    shares_.final = blended(own_.final, part, prior.found_light ? prior.final : prior.training);
+    shares_.final = blended(own_.final, part, prior.found_light ? shares_.final : shares_.training);
     shares_.found_light = true;
     shares_.training =
-        explored(blended(own_.training, part, prior.training), settings.explore, count);
+        explored(blended(own_.training, part, shares_.training), settings.explore, in_use);
   }
   if (certainty_ > before) certainty_ *= settings.decay;
 }
 
 void ClassShares::archive(Archive& archive) {
   std::uint64_t capacity = steps_.capacity();
-  archive(shares_.training, shares_.final, shares_.found_light, own_.training, own_.final,
-          certainty_, weights_, squares_, capacity);
+  archive(shares_, own_, certainty_, weights_, squares_, capacity);
   archive.expect(capacity > 0 && capacity <= SimplexMixing::Settings::kMostSteps,
                  "what was learned of mixing");
   if (archive.loads()) steps_ = statistics::VarOptReservoir<FoundStep>(capacity);

@@ -15,6 +15,7 @@ namespace pharos {
 struct StagedShares {
   Simplex training{}, final{};
   bool found_light = false;  ///< the shares were learned, and not only assumed
+  void archive(Archive& archive) { archive(training, final, found_light); }
 };
 
 /// The shares of the techniques at vertices of one class, learned from iteration to iteration. Only
@@ -30,8 +31,10 @@ class ClassShares {
   /// Drops the steps of the current iteration. What was learned before stays.
   void drop_steps();
   /// Ends an iteration: learns from its steps, for the first `count` techniques. `prior` counts
-  /// like `settings.prior_steps` steps beside all that were seen so far.
-  void learn(const SimplexMixing::Settings& settings, std::size_t count, const StagedShares& prior);
+  /// like `settings.prior_steps` steps beside all that were seen so far. Techniques that are not in
+  /// use have no share any more.
+  void learn(const SimplexMixing::Settings& settings, std::size_t count, const TechniqueSet& in_use,
+             const StagedShares& prior);
 
   /// Returns the shares for the next iteration. In the final iteration, methods that are not worth
   /// their cost have the share 0. A class that has found no light yet has the shares of its prior.

@@ -17,6 +17,8 @@
 // that makes up for their cost. In training, each method keeps at least the share `explore`,
 // because a method that is not asked cannot earn anything.
 //
+// A method that is left out of the rest of the render has no share from then on.
+//
 // Classes that found no light anywhere in training are not guided in the final iteration. If this
 // holds for all of them, or if no method is worth its cost anywhere, the image is rendered as
 // without guides.
@@ -131,6 +133,7 @@ class SimplexState final : public MixingState {
     for (double& share : prior) share *= 1 - settings.unguided;
     prior[0] = settings.unguided;
     prior_ = {.training = prior, .final = {1}};
+    std::fill_n(in_use_.begin(), techniques_, true);
     scene_.fill(ClassShares(prior_, settings));
     cells_[0].classes.assign(kClasses, ClassShares(prior_, settings));
   }
@@ -145,14 +148,16 @@ class SimplexState final : public MixingState {
 
   void update(std::uint32_t, std::span<const std::uint32_t>, bool last) override {
     teach();
-    for (ClassShares& each : scene_) each.learn(settings_, techniques_, prior_);
+    for (ClassShares& each : scene_) each.learn(settings_, techniques_, in_use_, prior_);
     parallel_for(cells_.size(), [&](std::size_t i) {
       for (std::uint32_t k = 0; k < kClasses; ++k) {
-        cells_[i].classes[k].learn(settings_, techniques_, scene_[k].shares());
+        cells_[i].classes[k].learn(settings_, techniques_, in_use_, scene_[k].shares());
       }
     });
     is_last_ = last;
   }
+
+  void leave_out(std::size_t method) override { in_use_[1 + method] = false; }
 
   std::shared_ptr<const MixingShares> shares() const override {
     std::vector<float> all;
@@ -167,8 +172,9 @@ class SimplexState final : public MixingState {
   }
 
   void archive(Archive& archive) override {
-    archive.heading("simplex mixing", 2);
-    archive(lesson_, is_last_, steps_, scene_);
+    archive.heading("simplex mixing", 3);
+    archive(in_use_, lesson_, is_last_, steps_, scene_);
+    archive.expect(in_use_[0], "what was learned of mixing");
     cells_.archive(archive);
   }
 
@@ -206,6 +212,7 @@ class SimplexState final : public MixingState {
 
   const Settings settings_;
   std::size_t techniques_;
+  TechniqueSet in_use_{};  ///< techniques that are not left out
   StagedShares prior_;
   std::array<ClassShares, kClasses> scene_;  ///< of each class, in all cells together
   KdTreeCells<Step, Cell> cells_;

@@ -8,6 +8,9 @@ namespace pharos {
 namespace {
 
 constexpr int kSteps = 100;
+/// The search ends when it changes no share by more than this [1]. The shares may still be further
+/// from the best ones, but their cost hardly differs.
+constexpr double kTolerance = 5e-4;
 
 /// Returns the density of a step under some shares, relative to the density with which it was
 /// drawn.
@@ -50,8 +53,7 @@ double cost_of(std::span<const FoundStep> steps, const Simplex& shares, std::siz
   return objective == MixingObjective::kl ? std::exp(sum / weights) : sum / weights;
 }
 
-Simplex least_cost(std::span<const FoundStep> steps,
-                   const std::array<bool, kMostTechniques>& allowed, std::size_t count,
+Simplex least_cost(std::span<const FoundStep> steps, const TechniqueSet& allowed, std::size_t count,
                    MixingObjective objective) {
   Simplex shares{};
   for (std::size_t i = 0; i < count; ++i) shares[i] = allowed[i] ? 1 : 0;
@@ -59,10 +61,16 @@ Simplex least_cost(std::span<const FoundStep> steps,
   for (int step = 0; step < kSteps; ++step) {
     const Simplex descent = descent_of(steps, shares, count, objective);
     if (!(*std::max_element(descent.begin(), descent.end()) > 0)) break;
+    const Simplex before = shares;
     for (std::size_t i = 0; i < count; ++i) {
       shares[i] *= objective == MixingObjective::kl ? descent[i] : std::sqrt(descent[i]);
     }
     shares = normalized(shares);
+    double change = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      change = std::max(change, std::abs(shares[i] - before[i]));
+    }
+    if (change < kTolerance) break;
   }
   return shares;
 }

@@ -17,6 +17,9 @@ inline constexpr std::size_t kMostTechniques = GuidingSettings::kMostMethods + 1
 /// The shares of the techniques. They are >= 0 and sum to 1; [0] is unguided sampling.
 using Simplex = std::array<double, kMostTechniques>;
 
+/// Marks some of the techniques.
+using TechniqueSet = std::array<bool, kMostTechniques>;
+
 /// A step that found light, as the shares see it.
 struct FoundStep {
   double weight = 0;  ///< the estimate x of the step (kl), or its square (variance)
@@ -46,8 +49,7 @@ double cost_of(std::span<const FoundStep> steps, const Simplex& shares, std::siz
 /// multiplicative algorithm lowers them in every step: with exponent 1/2 the second moment (Yu
 /// 2010, "Monotonic Convergence of a General Algorithm for Computing Optimal Designs"), and with
 /// exponent 1 the divergence, where it is expectation-maximization.
-Simplex least_cost(std::span<const FoundStep> steps,
-                   const std::array<bool, kMostTechniques>& allowed, std::size_t count,
+Simplex least_cost(std::span<const FoundStep> steps, const TechniqueSet& allowed, std::size_t count,
                    MixingObjective objective);
 
 /// Raises the share of unguided sampling to at least `least`; the other techniques divide the rest

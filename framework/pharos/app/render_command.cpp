@@ -68,8 +68,11 @@ void report(const RenderResult& result, const RenderConfig& config) {
                        static_cast<double>(result.counters.rays) / seconds * 1e-6,
                        result.stopped ? " (interrupted)" : ""));
   if (result.gain) {
-    log_info(fmt::format("the guides' gain is {:.2g} nats a step{}", result.gain->nats,
-                         result.gain->is_off ? ", too little: the image is not guided" : ""));
+    const std::optional<double> noise = result.gain->noise_ratio;
+    log_info(fmt::format(
+        "the guides' gain is {:.2g} nats a step{}{}", result.gain->nats,
+        noise ? fmt::format(", with {:.2g} times the noise of unguided paths", *noise) : "",
+        result.gain->is_off ? "; that is too little, so the image is not guided" : ""));
   }
   if (!config.output.model.empty() && result.learned == nullptr) {
     log_warning(fmt::format("{}: not written, since {} was learned", config.output.model,

@@ -1,6 +1,10 @@
 // Tests of the learning side of a render. A saved and loaded state continues as if learning had
 // never stopped.
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
 #include <sstream>
 #include <string>
 
@@ -113,10 +117,15 @@ class TinyShares final : public MixingShares {
 /// Counts the paths of all iterations, in every region.
 class TinyMixingState final : public MixingState {
  public:
-  TinyMixingState(std::span<const float> weights, std::size_t silent)
-      : weights_(weights.begin(), weights.end()), silent_(silent) {}
+  TinyMixingState(std::span<const float> weights, std::size_t silent,
+                  std::shared_ptr<std::vector<std::string>> heard)
+      : weights_(weights.begin(), weights.end()), silent_(silent), heard_(std::move(heard)) {}
   void absorb(const PathLog& log) override { found_ += static_cast<double>(log.size()); }
+  void leave_out(std::size_t method) override {
+    if (heard_ != nullptr) heard_->push_back("leave out " + std::to_string(method));
+  }
   void update(std::uint32_t regions, std::span<const std::uint32_t> origins, bool) override {
+    if (heard_ != nullptr) heard_->push_back("update");
     std::vector<double> next(regions, found_);
     for (std::size_t i = 0; i < regions; ++i) {
       const std::size_t origin = origins.empty() ? i : origins[i];
@@ -135,18 +144,23 @@ class TinyMixingState final : public MixingState {
   std::vector<double> paths_;
   std::vector<float> weights_;
   std::size_t silent_;
+  std::shared_ptr<std::vector<std::string>> heard_;
 };
 
-/// A policy that never asks the first `silent` methods.
+/// A policy that never asks the first `silent` methods. It lists in `heard`, unless that is null,
+/// what its state is told.
 class TinyMixing final : public MixingPolicy {
  public:
-  explicit TinyMixing(std::size_t silent = 0) : silent_(silent) {}
+  explicit TinyMixing(std::size_t silent = 0,
+                      std::shared_ptr<std::vector<std::string>> heard = nullptr)
+      : silent_(silent), heard_(std::move(heard)) {}
   std::unique_ptr<MixingState> begin(std::span<const float> weights) const override {
-    return std::make_unique<TinyMixingState>(weights, silent_);
+    return std::make_unique<TinyMixingState>(weights, silent_, heard_);
   }
 
  private:
   std::size_t silent_;
+  std::shared_ptr<std::vector<std::string>> heard_;
 };
 
 /// Returns settings with two learners, where two guiders sample the model of the first learner.
@@ -279,26 +293,171 @@ TEST_CASE(
   CHECK(methods_at_lens(3).empty());
 }
 
-/// Ends an iteration of paths that a guide has drawn. Returns whether training may end.
-bool may_end(GuidingState& state, double guide, double spent, std::uint64_t seed) {
+/// Ends an iteration of paths that guides have drawn. Returns whether training may end.
+bool may_end(GuidingState& state, std::span<const double> guides, double spent,
+             std::uint64_t seed) {
   for (std::uint64_t unit = 0; unit < 100; ++unit) {
-    state.absorb(test::guided_paths(guide, 1000, 100 * seed + unit));
+    state.absorb(test::guided_paths(guides, 1000, 100 * seed + unit));
   }
   return state.may_end_training(spent);
 }
+bool may_end(GuidingState& state, double guide, double spent, std::uint64_t seed) {
+  return may_end(state, std::array{guide}, spent, seed);
+}
 
-TEST_CASE("guiding state: training ends when the gain has settled, and goes on without limits") {
+TEST_CASE("guiding state: training ends when another iteration does not pay, or goes on") {
   GuidingSettings own = settings();
   for (const double tolerance : {0.0, 0.02}) {
     own.training.tolerance = tolerance;
     GuidingState state(own, {});
     CHECK_FALSE(may_end(state, 0.5, 0.1, 1));
     state.update({0, 1});
-    CHECK_FALSE(may_end(state, 0.9, 0.2, 2));
+    CHECK_FALSE(may_end(state, 0.5, 0.12, 2));  // there is nothing to compare with
     state.update({1, 1});
-    CHECK(may_end(state, 0.9, 0.3, 3) == (tolerance > 0));
-    state.update({2, 0});
+    CHECK_FALSE(may_end(state, 0.9, 0.14, 3));  // a rise
+    state.update({2, 1});
+    CHECK(may_end(state, 0.9, 0.16, 4) == (tolerance > 0));  // none
+    state.update({3, 0});
     CHECK(state.frame() != nullptr);
+  }
+}
+
+TEST_CASE("guiding state: the more another iteration costs, the more it must promise") {
+  GuidingSettings own = settings();
+  own.training.tolerance = 0.001;
+  own.training.trial = 0;
+  own.training.share = 0.9;
+  own.training.schedule = ScheduleKind::geometric;
+  // The noise falls to 0.647, and the gain rises by less than it would have to for as much.
+  const double fall = -std::log(test::expected_ratio(0.6));
+  REQUIRE(test::expected_gain(0.6) - test::expected_gain(0.5) < fall);
+  const auto ends = [&](double time) {
+    GuidingState state(own, {});
+    CHECK_FALSE(may_end(state, 0.5, 0, 1));
+    state.update({0, 1});
+    CHECK_FALSE(may_end(state, 0.5, 0, 2));
+    state.update({1, 1});
+    return may_end(state, 0.6, time, 3);
+  };
+  // After t, the next iteration takes 2 t, or all that is left if 4 t would not fit after it.
+  REQUIRE(std::log((1 - 0.1 - 0.1) / (1 - 0.1 - 0.2)) < 0.9 * fall);
+  CHECK_FALSE(ends(0.1));
+  REQUIRE(std::log((1 - 0.25 - 0.325) / (1 - 0.25 - 0.65)) > 1.1 * fall);
+  CHECK(ends(0.25));
+  // If images are discarded, all of the time is lost.
+  own.training.images = TrainingImages::discard;
+  REQUIRE(std::log((1 - 0.2) / (1 - 0.2 - 0.7)) > 1.1 * fall);
+  CHECK(ends(0.2));
+  CHECK_FALSE(ends(0.05));
+  // A uniform schedule goes on with as much as the last time.
+  own.training.schedule = ScheduleKind::uniform;
+  REQUIRE(std::log((1 - 0.2) / (1 - 0.2 - 0.2)) < 0.9 * fall);
+  CHECK_FALSE(ends(0.2));
+}
+
+/// Returns the methods that are asked at the lens.
+std::vector<std::uint32_t> asked_methods(const GuidingState& state) {
+  std::vector<std::uint32_t> methods;
+  GuidingQuery query{.current = {.kind = VertexKind::sensor}};
+  Arena arena;
+  for (const GuidePart& part : state.frame()->query(query, arena).parts) {
+    methods.push_back(part.method);
+  }
+  return methods;
+}
+using Methods = std::vector<std::uint32_t>;
+
+/// The first method helps, the second does nothing, and the third harms.
+constexpr std::array kUnequal{0.9, 0.5, 0.1};
+
+TEST_CASE("guiding state: methods that the guides can do without are left out, one by one") {
+  GuidingSettings own = settings();
+  own.training.least_part = 0.01;
+  GuidingState state(own, {}), resumed(own, {});
+  CHECK_FALSE(may_end(state, 0.5, 0.1, 1));
+  state.update({0, 9});
+  may_end(state, kUnequal, 0.2, 2);
+  state.update({1, 8});
+  const std::string early = saved(state);
+  CHECK(asked_methods(state) == Methods{0, 1, 2});  // once is not enough
+  may_end(state, kUnequal, 0.3, 3);
+  state.update({2, 7});
+  CHECK(asked_methods(state) == Methods{0, 1});
+  load_from(saved(state), resumed);
+  for (GuidingState* each : {&state, &resumed}) {
+    const std::string out = saved(*each->model(2)), in = saved(*each->model(0));
+    may_end(*each, std::array{0.9, 0.5, -1.0}, 0.35, 4);
+    each->update({3, 6});
+    CHECK(asked_methods(*each) == Methods{0});
+    CHECK(saved(*each->model(2)) == out);  // it learns no more
+    // The second method is out, too, but it shares the model of the first.
+    CHECK(saved(*each->model(0)) != in);
+    for (const std::uint32_t i : {4u, 5u, 6u}) {
+      may_end(*each, std::array{0.2, -1.0, -1.0}, 0.4, i);
+      each->update({i, 6 - i});
+    }
+    CHECK(asked_methods(*each) == Methods{0});  // the last one stays
+  }
+  CHECK(saved(state) == saved(resumed));
+  load_from(early, resumed);
+  CHECK(asked_methods(resumed) == Methods{0, 1, 2});
+}
+
+TEST_CASE("guiding state: no method is left out on trial, by useless guides, or if none is to be") {
+  const auto asked = [](double least_part, double least_gain, double spent) {
+    GuidingSettings own = settings();
+    own.training.tolerance = 1e-9;
+    own.training.least_part = least_part;
+    own.training.least_gain = least_gain;
+    GuidingState state(own, {});
+    CHECK_FALSE(may_end(state, 0.5, 0, 1));
+    state.update({0, 9});
+    for (const std::uint32_t i : {1u, 2u}) {
+      may_end(state, kUnequal, i == 2 ? spent : 0, i);
+      state.update({i, 9});
+    }
+    return asked_methods(state);
+  };
+  CHECK(asked(0.01, 0, 0.1) == Methods{0, 1});
+  CHECK(asked(0.01, 0, 0.05) == Methods{0, 1, 2});
+  CHECK(asked(0.01, 0.5, 0.1) == Methods{0, 1, 2});
+  CHECK(asked(0, 0, 0.1) == Methods{0, 1, 2});
+}
+
+TEST_CASE("guiding state: the policy hears of a method that is left out, before its update") {
+  GuidingSettings own = settings();
+  own.training.least_part = 0.01;
+  const auto heard = std::make_shared<std::vector<std::string>>();
+  own.mixing = std::make_shared<const TinyMixing>(0, heard);
+  GuidingState state(own, {});
+  CHECK_FALSE(may_end(state, 0.5, 0.1, 1));
+  state.update({0, 9});
+  for (const std::uint32_t i : {1u, 2u}) {
+    may_end(state, kUnequal, 0.2, i);
+    state.update({i, 9});
+  }
+  CHECK(*heard == std::vector<std::string>{"update", "update", "update", "leave out 2", "update"});
+}
+
+TEST_CASE("guiding state: guides of little gain stay if they lower the noise enough") {
+  GuidingSettings own = settings();
+  own.training.least_gain = 0.2;
+  REQUIRE(test::expected_gain(0.8) < 0.2);
+  REQUIRE(test::expected_ratio(0.8) < 0.2);
+  for (const double most : {0.0, 0.5}) {
+    own.training.most_noise = most;
+    GuidingState state(own, {});
+    CHECK_FALSE(may_end(state, 0.5, 0.1, 1));
+    state.update({0, 3});
+    CHECK_FALSE(may_end(state, 0.8, 0.2, 2));
+    CHECK(state.worthwhile_share() == (most > 0 ? 1 : own.training.trial));
+    state.update({1, 0});
+    CHECK((state.frame() == nullptr) == (most == 0));
+    REQUIRE(state.gain());
+    CHECK(state.gain()->is_off == (most == 0));
+    REQUIRE(state.gain()->noise_ratio);
+    CHECK(*state.gain()->noise_ratio ==
+          doctest::Approx(test::expected_ratio(0.8)).epsilon(0.05).scale(0));
   }
 }
 

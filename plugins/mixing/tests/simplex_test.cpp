@@ -381,4 +381,42 @@ TEST_CASE("simplex mixing: settings that contradict each other are refused") {
   CHECK_THROWS_AS(SimplexMixing({.unguided = 0.1, .least = 0.2}), InputError);
 }
 
+TEST_CASE("simplex: a method that is left out has no share any more") {
+  const auto shares_of = [](const MixingState& state) {
+    std::array<float, 3> shares{};
+    const std::array places{Place{.evidence = 1e9f}, Place{.evidence = 1e9f}};
+    state.shares()->at({GuidingQuery{}, places}, shares);
+    return shares;
+  };
+  const std::array weights{1.0f, 1.0f};
+  const auto state = begun(Settings{}, weights), resumed = begun(Settings{}, weights);
+  const std::array<float, 3> before = shares_of(*state);
+  const std::uint32_t key = ask(*begun()).key;
+  // One of the two guides draws all guided samples and finds all light.
+  state->absorb(paths(kOnlyGuideFinds, before[0], 20'000, 1, key));
+  state->update(1, {}, false);
+  CHECK(shares_of(*state)[1] > 2 * before[1]);  // it has earned more
+
+  state->leave_out(0);
+  state->update(1, {}, false);  // without new steps
+  std::ostringstream out;
+  save(out, *state);
+  std::istringstream in(out.str());
+  load(in, *resumed);
+  for (MixingState* each : {state.get(), resumed.get()}) {
+    const std::array<float, 3> shares = shares_of(*each);
+    CHECK(shares[1] == 0);
+    CHECK(shares[2] > 0);
+    CHECK(shares[0] + shares[2] == doctest::Approx(1));
+    CHECK_FALSE(each->shares()->asks(0));
+    CHECK(each->shares()->asks(1));
+    // New steps do not bring it back, neither in training nor in the end.
+    for (const bool last : {false, true}) {
+      each->absorb(paths(kOnlyGuideFinds, 0.5f, 20'000, 2, key));
+      each->update(1, {}, last);
+      CHECK_FALSE(each->shares()->asks(0));
+    }
+  }
+}
+
 }  // namespace pharos

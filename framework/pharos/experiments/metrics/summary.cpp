@@ -84,7 +84,13 @@ std::vector<RunMeasure> all_measures() {
   add("gain", "gain of the guides", "nats",
       "How much better the guides explained the light of the last training iteration than unguided "
       "sampling does, a step of a path",
-      Better::neither, false, [](const R& r) { return r.gain.value_or(kNone); });
+      Better::neither, false, [](const R& r) { return r.gain ? r.gain->nats : kNone; });
+  add("noise_ratio", "noise of guided paths", "",
+      "Mean squared error of an image of the guided paths of the last training iteration, over "
+      "that "
+      "of as many unguided paths, estimated from the guided paths",
+      Better::neither, false,
+      [](const R& r) { return r.gain ? r.gain->noise_ratio.value_or(kNone) : kNone; });
   add("model_bytes", "learned models", "MiB", "Size of the learned models in memory", Better::lower,
       false, [](const R& r) { return mebi(static_cast<double>(r.model_bytes)); });
   add("peak_bytes", "peak memory", "MiB", "The most memory that the process held during the run",

@@ -100,16 +100,19 @@ std::string runs_csv(const ExperimentResults& results) {
   std::string text = "scene,method,seed,samples_per_pixel";
   for (const MetricInfo& info : metric_infos()) text += fmt::format(",{}", info.key);
   text +=
-      ",invalid_pixels,invalid_paths,rays,gain,guiding_is_off,model_bytes,seconds_preparation,"
-      "seconds_sampler,seconds_training,seconds_update,seconds_rendering,peak_bytes,version\n";
+      ",invalid_pixels,invalid_paths,rays,gain,noise_ratio,guiding_is_off,model_bytes,"
+      "seconds_preparation,seconds_sampler,seconds_training,seconds_update,seconds_rendering,peak_"
+      "bytes,version\n";
   for (const RunRecord& run : results.records) {
     text += fmt::format("{},{},{},{}", run.scene, run.method, run.seed, run.samples_per_pixel);
     for (const MetricInfo& info : metric_infos()) text += "," + csv_number(run.errors[info.metric]);
-    text += fmt::format(",{},{},{},{},{},{},{},{},{},{},{},{},{}\n", run.errors.invalid_pixels,
-                        run.invalid_paths, run.rays, csv_number(run.gain.value_or(NAN)),
-                        run.guiding_is_off ? 1 : 0, run.model_bytes, run.times.preparation,
-                        run.times.sampler, run.times.training, run.times.update,
-                        run.times.rendering, csv_number(run.peak_bytes.value_or(NAN)), run.version);
+    const GuideGain gain = run.gain.value_or(GuideGain{.nats = NAN});
+    text += fmt::format(",{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", run.errors.invalid_pixels,
+                        run.invalid_paths, run.rays, csv_number(gain.nats),
+                        csv_number(gain.noise_ratio.value_or(NAN)), gain.is_off ? 1 : 0,
+                        run.model_bytes, run.times.preparation, run.times.sampler,
+                        run.times.training, run.times.update, run.times.rendering,
+                        csv_number(run.peak_bytes.value_or(NAN)), run.version);
   }
   return text;
 }

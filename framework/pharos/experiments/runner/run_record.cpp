@@ -12,7 +12,7 @@ namespace {
 using nlohmann::json;
 
 /// The format version of record files.
-constexpr int kFormat = 3;
+constexpr int kFormat = 4;
 
 ImageErrors errors_from(const json& node) {
   ImageErrors errors;
@@ -26,6 +26,24 @@ ImageErrors errors_from(const json& node) {
 
 std::optional<double> optional_number(const json& node) {
   return node.is_number() ? std::optional(node.get<double>()) : std::nullopt;
+}
+
+json optional_json(const std::optional<double>& number) {
+  return number ? json(*number) : json(nullptr);
+}
+
+std::optional<GuideGain> gain_from(const json& node) {
+  if (node.is_null()) return std::nullopt;
+  return GuideGain{.nats = node.at("nats"),
+                   .noise_ratio = optional_number(node.at("noise_ratio")),
+                   .is_off = node.at("is_off")};
+}
+
+json to_json(const std::optional<GuideGain>& gain) {
+  if (!gain) return nullptr;
+  return {{"nats", gain->nats},
+          {"noise_ratio", optional_json(gain->noise_ratio)},
+          {"is_off", gain->is_off}};
 }
 
 RunRecord record_from(const json& node) {
@@ -45,8 +63,7 @@ RunRecord record_from(const json& node) {
                              .rendering = node.at("seconds_rendering")},
                    .rays = node.at("rays"),
                    .invalid_paths = node.at("invalid_paths"),
-                   .gain = optional_number(node.at("gain")),
-                   .guiding_is_off = node.at("guiding_is_off"),
+                   .gain = gain_from(node.at("gain")),
                    .model_bytes = node.at("model_bytes"),
                    .peak_bytes = optional_number(node.at("peak_bytes")),
                    .errors = errors_from(node.at("errors")),
@@ -99,10 +116,9 @@ json to_json(const RunRecord& record) {
           {"seconds_rendering", record.times.rendering},
           {"rays", record.rays},
           {"invalid_paths", record.invalid_paths},
-          {"gain", record.gain ? json(*record.gain) : json(nullptr)},
-          {"guiding_is_off", record.guiding_is_off},
+          {"gain", to_json(record.gain)},
           {"model_bytes", record.model_bytes},
-          {"peak_bytes", record.peak_bytes ? json(*record.peak_bytes) : json(nullptr)},
+          {"peak_bytes", optional_json(record.peak_bytes)},
           {"errors", to_json(record.errors)},
           {"checkpoints", std::move(checkpoints)}};
 }

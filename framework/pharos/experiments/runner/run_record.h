@@ -34,8 +34,7 @@ struct RunRecord {
   RenderTimes times;
   std::uint64_t rays = 0;
   std::uint64_t invalid_paths = 0;
-  std::optional<double> gain;   ///< of the guides [nats], see GuideGain
-  bool guiding_is_off = false;  ///< because of its gain
+  std::optional<GuideGain> gain;  ///< none if it is unknown
   std::uint64_t model_bytes = 0;
   std::optional<double> peak_bytes;
   ImageErrors errors;

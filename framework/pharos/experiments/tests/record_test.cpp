@@ -20,8 +20,7 @@ RunRecord full_record() {
                    .times = {0.1, 0.2, 0.3, 1.0 / 3},
                    .rays = 5,
                    .invalid_paths = 6,
-                   .gain = -0.5,
-                   .guiding_is_off = true,
+                   .gain = GuideGain{.nats = -0.5, .noise_ratio = 0.75, .is_off = true},
                    .model_bytes = 7,
                    .peak_bytes = 8.5,
                    .errors = {},
@@ -50,8 +49,10 @@ TEST_CASE("records come back as they were, to the bit") {
   CHECK(loaded->errors.invalid_pixels == 9);
   CHECK(loaded->checkpoints.at(0).errors[Metric::mse] == record.errors[Metric::mse]);
   CHECK(*loaded->peak_bytes == 8.5);
-  CHECK(*loaded->gain == -0.5);
-  CHECK(loaded->guiding_is_off);
+  REQUIRE(loaded->gain);
+  CHECK(loaded->gain->nats == -0.5);
+  CHECK(loaded->gain->noise_ratio == std::optional(0.75));
+  CHECK(loaded->gain->is_off);
 }
 
 TEST_CASE("no file, a cut file and one of another format are no records") {

@@ -190,10 +190,10 @@ TEST_CASE(
   CHECK(runs_csv(results) ==
         "scene,method,seed,samples_per_pixel,mse,capped_mse,relative_mse,trimmed_relative_mse,"
         "floored_relative_mse,mape,smape,psnr,flip,"
-        "hdr_flip,invalid_pixels,invalid_paths,rays,gain,guiding_is_off,model_bytes,"
+        "hdr_flip,invalid_pixels,invalid_paths,rays,gain,noise_ratio,guiding_is_off,model_bytes,"
         "seconds_preparation,seconds_sampler,seconds_training,seconds_update,seconds_rendering,"
         "peak_bytes,version\n"
-        "s,base,1,64,,,0.015625,,,,,,,,0,0,0,,0,0,0,0,0,0,0.64,,0\n");
+        "s,base,1,64,,,0.015625,,,,,,,,0,0,0,,,0,0,0,0,0,0,0.64,,0\n");
   const std::string curve = convergence_csv(results);
   CHECK(std::count(curve.begin(), curve.end(), '\n') == 8);
   CHECK(curve.find("s,base,1,2,0.02,,,0.5,\n") != std::string::npos);

@@ -49,6 +49,10 @@ class MixingState {
   /// `origins[i]`. If `origins` is empty, the regions are the same as before. `last`: no other
   /// training iteration follows.
   virtual void update(std::uint32_t regions, std::span<const std::uint32_t> origins, bool last) = 0;
+  /// Takes note that method `method` is left out of the rest of the render: it is not asked any
+  /// more, so its share goes to waste. Called before update(). The default ignores this; renders
+  /// with the model file that the render writes then ask the method again.
+  virtual void leave_out(std::size_t /*method*/) {}
   /// Returns the shares as of the last update().
   virtual std::shared_ptr<const MixingShares> shares() const = 0;
   /// Saves the state, or loads it into a state that MixingPolicy::begin() made for the same render

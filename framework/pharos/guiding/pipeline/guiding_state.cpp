@@ -15,6 +15,7 @@ struct GuidingState::Source {
   std::unique_ptr<LearningState> state;  ///< null: the model was read from a file
   std::shared_ptr<const GuidingModel> model;
   std::uint32_t regions = 1;
+  bool is_idle = false;  ///< all guiders of its model are left out: it learns no more
 
   void take(std::shared_ptr<const GuidingModel> next) {
     model = std::move(next);
@@ -33,7 +34,7 @@ struct GuidingState::Source {
               std::vector<std::uint32_t>& origins) {
     const std::uint32_t before = regions;
     std::vector<std::uint32_t> own;
-    if (state != nullptr) {
+    if (state != nullptr && !is_idle) {
       Learned learned = state->update(stage);
       take(std::move(learned.model));
       own = std::move(learned.region_origins);
@@ -71,10 +72,10 @@ GuidingState::GuidingState(const GuidingSettings& settings, const LearningContex
     : policy_(settings.mixing),
       policy_config_(settings.mixing_config.empty() ? settings.mixing->plugin_name()
                                                     : settings.mixing_config),
-      training_(settings.training),
       candidates_(settings.candidates),
       is_final_(!settings.learns()) {
-  if (training_.tolerance > 0 || training_.least_gain > 0) gain_.emplace();
+  const TrainingSettings& training = settings.training;
+  if (training.puts_guides_on_trial()) trial_.emplace(training, context.window);
   std::vector<float> weights;
   for (const GuidingMethod& method : settings.resolved_methods()) {
     LearningContext own = context;
@@ -95,28 +96,38 @@ GuidingState::~GuidingState() = default;
 
 void GuidingState::absorb(const PathLog& log) {
   for (Source& source : sources_) {
-    if (source.state != nullptr) source.state->absorb(log);
+    if (source.state != nullptr && !source.is_idle) source.state->absorb(log);
   }
   mixing_->absorb(log);
-  if (gain_ && frame_ != nullptr) gain_->absorb(log);
+  if (trial_) trial_->absorb(log, frame_ != nullptr);
   for (std::size_t i = 0; i < log.size(); ++i) {
     for (const RecordedVertex& vertex : log[i].vertices) samples_ += vertex.guidable ? 1 : 0;
   }
 }
 
 bool GuidingState::may_end_training(double spent) {
-  // Iterations without guides say nothing about guides.
-  if (!gain_ || frame_ == nullptr) return false;
-  const bool is_settled = gain_->end_iteration(training_.tolerance);
-  if (is_useless()) return spent >= training_.trial && !gain_->may_reach(training_.least_gain);
-  return is_settled;
+  return trial_ && trial_->end_iteration(spent, frame_ != nullptr);
 }
 
-bool GuidingState::is_useless() const {
-  return gain_ && frame_ != nullptr && gain_->is_below(training_.least_gain);
+void GuidingState::leave_out_dispensable_method() {
+  const std::optional<std::size_t> method =
+      trial_ && frame_ != nullptr ? trial_->dispensable_method() : std::nullopt;
+  if (!method) return;
+  users_[*method].is_out = true;
+  mixing_->leave_out(*method);
+  mark_idle_sources();
+}
+
+void GuidingState::mark_idle_sources() {
+  for (std::size_t i = 0; i < sources_.size(); ++i) {
+    sources_[i].is_idle = std::all_of(users_.begin(), users_.end(), [&](const User& user) {
+      return user.source != i || user.is_out;
+    });
+  }
 }
 
 void GuidingState::update(const TrainingStage& stage) {
+  leave_out_dispensable_method();
   std::vector<std::uint32_t> origins;
   std::uint32_t first = 0;
   for (Source& source : sources_) {
@@ -127,13 +138,14 @@ void GuidingState::update(const TrainingStage& stage) {
   mixing_->update(static_cast<std::uint32_t>(origins.size()), origins, stage.is_last());
   last_samples_ = std::exchange(samples_, 0);
   is_final_ = stage.is_last();
-  is_off_ = is_final_ && is_useless();
+  is_off_ = is_final_ && frame_ != nullptr && trial_ && trial_->is_useless();
   rebuild_frame();
 }
 
 std::optional<GuideGain> GuidingState::gain() const {
-  if (!gain_ || !gain_->is_known()) return std::nullopt;
-  return GuideGain{gain_->value(), is_off_};
+  std::optional<GuideGain> gain = trial_ ? trial_->gain() : std::nullopt;
+  if (gain) gain->is_off = is_off_;
+  return gain;
 }
 
 double GuidingState::samples_per_region() const {
@@ -158,7 +170,7 @@ void GuidingState::rebuild_frame() {
   bool is_any_asked = false;
   for (const User& user : users_) {
     const std::shared_ptr<const GuidingModel>& model = sources_[user.source].model;
-    const bool is_asked = model != nullptr && shares->asks(methods.size());
+    const bool is_asked = model != nullptr && !user.is_out && shares->asks(methods.size());
     GuidingFrame::Method& method = methods.emplace_back();
     if (is_asked) method.guider.emplace(*user.guider, model);
     method.traits = user.guider->traits();
@@ -201,12 +213,14 @@ std::size_t GuidingState::model_bytes() const {
 }
 
 void GuidingState::archive(Archive& archive) {
-  archive.heading("guiding", 4);
+  archive.heading("guiding", 5);
   for (Source& source : sources_) source.archive(archive);
+  for (User& user : users_) archive(user.is_out);
+  mark_idle_sources();
   if (archive.loads()) mixing_->update(regions(), {}, false);
   mixing_->archive(archive);
   archive(samples_, last_samples_, is_final_, is_off_);
-  if (gain_) gain_->archive(archive);
+  if (trial_) trial_->archive(archive);
   if (archive.loads()) rebuild_frame();
 }
 

@@ -5,18 +5,12 @@
 #include <string>
 #include <vector>
 
+#include <pharos/guiding/pipeline/guide_trial.h>
 #include <pharos/guiding/pipeline/guiding_frame.h>
 #include <pharos/guiding/pipeline/guiding_settings.h>
-#include <pharos/guiding/pipeline/held_out_gain.h>
 #include <pharos/guiding/pipeline/model_file.h>
 
 namespace pharos {
-
-/// How much the guides help after training.
-struct GuideGain {
-  double nats = 0;      ///< gain in the last training iteration, see HeldOutGain
-  bool is_off = false;  ///< it is less than TrainingSettings::least_gain: the image is not guided
-};
 
 /// The learning side of a render. It holds the state and the newest model of every method, and the
 /// state of the mixing policy.
@@ -26,21 +20,18 @@ class GuidingState {
   ~GuidingState();
 
   /// Returns the frame that guides the next iteration; null as long as nothing is known, if the
-  /// mixing policy asks no method, and if the gain of the guides is too small in the end. The frame
+  /// mixing policy asks no method, and if the guides do not help enough in the end. The frame
   /// uses the guiders of the settings and must not outlive the settings.
   std::shared_ptr<const GuidingFrame> frame() const { return frame_; }
   void absorb(const PathLog& log);
   /// Ends the recording of an iteration. `spent` is the share of the budget that was spent. Returns
-  /// whether training may end, because the gain of the guides has settled or is too small to go on.
+  /// whether training may end; see GuideTrial::end_iteration().
   bool may_end_training(double spent);
-  /// Returns the largest share of the budget that the next training iteration is worth [1]: all of
-  /// it, or TrainingSettings::trial if the gain of the guides is known and may be too small.
-  double worthwhile_share() const {
-    return gain_ && gain_->may_be_below(training_.least_gain) ? training_.trial : 1;
-  }
+  /// Returns the largest share of the budget that the next training iteration is worth [1].
+  double worthwhile_share() const { return trial_ ? trial_->worthwhile_share() : 1; }
   void update(const TrainingStage& stage);
 
-  /// Returns the gain of the guides; none if nothing depends on it, or if no iteration was guided.
+  /// Returns how much the guides help; none if nothing depends on it, or if it is unknown.
   std::optional<GuideGain> gain() const;
   /// Returns the number of training samples of the last iteration for each region of the largest
   /// model.
@@ -64,9 +55,11 @@ class GuidingState {
     Ref<Guider> guider;
     std::size_t source;
     float weight;
+    bool is_out = false;  ///< it is left out of the rest of the render
   };
-  /// Returns whether the last iteration was guided, and its gain was too small.
-  bool is_useless() const;
+  /// Leaves out a method that the guides can do without, if there is one.
+  void leave_out_dispensable_method();
+  void mark_idle_sources();
   std::uint32_t regions() const;
   void rebuild_frame();
 
@@ -75,8 +68,7 @@ class GuidingState {
   Ref<MixingPolicy> policy_;
   std::string policy_config_;
   std::unique_ptr<MixingState> mixing_;
-  TrainingSettings training_;
-  std::optional<HeldOutGain> gain_;  ///< none if its value has no consequences
+  std::optional<GuideTrial> trial_;  ///< none if its outcome has no consequences
   std::uint32_t candidates_ = 1;     ///< in the final image
   bool is_final_ = false;            ///< the next iteration is the final image
   bool is_off_ = false;              ///< guiding does not pay

@@ -1,10 +1,27 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <pharos/guiding/pipeline/held_out_gain.h>
 
 namespace pharos {
+
+namespace {
+
+/// Returns log(p / p') of a step of density p, where p' is its density if the share of technique
+/// `i` went to all others in proportion. The unguided density must be positive.
+double loss_without(std::span<const Technique> techniques, std::size_t i, double p) {
+  double others = 0, share = 0;
+  for (std::size_t k = 0; k < techniques.size(); ++k) {
+    if (k == i) continue;
+    others += double{techniques[k].share} * techniques[k].density;
+    share += techniques[k].share;
+  }
+  return std::log(p * share / others);
+}
+
+}  // namespace
 
 void HeldOutGain::absorb(const PathLog& log) {
   double weights = 0, logs = 0;
@@ -22,6 +39,12 @@ void HeldOutGain::absorb(const PathLog& log) {
       if (!std::isfinite(log_ratio) || !std::isfinite(weight)) continue;
       weights += weight;
       logs += weight * log_ratio;
+      parts_.resize(std::max(parts_.size(), techniques.size() - 1));
+      for (std::size_t t = 1; t < techniques.size(); ++t) {
+        if (!(techniques[t].share > 0)) continue;
+        parts_[t - 1].nats += weight * loss_without(techniques, t, vertex.pdf);
+        parts_[t - 1].is_known = true;
+      }
     }
   }
   sums_.weight += weights;
@@ -43,13 +66,17 @@ HeldOutGain::Gain HeldOutGain::gain() const {
   return {ratio, units / (units - 1) * std::max(squares, 0.0) / (sums_.weight * sums_.weight)};
 }
 
-bool HeldOutGain::end_iteration(double tolerance) {
+void HeldOutGain::end_iteration() {
   before_ = std::exchange(last_, gain());
   has_before_ = std::exchange(has_last_, is_measured());
+  for (Part& part : parts_) part.nats /= sums_.weight;
+  last_parts_ = std::exchange(parts_, {});
   sums_ = {};
-  const double error_of_change = std::sqrt(before_.variance + last_.variance);
-  return has_before_ && has_last_ &&
-         std::abs(last_.mean - before_.mean) + 2 * error_of_change < tolerance;
+}
+
+double HeldOutGain::possible_rise() const {
+  if (!has_before_ || !has_last_) return std::numeric_limits<double>::infinity();
+  return last_.mean - before_.mean + std::sqrt(before_.variance + last_.variance);
 }
 
 bool HeldOutGain::may_be_below(double least) const {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <pharos/guiding/record/path_record.h>
@@ -19,10 +20,7 @@ class HeldOutGain {
   /// Takes the recorded paths of one work unit. The units give the standard error.
   void absorb(const PathLog& log);
 
-  /// Ends an iteration. Returns whether the gain has settled: it differs from the gain of the
-  /// iteration before by less than `tolerance`, with two standard errors to spare. False after the
-  /// first iteration.
-  bool end_iteration(double tolerance);
+  void end_iteration();
   /// Returns whether the gain of the last iteration is less than `least`. False if the iteration
   /// found no light.
   bool is_below(double least) const { return has_last_ && last_.mean < least; }
@@ -35,12 +33,29 @@ class HeldOutGain {
   bool may_reach(double least) const {
     return !has_before_ || last_.mean + std::max(0.0, last_.mean - before_.mean) >= least;
   }
+  /// Returns by how much the gain may rise in the next iteration [nats]: by as much as from the
+  /// iteration before to the last one, and another standard error. Infinite as long as the
+  /// iteration before is unknown.
+  double possible_rise() const;
   /// Returns whether the last iteration found light.
   bool is_known() const { return has_last_; }
   /// Returns the gain of the last iteration; 0 if it found no light.
   double value() const { return last_.mean; }
+  /// The part of a method in the gain.
+  struct Part {
+    /// By how much the gain would have been less without the method, if its share had gone to all
+    /// others in proportion [nats].
+    double nats = 0;
+    bool is_known = false;  ///< the method took part in paths that found light
+    void archive(Archive& archive) { archive(nats, is_known); }
+  };
+  /// Returns the parts of the methods in the last iteration. Methods whose part is unknown may be
+  /// missing at the end.
+  std::span<const Part> parts() const { return last_parts_; }
 
-  void archive(Archive& archive) { archive(sums_, last_, has_last_, before_, has_before_); }
+  void archive(Archive& archive) {
+    archive(sums_, last_, has_last_, before_, has_before_, parts_, last_parts_);
+  }
 
  private:
   struct Sums {
@@ -62,6 +77,8 @@ class HeldOutGain {
   Sums sums_;
   Gain last_, before_;  ///< of the last iteration and the one before
   bool has_last_ = false, has_before_ = false;
+  std::vector<Part> parts_;  ///< of the current iteration: sums of w log(p / p without the method)
+  std::vector<Part> last_parts_;
   std::vector<Rgb> incident_;  ///< of one path; a member, so that it keeps its memory
 };
 

@@ -24,9 +24,9 @@ void TrainingSettings::describe(Schema<TrainingSettings>& s) {
           "iteration; iterations that would have fewer are longer")
       .at_least(0);
   s.field("tolerance", &TrainingSettings::tolerance,
-          "Training ends once the gain of the guides, by which they explain new light better than "
-          "unguided sampling, changes by less than this from one iteration to the next; 0: it uses "
-          "up its share")
+          "Training ends once another iteration may neither raise the gain of the guides nor lower "
+          "the logarithm of the noise by this, and by what the iteration costs; 0: it uses up its "
+          "share. The gain says how much better they explain new light than unguided sampling")
       .unit("nats")
       .at_least(0);
   s.field("least_gain", &TrainingSettings::least_gain,
@@ -34,10 +34,20 @@ void TrainingSettings::describe(Schema<TrainingSettings>& s) {
           "is")
       .unit("nats")
       .at_least(0);
+  s.field("most_noise", &TrainingSettings::most_noise,
+          "A gain below `least_gain` still suffices if the guides lower the mean squared error of "
+          "images to this part or less; 0: it does not")
+      .at_least(0)
+      .below(1);
+  s.field("least_part", &TrainingSettings::least_part,
+          "A method is left out of the rest of the render if, without it, the gain would have been "
+          "lower by less than this in each of the last two iterations; 0: none is left out")
+      .unit("nats")
+      .at_least(0);
   s.field("trial", &TrainingSettings::trial,
-          "Once this share of the budget is spent, training ends if the gain is less than "
-          "`least_gain`, and would be after another rise like the last one. Until the gain exceeds "
-          "`least_gain` by a standard error, this share also limits each iteration")
+          "Once this share of the budget is spent, training ends if the guides do not suffice, and "
+          "would not after another change of gain and noise like the last one. Nothing is decided "
+          "before. Until they surely suffice, this share also limits each iteration")
       .at_least(0)
       .at_most(1);
 }

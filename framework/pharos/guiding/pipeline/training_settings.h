@@ -33,16 +33,27 @@ struct TrainingSettings {
   std::uint32_t latest_images = 1001;
   /// Least mean number of training samples for each region of the largest model in an iteration.
   double region_samples = 32;
-  /// Training ends once the gain of the guides changes by less than this from one iteration to the
-  /// next [nats]; see HeldOutGain. 0: it ends only with its share.
+  /// Training ends once another iteration may neither raise the gain of the guides nor lower the
+  /// logarithm of the noise by this [nats], and by what the iteration costs; see GuideTrial. 0: it
+  /// ends only with its share.
   double tolerance = 0;
   /// The final image is not guided if the gain of the guides is less than this [nats]. 0: always
   /// guided.
   double least_gain = 0;
-  /// Once this share of the budget is spent, training ends if the gain is less than `least_gain`,
-  /// and would be after another rise like the last one. A gain that exceeds `least_gain` by less
-  /// than a standard error limits the next iteration to this share; see Spending::largest_share.
+  /// A gain below `least_gain` still suffices if the guides lower the mean squared error of images
+  /// to this part or less [1]; see NoiseRatio. 0: it does not.
+  double most_noise = 0;
+  /// A method is left out of the rest of the render if, without it, the gain would have been lower
+  /// by less than this in each of the last two iterations [nats]. 0: none is left out.
+  double least_part = 0;
+  /// Once this share of the budget is spent, training ends if the guides do not suffice, and would
+  /// not after another change of gain and noise like the last one. Nothing is decided before. Until
+  /// they surely suffice (the gain exceeds `least_gain` by a standard error, or the noise is low
+  /// enough), each iteration is limited to this share, too; see Spending::largest_share.
   double trial = 1.0 / 16;
+
+  /// Returns whether anything depends on how much the guides help.
+  bool puts_guides_on_trial() const { return tolerance > 0 || least_gain > 0 || least_part > 0; }
 
   static void describe(Schema<TrainingSettings>& schema);
 };

@@ -1,0 +1,92 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <pharos/guiding/pipeline/guide_trial.h>
+
+namespace pharos {
+
+GuideTrial::GuideTrial(const TrainingSettings& settings, PixelRect window)
+    : settings_(settings), noise_(window) {}
+
+void GuideTrial::absorb(const PathLog& log, bool is_guided) {
+  if (is_guided) gain_.absorb(log);
+  noise_.absorb(log);
+}
+
+bool GuideTrial::end_iteration(double spent, bool is_guided) {
+  spent_before_ = std::exchange(spent_, spent);
+  noise_.end_iteration(is_guided);
+  // Iterations without guides say nothing about guides.
+  if (!is_guided) return false;
+  parts_before_.assign(gain_.parts().begin(), gain_.parts().end());
+  gain_.end_iteration();
+  if (spent_ < settings_.trial) return false;
+  return is_useless() ? !may_suffice() : settings_.tolerance > 0 && !may_pay();
+}
+
+bool GuideTrial::lowers_noise() const {
+  return noise_.value() && *noise_.value() <= settings_.most_noise;
+}
+
+bool GuideTrial::is_useless() const {
+  return settings_.least_gain > 0 && gain_.is_below(settings_.least_gain) && !lowers_noise();
+}
+
+bool GuideTrial::may_be_useless() const {
+  return settings_.least_gain > 0 && gain_.may_be_below(settings_.least_gain) && !lowers_noise();
+}
+
+double GuideTrial::worthwhile_share() const {
+  return may_be_useless() ? settings_.trial : 1;
+}
+
+bool GuideTrial::may_suffice() const {
+  if (gain_.may_reach(settings_.least_gain)) return true;
+  const std::optional<double> next = noise_.next();
+  return settings_.most_noise > 0 && (!next || *next <= settings_.most_noise);
+}
+
+double GuideTrial::next_share() const {
+  const double last = spent_ - spent_before_, left = std::max(settings_.share - spent_, 0.0);
+  if (settings_.schedule == ScheduleKind::uniform) return std::min(last, left);
+  // The last iteration takes all that is left if twice as much would not fit after it; see
+  // Schedule.
+  const double next = 2 * last + 4 * last <= left ? 2 * last : left;
+  return std::min(next, worthwhile_share());
+}
+
+bool GuideTrial::may_pay() const {
+  // Samples that training contributes, relative to the final image in the same time [1].
+  const double kept = settings_.images == TrainingImages::discard ? 0 : 0.5;
+  const double left = 1 - spent_, next = next_share();
+  const double cost = std::log((left - kept * next) / (left - next));
+  const std::optional<double> expected = noise_.next();
+  const double fall_of_noise =
+      expected && *expected > 0 ? std::log(*noise_.value() / *expected) : 0;
+  return std::max(gain_.possible_rise(), fall_of_noise) >= std::max(settings_.tolerance, cost);
+}
+
+std::optional<std::size_t> GuideTrial::dispensable_method() const {
+  if (!(settings_.least_part > 0) || spent_ < settings_.trial || is_useless()) return std::nullopt;
+  const std::span<const HeldOutGain::Part> parts = gain_.parts();
+  const auto took_part = std::count_if(parts.begin(), parts.end(),
+                                       [](const HeldOutGain::Part& part) { return part.is_known; });
+  if (took_part < 2) return std::nullopt;
+  const auto is_small = [&](const HeldOutGain::Part& part) {
+    return part.is_known && part.nats < settings_.least_part;
+  };
+  std::optional<std::size_t> least;
+  for (std::size_t i = 0; i < std::min(parts.size(), parts_before_.size()); ++i) {
+    if (!is_small(parts[i]) || !is_small(parts_before_[i])) continue;
+    if (!least || parts[i].nats < parts[*least].nats) least = i;
+  }
+  return least;
+}
+
+std::optional<GuideGain> GuideTrial::gain() const {
+  if (!gain_.is_known()) return std::nullopt;
+  return GuideGain{.nats = gain_.value(), .noise_ratio = noise_.value()};
+}
+
+}  // namespace pharos
