@@ -14,7 +14,7 @@ namespace pharos {
 /// How much the guides help.
 struct GuideGain {
   double nats = 0;  ///< gain in the last training iteration, see HeldOutGain
-  /// Mean squared error of guided images over that of unguided ones [1], see NoiseRatio.
+  /// Mean squared error of guided images over the error of unguided ones [1], see NoiseRatio.
   std::optional<double> noise_ratio;
   bool is_off = false;  ///< neither suffices, see TrainingSettings: the image is not guided
 };
