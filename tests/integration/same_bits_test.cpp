@@ -22,6 +22,11 @@ std::string bits(const RenderResult& result) {
     save(model, *result.model);
     all += model.str();
   }
+  if (result.learned != nullptr) all += result.learned->mixing_state;
+  if (result.gain) {
+    all += fmt::format("{} {} {}", result.gain->nats, result.gain->noise_ratio.value_or(-1),
+                       result.gain->is_off);
+  }
   return all;
 }
 
@@ -122,6 +127,25 @@ TEST_CASE("same bits: focal guiding, with the learned model") {
   check_same_bits(
       cornell("sampler: sobol\nintegrator: { type: path, guiding: { learner: focal, guider: focal, "
               "training: { iterations: 4 } } }\n"));
+}
+
+TEST_CASE("same bits: a mixture of methods on trial, of which some are left out") {
+  for (const double least_gain : {0.001, 10.0}) {
+    check_same_bits(cornell(fmt::format(R"(
+sampler: sobol
+integrator:
+  type: path
+  guiding:
+    methods:
+      - {{ learner: parallax_aware_mixtures, guider: parallax_aware_mixtures }}
+      - {{ learner: practical_path_guiding, guider: practical_path_guiding }}
+      - {{ learner: {{ type: focal, burn_in: 1 }}, guider: focal }}
+    mixing: simplex
+    training: {{ schedule: geometric, images: combine, tolerance: 0.01, least_gain: {},
+                 most_noise: 0.5, least_part: 0.01, trial: 0.1 }}
+)",
+                                        least_gain)));
+  }
 }
 
 TEST_CASE("same bits: a scene of 300,000 triangles") {

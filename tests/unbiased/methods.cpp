@@ -200,7 +200,9 @@ std::vector<Method> robust_methods() {
   return {
       {"robust", {"=robust"}},
       {"robust, soon settled", {"=robust", ".training.tolerance=0.5", ".training.least_gain=0"}},
-      {"robust, short trial", {"=robust", ".training.trial=0.1", ".training.least_gain=0.1"}}};
+      {"robust, short trial", {"=robust", ".training.trial=0.1", ".training.least_gain=0.1"}},
+      {"robust, methods left out",
+       {"=robust", ".training.trial=0.01", ".training.least_gain=0", ".training.least_part=10"}}};
 }
 
 }  // namespace pharos::testing
