@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "quad_links.h"
 
@@ -61,6 +62,7 @@ bool is_density(const std::vector<QuadNode>& nodes) {
   if (nodes.empty()) return true;
   if (nodes.size() > kMostNodes || !is_quadtree(nodes, QuadDensity::kMostLevels)) return false;
   constexpr double kRounding = 1e-3;
+  constexpr double kSmallest = std::numeric_limits<float>::min();  // below, floats lose digits
   const auto mean_of = [&](std::uint32_t i) {
     double sum = 0;
     for (const float d : nodes[i].density) sum += d;
@@ -73,7 +75,9 @@ bool is_density(const std::vector<QuadNode>& nodes) {
       const double own = node.density[q];
       if (own < 0) return false;
       const bool is_divided = node.child[q] != 0;
-      if (is_divided && !(std::abs(mean_of(node.child[q]) - own) <= kRounding * own)) return false;
+      if (!is_divided) continue;
+      const double difference = std::abs(mean_of(node.child[q]) - own);
+      if (!(difference <= kRounding * own + kSmallest)) return false;
     }
   }
   return true;

@@ -1,6 +1,7 @@
 #include "../quad_tree.h"
 
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 #include <doctest/doctest.h>
@@ -233,6 +234,16 @@ TreeAndDensity loaded(const std::string& text) {
   TreeAndDensity both{QuadTree(QuadRefinement{}), {}};
   load(in, both);
   return both;
+}
+
+TEST_CASE("a density is one even where it is so small that floats lose digits") {
+  // The densities of the child have the mean 2.25 `tiny`, and its quarter has 2 `tiny`.
+  const float tiny = std::numeric_limits<float>::denorm_min();
+  std::vector<QuadNode> nodes{{{4, 0, 0, 2 * tiny}, {0, 0, 0, 1}},
+                              {{4 * tiny, 3 * tiny, tiny, tiny}, {0, 0, 0, 0}}};
+  CHECK(is_density(nodes));
+  nodes[1].density[0] = 1e-3f;
+  CHECK_FALSE(is_density(nodes));
 }
 
 TEST_CASE("trees and densities survive being saved; damage is found") {
