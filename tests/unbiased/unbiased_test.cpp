@@ -135,7 +135,7 @@ TEST_CASE("long: unbiased in the proof variant camera-obscura") {
 }
 TEST_CASE("long: unbiased in the proof variant dining-room") {
   // With the 128 samples per pixel of the config, a bias of 2 % could go unseen.
-  compare_proof("dining-room", focal_methods(), {"budget={ spp: 192 }"});
+  compare_proof("dining-room", focal_methods(), {"budget={ spp: 224 }"});
 }
 TEST_CASE("long: unbiased in the proof variant disco-ball") {
   compare_proof("disco-ball", focal_methods());
