@@ -229,7 +229,7 @@ TEST_CASE("long: vertex triplets are unbiased in the proof variant metalwork") {
   compare_proof("metalwork", triplet_methods(0));
 }
 TEST_CASE("long: vertex triplets are unbiased in the proof variant mirror-chamber") {
-  compare_proof("mirror-chamber", triplet_methods(1));
+  compare_proof("mirror-chamber", triplet_methods(1), {"budget={ spp: 48 }"});
 }
 TEST_CASE("long: vertex triplets are unbiased in the proof variant pool") {
   compare_proof("pool", triplet_methods(0), {"budget={ spp: 96 }"});
