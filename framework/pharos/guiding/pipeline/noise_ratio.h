@@ -18,10 +18,9 @@ namespace pharos {
 ///     sum_j r_j x_j (x_j + 2 sum_{k > j} x_k)
 ///
 /// over guided paths, and with r_j = 1 it is the second moment of what guided paths find. Where
-/// paths branch, this holds up to the products of x_j and x_k in different branches. The MIS
-/// weights in x_j, Russian roulette and splitting are those of guided paths. Where light samples
-/// find most of the light, the ratio is therefore too low: 0.87 instead of about 1.1 in the Cornell
-/// box.
+/// paths branch, this holds up to the products of x_j and x_k in different branches. MIS
+/// weights, Russian roulette and splitting stay as in guided paths. Where light samples find most
+/// of the light, the ratio is therefore too low: 0.87 instead of about 1.1 in the Cornell box.
 ///
 /// The plain ratio of variances would be decided by bright paths that are so rare that no image
 /// shows them. The images have n = 128 samples per pixel here, so a pixel shows contributions of up
