@@ -147,8 +147,8 @@ class TinyMixingState final : public MixingState {
   std::shared_ptr<std::vector<std::string>> heard_;
 };
 
-/// A policy that never asks the first `silent` methods. It lists in `heard`, unless that is null,
-/// what its state is told.
+/// A policy that never asks the first `silent` methods. If `heard` is not null, the policy lists
+/// the calls of update() and leave_out() there.
 class TinyMixing final : public MixingPolicy {
  public:
   explicit TinyMixing(std::size_t silent = 0,

@@ -101,8 +101,8 @@ std::string runs_csv(const ExperimentResults& results) {
   for (const MetricInfo& info : metric_infos()) text += fmt::format(",{}", info.key);
   text +=
       ",invalid_pixels,invalid_paths,rays,gain,noise_ratio,guiding_is_off,model_bytes,"
-      "seconds_preparation,seconds_sampler,seconds_training,seconds_update,seconds_rendering,peak_"
-      "bytes,version\n";
+      "seconds_preparation,seconds_sampler,seconds_training,seconds_update,"
+      "seconds_rendering,peak_bytes,version\n";
   for (const RunRecord& run : results.records) {
     text += fmt::format("{},{},{},{}", run.scene, run.method, run.seed, run.samples_per_pixel);
     for (const MetricInfo& info : metric_infos()) text += "," + csv_number(run.errors[info.metric]);

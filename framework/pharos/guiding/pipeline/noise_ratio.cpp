@@ -19,7 +19,7 @@ double density_quotient(const PathView& path, const RecordedVertex& vertex) {
   return double{vertex.pdf} / double{techniques[0].density};
 }
 
-/// What one path finds, from its end to its beginning.
+/// Sums over the vertices of one path. Vertices are added from the last to the first.
 struct Found {
   double shown = 0, shown_squared = 0, missing = 0;
 
