@@ -158,6 +158,7 @@ TEST_CASE("guide trial: the policy hears of a method that is left out, before it
 TEST_CASE("guide trial: guides of little gain stay if they lower the noise enough") {
   GuidingSettings own = test::tiny_settings();
   own.training.least_gain = 0.2;
+  own.training.trial = 0.5;
   REQUIRE(test::expected_gain(0.8) < 0.2);
   REQUIRE(test::expected_ratio(0.8) < 0.2);
   for (const double most : {0.0, 0.5}) {
@@ -166,7 +167,7 @@ TEST_CASE("guide trial: guides of little gain stay if they lower the noise enoug
     CHECK_FALSE(may_end(state, 0.5, 0.1, 1));
     state.update({0, 3});
     CHECK_FALSE(may_end(state, 0.8, 0.2, 2));
-    CHECK(state.worthwhile_share() == (most > 0 ? 1 : own.training.trial));
+    CHECK(state.worthwhile_share() == doctest::Approx(most > 0 ? 1 : 0.5 - 0.2));
     state.update({1, 0});
     CHECK((state.frame() == nullptr) == (most == 0));
     REQUIRE(state.gain());
@@ -187,11 +188,11 @@ TEST_CASE("guide trial: a guide that hardly helps is off after training, which e
     CHECK_FALSE(may_end(state, 0.5, 0.1, 1));
     CHECK(state.worthwhile_share() == 1);  // nothing is known: no guide had a model
     state.update({0, 3});
-    CHECK_FALSE(may_end(state, 0.5, 0.2, 2));  // there is nothing to compare with
-    CHECK(state.worthwhile_share() == 0.15);
+    CHECK_FALSE(may_end(state, 0.5, 0.2, 2));     // there is nothing to compare with
+    CHECK(state.worthwhile_share() == 0.15 / 2);  // all of the trial is spent
     state.update({1, 2});
     CHECK_FALSE(may_end(state, 0.9, 0.25, 3));  // another such rise would suffice
-    CHECK(state.worthwhile_share() == (least > 0.125 ? 0.15 : 1));
+    CHECK(state.worthwhile_share() == (least > 0.125 ? 0.15 / 2 : 1));
     state.update({2, 1});
     CHECK(state.frame() != nullptr);         // it may still improve
     CHECK(test::expected_gain(0.8) < 0.11);  // less than before, so the gain does not rise

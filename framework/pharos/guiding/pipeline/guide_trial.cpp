@@ -38,7 +38,8 @@ bool GuideTrial::may_be_useless() const {
 }
 
 double GuideTrial::worthwhile_share() const {
-  return may_be_useless() ? settings_.trial : 1;
+  if (!may_be_useless()) return 1;
+  return std::max(settings_.trial - spent_, 0.5 * settings_.trial);
 }
 
 bool GuideTrial::may_suffice() const {
