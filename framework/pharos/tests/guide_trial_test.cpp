@@ -17,6 +17,9 @@
 namespace pharos {
 namespace {
 
+using test::Methods, test::TinyMixing, test::asked_methods, test::load_from, test::saved,
+    test::tiny_settings;
+
 /// Ends an iteration of paths that guides have drawn. Returns whether training may end.
 bool may_end(GuidingState& state, std::span<const double> guides, double spent,
              std::uint64_t seed) {
@@ -29,15 +32,13 @@ bool may_end(GuidingState& state, double guide, double spent, std::uint64_t seed
   return may_end(state, std::array{guide}, spent, seed);
 }
 
-using test::asked_methods, test::Methods;
-
 /// The first method helps, the second does nothing, and the third harms.
 constexpr std::array kUnequal{0.9, 0.5, 0.1};
 
 }  // namespace
 
 TEST_CASE("guide trial: training ends when another iteration does not pay, or goes on") {
-  GuidingSettings own = test::tiny_settings();
+  GuidingSettings own = tiny_settings();
   for (const double tolerance : {0.0, 0.02}) {
     own.training.tolerance = tolerance;
     GuidingState state(own, {});
@@ -54,7 +55,7 @@ TEST_CASE("guide trial: training ends when another iteration does not pay, or go
 }
 
 TEST_CASE("guide trial: the more another iteration costs, the more it must promise") {
-  GuidingSettings own = test::tiny_settings();
+  GuidingSettings own = tiny_settings();
   own.training.tolerance = 0.001;
   own.training.trial = 0;
   own.training.share = 0.9;
@@ -87,41 +88,41 @@ TEST_CASE("guide trial: the more another iteration costs, the more it must promi
 }
 
 TEST_CASE("guide trial: methods that the guides can do without are left out, one by one") {
-  GuidingSettings own = test::tiny_settings();
+  GuidingSettings own = tiny_settings();
   own.training.least_part = 0.01;
   GuidingState state(own, {}), resumed(own, {});
   CHECK_FALSE(may_end(state, 0.5, 0.1, 1));
   state.update({0, 9});
   may_end(state, kUnequal, 0.2, 2);
   state.update({1, 8});
-  const std::string early = test::saved(state);
+  const std::string early = saved(state);
   CHECK(asked_methods(state) == Methods{0, 1, 2});  // once is not enough
   may_end(state, kUnequal, 0.3, 3);
   state.update({2, 7});
   CHECK(asked_methods(state) == Methods{0, 1});
-  test::load_from(test::saved(state), resumed);
+  load_from(saved(state), resumed);
   for (GuidingState* each : {&state, &resumed}) {
-    const std::string out = test::saved(*each->model(2)), in = test::saved(*each->model(0));
+    const std::string out = saved(*each->model(2)), in = saved(*each->model(0));
     may_end(*each, std::array{0.9, 0.5, -1.0}, 0.35, 4);
     each->update({3, 6});
     CHECK(asked_methods(*each) == Methods{0});
-    CHECK(test::saved(*each->model(2)) == out);  // it learns no more
+    CHECK(saved(*each->model(2)) == out);  // it learns no more
     // The second method is out, too, but it shares the model of the first.
-    CHECK(test::saved(*each->model(0)) != in);
+    CHECK(saved(*each->model(0)) != in);
     for (const std::uint32_t i : {4u, 5u, 6u}) {
       may_end(*each, std::array{0.2, -1.0, -1.0}, 0.4, i);
       each->update({i, 6 - i});
     }
     CHECK(asked_methods(*each) == Methods{0});  // the last one stays
   }
-  CHECK(test::saved(state) == test::saved(resumed));
-  test::load_from(early, resumed);
+  CHECK(saved(state) == saved(resumed));
+  load_from(early, resumed);
   CHECK(asked_methods(resumed) == Methods{0, 1, 2});
 }
 
 TEST_CASE("guide trial: no method is left out on trial, by useless guides, or if none is to be") {
   const auto asked = [](double least_part, double least_gain, double spent) {
-    GuidingSettings own = test::tiny_settings();
+    GuidingSettings own = tiny_settings();
     own.training.tolerance = 1e-9;
     own.training.least_part = least_part;
     own.training.least_gain = least_gain;
@@ -141,10 +142,10 @@ TEST_CASE("guide trial: no method is left out on trial, by useless guides, or if
 }
 
 TEST_CASE("guide trial: the policy hears of a method that is left out, before its update") {
-  GuidingSettings own = test::tiny_settings();
+  GuidingSettings own = tiny_settings();
   own.training.least_part = 0.01;
   const auto heard = std::make_shared<std::vector<std::string>>();
-  own.mixing = std::make_shared<const test::TinyMixing>(0, heard);
+  own.mixing = std::make_shared<const TinyMixing>(0, heard);
   GuidingState state(own, {});
   CHECK_FALSE(may_end(state, 0.5, 0.1, 1));
   state.update({0, 9});
@@ -156,7 +157,7 @@ TEST_CASE("guide trial: the policy hears of a method that is left out, before it
 }
 
 TEST_CASE("guide trial: guides of little gain stay if they lower the noise enough") {
-  GuidingSettings own = test::tiny_settings();
+  GuidingSettings own = tiny_settings();
   own.training.least_gain = 0.2;
   own.training.trial = 0.5;
   REQUIRE(test::expected_gain(0.8) < 0.2);
@@ -179,7 +180,7 @@ TEST_CASE("guide trial: guides of little gain stay if they lower the noise enoug
 }
 
 TEST_CASE("guide trial: a guide that hardly helps is off after training, which ends early") {
-  GuidingSettings own = test::tiny_settings();
+  GuidingSettings own = tiny_settings();
   for (const double least : {0.1, 0.2}) {
     REQUIRE(test::expected_gain(0.9) == doctest::Approx(0.125).epsilon(0.01));
     own.training.least_gain = least;

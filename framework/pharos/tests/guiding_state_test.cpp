@@ -12,6 +12,9 @@
 namespace pharos {
 namespace {
 
+using test::Methods, test::TinyMixing, test::asked_methods, test::load_from, test::saved,
+    test::tiny_settings;
+
 /// Returns a path that finds this much light.
 PathLog path_to_light(float light) {
   PathLog log;
@@ -39,76 +42,76 @@ void finish(GuidingState& state) {
 }  // namespace
 
 TEST_CASE("guiding state: saved in the middle of an iteration, it ends with the same models") {
-  GuidingState state(test::tiny_settings(), {}), resumed(test::tiny_settings(), {}),
-      forgetful(test::tiny_settings(), {});
+  GuidingState state(tiny_settings(), {}), resumed(tiny_settings(), {}),
+      forgetful(tiny_settings(), {});
   for (GuidingState* s : {&state, &forgetful}) {
     s->absorb(path_to_light(1));
     s->update({0, 1});
   }
   state.absorb(path_to_light(2));
-  const std::string file = test::saved(state);
-  test::load_from(file, resumed);
-  CHECK(test::saved(resumed) == file);
+  const std::string file = saved(state);
+  load_from(file, resumed);
+  CHECK(saved(resumed) == file);
   for (const std::size_t i : {0u, 1u, 2u}) {
-    CHECK(test::saved(*resumed.model(i)) == test::saved(*state.model(i)));
+    CHECK(saved(*resumed.model(i)) == saved(*state.model(i)));
   }
   CHECK(unguided_share(resumed) == unguided_share(state));
 
   for (GuidingState* s : {&state, &resumed, &forgetful}) finish(*s);
   for (const std::size_t i : {0u, 1u, 2u}) {
-    CHECK(test::saved(*resumed.model(i)) == test::saved(*state.model(i)));
+    CHECK(saved(*resumed.model(i)) == saved(*state.model(i)));
     // Paths that were absorbed before saving make a difference.
-    CHECK(test::saved(*forgetful.model(i)) != test::saved(*state.model(i)));
+    CHECK(saved(*forgetful.model(i)) != saved(*state.model(i)));
   }
   CHECK(resumed.model(0)->density({}) == (0.5 * 1 + 2 + 3) * 0.5 + 5);
-  CHECK(test::saved(resumed) == test::saved(state));
+  CHECK(saved(resumed) == saved(state));
   CHECK(unguided_share(resumed) == unguided_share(state));
   CHECK(unguided_share(forgetful) != unguided_share(state));
 }
 
 TEST_CASE("guiding state: methods that share a model still share it when loaded") {
-  GuidingState state(test::tiny_settings(), {}), resumed(test::tiny_settings(), {});
+  GuidingState state(tiny_settings(), {}), resumed(tiny_settings(), {});
   state.absorb(path_to_light(1));
   state.update({0, 1});
-  test::load_from(test::saved(state), resumed);
+  load_from(saved(state), resumed);
   CHECK(resumed.model(0) == resumed.model(1));
   CHECK(resumed.model(0) != resumed.model(2));
 }
 
 TEST_CASE("guiding state: saved before anything is known") {
-  GuidingState state(test::tiny_settings(), {}), resumed(test::tiny_settings(), {});
+  GuidingState state(tiny_settings(), {}), resumed(tiny_settings(), {});
   state.absorb(path_to_light(1));
-  test::load_from(test::saved(state), resumed);
+  load_from(saved(state), resumed);
   CHECK(resumed.frame() == nullptr);
   CHECK(resumed.model(0) == nullptr);
   for (GuidingState* s : {&state, &resumed}) s->update({0, 0});
-  CHECK(test::saved(resumed) == test::saved(state));
+  CHECK(saved(resumed) == saved(state));
   CHECK(resumed.model(0)->density({}) == 1);
 }
 
 TEST_CASE("guiding state: cut off anywhere, it is refused") {
-  GuidingState state(test::tiny_settings(), {});
+  GuidingState state(tiny_settings(), {});
   state.absorb(path_to_light(1));
   state.update({0, 1});
-  const std::string file = test::saved(state);
+  const std::string file = saved(state);
   for (std::size_t size = 0; size < file.size(); ++size) {
-    GuidingState resumed(test::tiny_settings(), {});
-    CHECK_THROWS_AS(test::load_from(file.substr(0, size), resumed), InputError);
+    GuidingState resumed(tiny_settings(), {});
+    CHECK_THROWS_AS(load_from(file.substr(0, size), resumed), InputError);
   }
 }
 
 TEST_CASE(
     "guiding state: methods that are never asked take no part; without any there is no frame") {
-  GuidingSettings own = test::tiny_settings();
+  GuidingSettings own = tiny_settings();
   const auto asked_after_training = [&](std::size_t silent) {
-    own.mixing = std::make_shared<const test::TinyMixing>(silent);
+    own.mixing = std::make_shared<const TinyMixing>(silent);
     GuidingState state(own, {});
     state.absorb(path_to_light(1));
     state.update({0, 1});
-    return test::asked_methods(state);
+    return asked_methods(state);
   };
-  CHECK(asked_after_training(0) == test::Methods{0, 1, 2});
-  CHECK(asked_after_training(2) == test::Methods{2});
+  CHECK(asked_after_training(0) == Methods{0, 1, 2});
+  CHECK(asked_after_training(2) == Methods{2});
   CHECK(asked_after_training(3).empty());
 }
 

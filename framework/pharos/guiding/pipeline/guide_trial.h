@@ -40,8 +40,8 @@ class GuideTrial {
   /// may end, because the guides have settled or are not worth going on.
   bool end_iteration(double spent, bool is_guided);
   /// Returns the largest share of the budget that the next training iteration is worth [1]: all of
-  /// it; or, if the guides may be useless, what is left of TrainingSettings::trial, but at least
-  /// half of that setting.
+  /// it. If the guides may be useless, it is the rest of the share TrainingSettings::trial or half
+  /// of that share, whichever is larger.
   double worthwhile_share() const;
   /// Returns whether the guides do not help enough to be used. False as long as it is unknown.
   bool is_useless() const;

@@ -44,12 +44,11 @@ void TrainingSettings::describe(Schema<TrainingSettings>& s) {
           "lower by less than this in each of the last two iterations; 0: none is left out")
       .unit("nats")
       .at_least(0);
-  s.field(
-       "trial", &TrainingSettings::trial,
-       "Once this share of the budget is spent, training ends if the guides do not suffice, and "
-       "would not after another change of gain and noise like the last one. Nothing is decided "
-       "before. Until they surely suffice, an iteration takes at most what is left of this share, "
-       "or half of it if that is more")
+  s.field("trial", &TrainingSettings::trial,
+          "Once this share of the budget is spent, training ends if the guides do not suffice, and "
+          "would not after another change of gain and noise like the last one. Nothing is decided "
+          "before. Until they surely suffice, an iteration takes at most the rest of this share or "
+          "half of the share, whichever is larger")
       .at_least(0)
       .at_most(1);
 }

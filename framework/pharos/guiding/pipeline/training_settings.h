@@ -49,8 +49,8 @@ struct TrainingSettings {
   /// Once this share of the budget is spent, training ends if the guides do not suffice, and would
   /// not after another change of gain and noise like the last one. Nothing is decided before. Until
   /// they surely suffice (the gain exceeds `least_gain` by a standard error, or the noise is low
-  /// enough), each iteration is limited, too: to what is left of this share, but at least to half
-  /// of it; see Spending::largest_share.
+  /// enough), an iteration takes at most the rest of this share or half of the share, whichever
+  /// is larger; see Spending::largest_share.
   double trial = 1.0 / 16;
 
   /// Returns whether anything depends on how much the guides help.
