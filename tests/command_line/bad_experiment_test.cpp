@@ -55,6 +55,8 @@ TEST_CASE("experiments: scenes and methods") {
   check_refused(experiment(2, "scenes: []", ""), {"bad.yaml"});
   check_refused(experiment(3, "  - { name: ball, config: rendr.yaml }"),
                 {"rendr.yaml", "did you mean 'render.yaml'?"});
+  check_refused(experiment(3, "  - { name: ball, config: rendr.yaml, optional: true }"),
+                {"bad.yaml:3:3: error: ", "all scenes are optional"});
   check_refused(experiment(3, "  - { name: ball, config: render.yaml, budget: {} }"),
                 {"bad.yaml:3:48: error: ", "'spp' or 'seconds'"});
   check_refused(experiment(3, "  - { name: a/b, config: render.yaml }"),

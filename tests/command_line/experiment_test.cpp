@@ -131,6 +131,15 @@ TEST_CASE("an experiment leaves tables, images, records and a report") {
     CHECK(read_text(folder.path() / "test/report.html").find("0.05 s in flat") !=
           std::string::npos);
   }
+  SUBCASE("an optional scene that does not exist is left out, and its name is told") {
+    const std::string absent = "'scenes.1={ name: far, config: far/away.yaml, optional: true }'";
+    const Outcome rest = run_pharos("experiment test.yaml --set " + absent, folder.path());
+    REQUIRE_MESSAGE(rest.exit_code == 0, rest.err);
+    CHECK(rest.err.find("far: left out") != std::string::npos);
+    CHECK(rendered_runs(rest) == 0);
+    CHECK(table_of(folder.path()).find("deep") != std::string::npos);
+    CHECK(table_of(folder.path()).find("far") == std::string::npos);
+  }
   SUBCASE("a method's config lies below its settings: the same in either is not rendered again") {
     folder.write("preset.yaml", "sampler: sobol\n");
     const std::string config = "--set 'methods.1={ name: sobol, config: preset.yaml";

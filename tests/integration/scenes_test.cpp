@@ -59,6 +59,19 @@ TEST_CASE("every experiment can be planned") {
   CHECK(experiments >= 3);
 }
 
+/// A ring with its normals up lights only the gap below the ceiling, which passes for a dim scene.
+TEST_CASE("the ring of the mirror chamber shines down") {
+  for (const char* config : {"mirror-chamber.yaml", "proof/mirror-chamber.yaml"}) {
+    CAPTURE(config);
+    const RenderJob job(load_render_config(kConfigs / config, {}, registry()).config);
+    REQUIRE(job.scene().lights().size() == 1);
+    for (int i = 0; i < 64; ++i) {
+      const Vec2 u{(i % 8 + 0.5f) / 8, (i / 8 + 0.5f) / 8};
+      CHECK(job.scene().lights()[0]->sample_emission(u, u).direction.y < 0);
+    }
+  }
+}
+
 TEST_CASE("furnace: nothing can be seen, anywhere in the image") {
   constexpr int kRuns = 16, kBlocks = 4;
   std::vector<double> blocks[kBlocks][kBlocks];

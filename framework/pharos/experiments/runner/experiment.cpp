@@ -95,6 +95,10 @@ class Runner {
   }
 
   ExperimentResults run() {
+    for (const ExperimentScene& scene : results_.config.left_out) {
+      tell(fmt::format("{}: left out, because '{}' does not exist", scene.name,
+                       scene.config.string()));
+    }
     results_.stopped = !find_references();
     std::vector<Run> runs = all_runs();
     RunCounter counter(runs.size(), control_);

@@ -58,6 +58,18 @@ void check_together(const ExperimentConfig& config, const ConfigNode& root) {
   }
 }
 
+void leave_out_absent(ExperimentConfig& config, const ConfigNode& root) {
+  const auto absent = std::stable_partition(
+      config.scenes.begin(), config.scenes.end(), [](const ExperimentScene& scene) {
+        return !scene.optional || std::filesystem::exists(scene.config);
+      });
+  config.left_out.assign(absent, config.scenes.end());
+  config.scenes.erase(absent, config.scenes.end());
+  if (config.scenes.empty()) {
+    root.find("scenes")->fail("all scenes are optional, and the config of none of them exists");
+  }
+}
+
 }  // namespace
 
 void ReferenceSettings::describe(Schema<ReferenceSettings>& s) {
@@ -80,6 +92,8 @@ void ExperimentScene::describe(Schema<ExperimentScene>& s) {
   s.field("settings", &ExperimentScene::settings, "Values that override the render config");
   s.field("reference", &ExperimentScene::reference, "Replaces the experiment's reference");
   s.field("budget", &ExperimentScene::budget, "Replaces the experiment's budget");
+  s.field("optional", &ExperimentScene::optional,
+          "Leave the scene out if its config does not exist");
 }
 
 void ExperimentMethod::describe(Schema<ExperimentMethod>& s) {
@@ -126,6 +140,7 @@ ExperimentConfig load_experiment(const std::filesystem::path& path,
   ConfigNode resolved;
   auto config = Value<ExperimentConfig>::read(node, context, resolved);
   check_together(config, node);
+  leave_out_absent(config, node);
   const std::string name = path.stem().string();
   config.source = std::filesystem::absolute(path).lexically_normal();
   if (config.title.empty()) config.title = name;

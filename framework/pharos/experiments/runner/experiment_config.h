@@ -35,6 +35,7 @@ struct ExperimentScene {
   ConfigNode settings = ConfigNode::mapping();
   ReferenceSettings reference;   ///< replaces the experiment's reference
   std::optional<Budget> budget;  ///< replaces the experiment's budget
+  bool optional = false;         ///< left out if its config does not exist
 
   static void describe(Schema<ExperimentScene>& schema);
 };
@@ -72,7 +73,8 @@ struct ExperimentConfig {
   std::string output;           ///< folder, relative to the current one
   std::filesystem::path cache;  ///< folder of references; empty: the user's cache folder
 
-  std::filesystem::path source;  ///< absolute path of the file it was read from
+  std::filesystem::path source;           ///< absolute path of the file it was read from
+  std::vector<ExperimentScene> left_out;  ///< optional scenes whose config does not exist
 
   /// Returns the budget of every run of a scene.
   const Budget& budget_of(const ExperimentScene& scene) const {
@@ -88,7 +90,8 @@ struct ExperimentConfig {
 };
 
 /// Reads an experiment file, follows `extends`, applies `overrides` and makes the checks that
-/// concern several values: names exist and are unique, the baseline is a method. Throws InputError.
+/// concern several values: names exist and are unique, the baseline is a method. Optional scenes
+/// whose config does not exist are moved to `left_out`. Throws InputError.
 ExperimentConfig load_experiment(const std::filesystem::path& path,
                                  const std::vector<std::string>& overrides,
                                  const Registry& registry);
