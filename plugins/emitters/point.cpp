@@ -7,6 +7,7 @@
 #include "point.h"
 
 #include <pharos/core/warp.h>
+#include <pharos/scene/reach.h>
 
 #include "local_light.h"
 
@@ -51,7 +52,9 @@ void PointEmitter::Settings::describe(Schema<Settings>& s) {
 
 PointEmitter::PointEmitter(const Settings& settings)
     : intensity_(settings.scale * settings.intensity),
-      position_(settings.to_world.point(settings.position)) {}
+      position_(settings.to_world.point(settings.position)) {
+  check_reach(position_, "the light");
+}
 
 std::unique_ptr<const Light> PointEmitter::place(const EmitterSite&) const {
   return std::make_unique<const PointLight>(intensity_, position_);

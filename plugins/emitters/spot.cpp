@@ -23,6 +23,7 @@
 
 #include <pharos/core/error.h>
 #include <pharos/core/warp.h>
+#include <pharos/scene/reach.h>
 
 #include "local_light.h"
 
@@ -125,6 +126,7 @@ SpotEmitter::SpotEmitter(const Settings& settings) : settings_(settings) {
     throw InputError(fmt::format("spot: 'beam_width' must be at most 'cutoff_angle', got {} and {}",
                                  settings.beam_width, settings.cutoff_angle));
   }
+  check_reach(settings.to_world.point({}), "the light");
 }
 
 std::unique_ptr<const Light> SpotEmitter::place(const EmitterSite&) const {

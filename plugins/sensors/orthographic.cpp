@@ -12,6 +12,8 @@
 
 #include "orthographic.h"
 
+#include <pharos/scene/reach.h>
+
 #include "film_window.h"
 
 namespace pharos {
@@ -59,7 +61,10 @@ class PreparedOrthographic : public PreparedSensor {
 
 void OrthographicSensor::Settings::describe(Schema<Settings>& s) {
   s.field("to_world", &Settings::to_world, "From the camera's space to world space");
-  s.field("width", &Settings::width, "Width of the view").unit("scene units").above(0);
+  s.field("width", &Settings::width, "Width of the view")
+      .unit("scene units")
+      .above(0)
+      .at_most(kFarthest);
   s.example("{ width: 0.5 }");
   s.example(
       "{ width: 10, to_world: { look_at: { origin: [0, 5, 5], target: [0, 0, 0], "

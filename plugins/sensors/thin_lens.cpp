@@ -18,6 +18,7 @@
 #include "thin_lens.h"
 
 #include <pharos/core/warp.h>
+#include <pharos/scene/reach.h>
 
 #include "view_cone.h"
 
@@ -67,11 +68,13 @@ void ThinLensSensor::Settings::describe(Schema<Settings>& s) {
   s.field("aperture_radius", &Settings::aperture_radius,
           "Radius of the lens, or half the edge of a square one; 0 is a pinhole")
       .unit("scene units")
-      .at_least(0);
+      .at_least(0)
+      .at_most(kFarthest);
   s.field("focus_distance", &Settings::focus_distance,
           "Distance from the lens to the plane of focus, along the view direction")
       .unit("scene units")
-      .above(0);
+      .at_least(1 / kFarthest)
+      .at_most(kFarthest);
   s.field("aperture", &Settings::aperture, "Shape of the lens and of points out of focus");
   s.example("{ fov: 40, aperture_radius: 0.15, focus_distance: 5 }");
   s.example("{ fov: 90, aperture_radius: 0.5, focus_distance: 0.7, aperture: square }");

@@ -75,6 +75,14 @@ Outcome interrupt_pharos_once(const std::string& file, const std::string& argume
                    folder);
 }
 
+Outcome interrupt_pharos_when(const std::string& condition, const std::string& arguments,
+                              const std::filesystem::path& folder, const char* signal) {
+  return run_shell(fmt::format("{{ '{}' {} & until {}; do kill -0 $! || break; done; kill -{} $!; "
+                               "wait $!; }}",
+                               PHAROS_PROGRAM, arguments, condition, signal),
+                   folder);
+}
+
 bool appears(const std::filesystem::path& file) {
   for (int i = 0; i < 2400 && !std::filesystem::exists(file); ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(50));

@@ -1,7 +1,6 @@
 // The same config and seed give the same bits for any number of threads, including learned models.
 
 #include <filesystem>
-#include <sstream>
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -14,26 +13,10 @@
 namespace pharos::testing {
 namespace {
 
-std::string bits(const RenderResult& result) {
-  const std::vector<float>& values = result.image.values();
-  std::string all(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float));
-  if (result.model != nullptr) {
-    std::ostringstream model;
-    save(model, *result.model);
-    all += model.str();
-  }
-  if (result.learned != nullptr) all += result.learned->mixing_state;
-  if (result.gain) {
-    all += fmt::format("{} {} {}", result.gain->nats, result.gain->noise_ratio.value_or(-1),
-                       result.gain->is_off);
-  }
-  return all;
-}
-
 void check_same_bits(const std::string& config) {
-  const std::string one = bits(render(config, 1));
+  const std::string one = bits_of(render(config, 1));
   for (const int threads : {1, 2, 3, 7}) {
-    const bool same = bits(render(config, threads)) == one;
+    const bool same = bits_of(render(config, threads)) == one;
     CHECK_MESSAGE(same, threads << " threads");
   }
 }

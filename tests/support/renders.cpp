@@ -1,7 +1,9 @@
 #include "renders.h"
 
 #include <cmath>
+#include <sstream>
 
+#include <fmt/format.h>
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
@@ -31,6 +33,24 @@ RenderResult render(const std::string& yaml, int threads) {
                                   static_cast<std::size_t>(threads));
   tbb::task_arena arena(threads);
   return arena.execute([&] { return RenderJob(loaded.config).run(); });
+}
+
+std::string bits_of(const RenderResult& result) {
+  const std::vector<float>& values = result.image.values();
+  std::string all(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float));
+  if (result.learned != nullptr) {
+    for (const LearnedModel& each : result.learned->models) {
+      std::ostringstream model;
+      save(model, *each.model);
+      all += model.str();
+    }
+    all += result.learned->mixing_state;
+  }
+  if (result.gain) {
+    all += fmt::format("{} {} {}", result.gain->nats, result.gain->noise_ratio.value_or(-1),
+                       result.gain->is_off);
+  }
+  return all;
 }
 
 double image_mean(const Image& image) {

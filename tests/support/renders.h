@@ -17,6 +17,9 @@ LoadedConfig config_from(const std::string& yaml);
 /// Renders a config that is given as text. `threads` 0 uses all cores.
 RenderResult render(const std::string& yaml, int threads = 0);
 
+/// Returns the bits of the image, of everything that was learned and of the guides' gain.
+std::string bits_of(const RenderResult& result);
+
 /// Returns the mean of all pixels and channels.
 double image_mean(const Image& image);
 

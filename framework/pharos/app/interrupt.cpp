@@ -8,6 +8,7 @@ namespace pharos {
 namespace {
 
 std::atomic<bool> interrupted{false};
+std::atomic<bool> requested{false};  ///< SIGUSR1 came
 /// When the first signal came [s]; 0: there was none. Two signals may arrive on two threads at the
 /// same time.
 std::atomic<std::int64_t> first_signal_at{0};
@@ -36,22 +37,46 @@ void handle(int signal) {
   }
 }
 
+void handle_request(int) {
+  requested = true;
+}
+
+constexpr int kEnding[] = {SIGINT, SIGTERM, SIGHUP, SIGUSR2};
+
+/// Sets the handler of a signal unless the signal is ignored.
+void set_handler(int signal, void (*handler)(int)) {
+  if (std::signal(signal, handler) == SIG_IGN) std::signal(signal, SIG_IGN);
+}
+
 }  // namespace
+
+void InterruptGuard::expect_requests() {
+  set_handler(SIGUSR1, handle_request);
+}
 
 InterruptGuard::InterruptGuard() {
   interrupted = false;
   first_signal_at = 0;
-  std::signal(SIGINT, handle);
-  std::signal(SIGTERM, handle);
+  for (const int signal : kEnding) set_handler(signal, handle);
+  set_handler(SIGUSR1, handle_request);
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 InterruptGuard::~InterruptGuard() {
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
+  for (const int signal : kEnding) set_handler(signal, SIG_DFL);
+  set_handler(SIGUSR1, SIG_DFL);
 }
 
 const std::atomic<bool>& InterruptGuard::flag() const {
   return interrupted;
+}
+
+void InterruptGuard::set() {
+  interrupted = true;
+}
+
+bool InterruptGuard::take_request() {
+  return requested.exchange(false);
 }
 
 }  // namespace pharos

@@ -1,5 +1,4 @@
 #include <atomic>
-#include <filesystem>
 #include <optional>
 
 #include <CLI/CLI.hpp>
@@ -9,7 +8,7 @@
 #include <pharos/core/error.h>
 #include <pharos/core/host_port.h>
 #include <pharos/core/log.h>
-#include <pharos/core/writable.h>
+#include <pharos/rendering/checkpoint.h>
 #include <pharos/rendering/render_config.h>
 #include <pharos/rendering/render_job.h>
 #include <pharos/rendering/tev_packets.h>
@@ -17,9 +16,11 @@
 
 #include "commands.h"
 #include "config_options.h"
+#include "earlier_render.h"
 #include "import_notes.h"
 #include "interrupt.h"
 #include "progress_bar.h"
+#include "render_outputs.h"
 #include "threads.h"
 
 namespace pharos {
@@ -32,20 +33,9 @@ struct RenderOptions {
   bool quiet = false;
   std::vector<std::uint32_t> replay;
   std::optional<std::string> preview;
+  bool resume = false;
+  std::string continued;  ///< image that gets more samples; empty: none
 };
-
-void check_outputs(const OutputSettings& output) {
-  const std::filesystem::path image = output.image;
-  if (image.extension() != ".exr") {
-    throw InputError(
-        fmt::format("{}: error: images are OpenEXR files: expected a name that ends "
-                    "in .exr",
-                    output.image));
-  }
-  check_writable(image);
-  if (output.png) check_writable(std::filesystem::path(image).replace_extension(".png"));
-  check_writable(output.model);
-}
 
 void replay_path(RenderJob& job, const RenderConfig& config,
                  const std::vector<std::uint32_t>& numbers) {
@@ -86,48 +76,109 @@ void report(const RenderResult& result, const RenderConfig& config) {
         result.counters.invalid_paths, key.index % width, key.index / width, key.sample,
         key.iteration));
   }
+  if (result.invalid_pixels > 0) {
+    log_warning(
+        fmt::format("{}: {} pixels are NaN or infinite, because the light is beyond the "
+                    "range of a float",
+                    config.output.image, result.invalid_pixels));
+  }
 }
 
-/// Runs the job and writes its outputs, with a preview in `viewer` if one is given.
-RenderResult render_and_write(RenderJob& job, const LoadedConfig& loaded,
-                              const std::optional<HostPort>& viewer, const RenderOptions& options,
-                              const std::atomic<bool>& stop) {
-  ProgressBar bar;
-  std::optional<TevPreview> preview;
-  RenderControl control{.on_progress = {}, .on_pass = {}, .stop = &stop};
-  if (!options.quiet) control.on_progress = [&bar](const Progress& p) { bar.show(p); };
-  if (viewer) {
-    preview.emplace(*viewer, loaded.config.output.image, [&bar](const std::string& message) {
-      bar.clear();
-      log_warning(message);
-    });
-    control.on_pass = [&preview](const RenderSnapshot& snapshot) { preview->show(snapshot); };
+/// One run of the command after its config was loaded.
+class Render {
+ public:
+  Render(const LoadedConfig& loaded, const Registry& registry, const RenderOptions& options)
+      : loaded_(loaded), options_(options) {
+    find_checkpoint(registry);
+    job_.emplace(loaded.config);
   }
-  RenderResult result = job.run(control);
-  bar.clear();
-  if (preview) preview->show_last(result.image);
-  write_outputs(result, loaded);
-  if (preview) preview->finish();
-  return result;
-}
+
+  RenderJob& job() { return *job_; }
+
+  /// Renders the image and writes it, with a preview in `viewer` if one is given.
+  RenderResult run(const std::optional<HostPort>& viewer) {
+    std::optional<TevPreview> preview;
+    OutputSpace space(loaded_.config);
+    RenderControl control{.on_progress = {}, .on_pass = {}, .stop = &interrupt_.flag()};
+    if (!options_.quiet) control.on_progress = [this](const Progress& p) { bar_.show(p); };
+    if (viewer) {
+      preview.emplace(*viewer, loaded_.config.output.image,
+                      [this](const std::string& message) { warn(message); });
+      control.on_pass = [&preview](const RenderSnapshot& snapshot) { preview->show(snapshot); };
+    }
+    control.checkpoint.is_due = [this] { return is_checkpoint_due(); };
+    if (checkpoints_) {
+      control.checkpoint.take = [this](std::string state, bool finished) {
+        if (finished) state_name_ = state_name(state);
+        checkpoints_->write(std::move(state), finished);
+      };
+    }
+    RenderResult result = job_->run(control, state_);
+    bar_.clear();
+    if (preview) preview->show_last(result.image);
+    space.release();
+    write_outputs(result, loaded_, state_name_);
+    if (preview) preview->finish();
+    if (checkpoints_ && checkpoints_->finish() && result.stopped) {
+      log_info(fmt::format("{}: --resume goes on from here", loaded_.config.output.checkpoint));
+    }
+    return result;
+  }
+
+ private:
+  void find_checkpoint(const Registry& registry) {
+    const OutputSettings& output = loaded_.config.output;
+    if (output.checkpoint.empty() && !options_.resume && options_.continued.empty()) return;
+    const Checkpoint head = checkpoint_head(loaded_, registry);
+    if (options_.resume) state_ = state_to_resume(loaded_, head);
+    if (!options_.continued.empty()) state_ = state_to_continue(loaded_, head, options_.continued);
+    checkpoints_.emplace(output.checkpoint, head, output.every,
+                         [this](const std::string& message) { warn(message); });
+  }
+
+  void warn(const std::string& message) {
+    bar_.clear();
+    log_warning(message);
+  }
+
+  /// Whoever sends SIGUSR1 wants a checkpoint, or the end if there can be none.
+  bool is_checkpoint_due() {
+    if (interrupt_.take_request()) {
+      if (!checkpoints_) interrupt_.set();
+      if (checkpoints_) checkpoints_->request();
+    }
+    return checkpoints_ && checkpoints_->is_due();
+  }
+
+  const LoadedConfig& loaded_;
+  const RenderOptions& options_;
+  InterruptGuard interrupt_;
+  std::optional<RenderJob> job_;
+  ProgressBar bar_;
+  std::optional<CheckpointWriter> checkpoints_;
+  std::string state_;       ///< from which the render goes on; empty: from nothing
+  std::string state_name_;  ///< of the finished render
+};
 
 int render(const RenderOptions& options) {
+  InterruptGuard::expect_requests();
   set_log_quiet(options.quiet);
   std::optional<HostPort> viewer;
   if (options.preview) viewer = parse_host_port(*options.preview, kTevPort, {"--preview"});
   const Registry registry = load_default_modules();
   LoadedConfig loaded = load_render_config(options.config.path, options.config.overrides, registry);
+  if (!options.continued.empty()) loaded.config.output.image = options.continued;
   if (!options.output.empty()) loaded.config.output.image = options.output;
-  check_outputs(loaded.config.output);
+  check_outputs(loaded);
+  prepare_image_files();
   tell_notes(loaded.notes, options.config.strict);
 
-  const InterruptGuard interrupt;
-  RenderJob job(loaded.config);
+  Render render(loaded, registry, options);
   if (!options.replay.empty()) {
-    replay_path(job, loaded.config, options.replay);
+    replay_path(render.job(), loaded.config, options.replay);
     return kDone;
   }
-  const RenderResult result = render_and_write(job, loaded, viewer, options, interrupt.flag());
+  const RenderResult result = render.run(viewer);
   report(result, loaded.config);
   return result.stopped ? kInterrupted : kDone;
 }
@@ -151,6 +202,15 @@ void add_render_command(CLI::App& app, int& exit_code) {
       ->add_option("--preview", options->preview,
                    "Show the image while it renders in the viewer tev at HOST[:PORT]")
       ->excludes(replay);
+  CLI::Option* resume = command->add_flag(
+      "--resume", options->resume, "Go on from the config's output.checkpoint, if it exists");
+  resume->excludes(replay);
+  command
+      ->add_option("--continue", options->continued,
+                   "Add samples to a finished image, up to a larger budget, from the config's "
+                   "output.checkpoint")
+      ->excludes(replay)
+      ->excludes(resume);
   command->callback([options, &exit_code] {
     with_threads(options->threads, [&] { exit_code = render(*options); });
   });

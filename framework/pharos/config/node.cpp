@@ -131,8 +131,11 @@ namespace {
 /// Reads a config and everything that it extends.
 class ConfigReader {
  public:
+  explicit ConfigReader(std::vector<std::filesystem::path>* files) : files_(files) {}
+
   ConfigNode read(const std::filesystem::path& path) {
     ConfigNode own = read_yaml(path);
+    if (files_ != nullptr) files_->push_back(path);
     chain_.push_back({path, canonical(path)});
     if (!own.is_mapping()) own.fail("expected a mapping, found " + own.describe());
     const Location key_where = own.where_key("extends");
@@ -171,7 +174,7 @@ class ConfigReader {
       name.fail(fmt::format("no such file '{}'{}", path.string(), file_suggestion(path)));
     }
     check_cycle(path, key_where);
-    if (++files_ > kMostFiles) {
+    if (++count_ > kMostFiles) {
       throw InputError(key_where, fmt::format("more than {} files by 'extends'", kMostFiles));
     }
     return read(path);
@@ -189,7 +192,8 @@ class ConfigReader {
   }
 
   std::vector<Link> chain_;
-  int files_ = 0;
+  int count_ = 0;
+  std::vector<std::filesystem::path>* files_;
 };
 
 /// Returns the child of `node` named `step` for an override, and creates it if it is missing. `way`
@@ -301,8 +305,9 @@ void ConfigNode::fail(const std::string& message) const {
   throw InputError(where_, message);
 }
 
-ConfigNode read_config(const std::filesystem::path& path) {
-  return ConfigReader().read(path);
+ConfigNode read_config(const std::filesystem::path& path,
+                       std::vector<std::filesystem::path>* files) {
+  return ConfigReader(files).read(path);
 }
 
 void apply_override(ConfigNode& root, const std::string& assignment) {

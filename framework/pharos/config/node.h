@@ -93,8 +93,10 @@ ConfigNode parse_yaml_at(std::string_view text, const Location& where);
 /// and the file itself overrides all of them. Mappings are merged key by key, except that a mapping
 /// with another `type` replaces the inherited mapping. Everything else replaces the inherited
 /// value, so `key: null` removes it. Throws InputError like read_yaml(), and also for cycles, for
-/// more than 256 files and for a document that is not a mapping.
-ConfigNode read_config(const std::filesystem::path& path);
+/// more than 256 files and for a document that is not a mapping. Appends the files that were read
+/// to `files`, if it is not null.
+ConfigNode read_config(const std::filesystem::path& path,
+                       std::vector<std::filesystem::path>* files = nullptr);
 
 /// Merges `over` into `base`, like a file into the config that it extends.
 ConfigNode merged(ConfigNode base, ConfigNode over);

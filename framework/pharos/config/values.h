@@ -339,6 +339,8 @@ struct BuildContext {
   std::vector<Named> named = {};
   /// All paths that were read, absolute and in order: the input besides the config itself.
   std::vector<std::filesystem::path> files = {};
+  /// The config files that were read, in order: scenes and what they extend.
+  std::vector<std::filesystem::path> sources = {};
 };
 
 }  // namespace pharos

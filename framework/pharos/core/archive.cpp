@@ -21,10 +21,12 @@ void Archive::expect(bool holds, std::string_view what) const {
 void Archive::value(std::string& text) {
   auto count = static_cast<std::uint64_t>(text.size());
   value(count);
-  if (loads()) text.clear();
-  for (std::uint64_t i = 0; i < count; ++i) {
-    if (loads()) text.push_back('\0');
-    value(text[i]);
+  if (!loads()) return bytes(text.data(), text.size());
+  text.clear();
+  while (text.size() < count) {
+    const std::size_t begin = text.size();
+    text.resize(begin + std::min(count - begin, kChunk));
+    bytes(text.data() + begin, text.size() - begin);
   }
 }
 

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 #include <istream>
+#include <optional>
 #include <ostream>
 #include <string>
 #include <string_view>
@@ -37,7 +39,7 @@ class Archive {
   bool loads() const { return in_ != nullptr; }
 
   /// Saves or loads the values in this order: numbers, enumerations, strings, vectors of the core
-  /// library and of Eigen, arrays, std::vector, and types with a member archive().
+  /// library and of Eigen, arrays, std::vector, std::optional, and types with a member archive().
   template <class... Ts>
   void operator()(Ts&... values) {
     (value(values), ...);
@@ -62,6 +64,22 @@ class Archive {
     }
   }
 
+  /// A list of plain values without gaps between their members, such as pixels, as it lies in
+  /// memory. This is much faster than one number at a time. Numbers may be infinite or NaN.
+  template <class T>
+  void block(std::vector<T>& values) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    auto count = static_cast<std::uint64_t>(values.size());
+    value(count);
+    if (!loads()) return bytes(values.data(), count * sizeof(T));
+    values.clear();
+    while (values.size() < count) {
+      const std::size_t begin = values.size();
+      values.resize(begin + std::min<std::uint64_t>(count - begin, kChunk / sizeof(T) + 1));
+      bytes(values.data() + begin, (values.size() - begin) * sizeof(T));
+    }
+  }
+
   /// Begins a named part. Loading throws InputError unless the same name and version were saved.
   void heading(std::string_view name, std::uint32_t version);
 
@@ -69,6 +87,9 @@ class Archive {
   void expect(bool holds, std::string_view what) const;
 
  private:
+  /// Blocks are loaded in parts of this size [bytes].
+  static constexpr std::uint64_t kChunk = 1 << 20;
+
   template <class T>
   void value(T& x) {
     if constexpr (std::is_same_v<T, bool>) {
@@ -106,6 +127,13 @@ class Archive {
   template <class T>
   void value(std::vector<T>& values) {
     list(values, [] { return T{}; });
+  }
+  template <class T>
+  void value(std::optional<T>& x) {
+    bool has_value = x.has_value();
+    value(has_value);
+    if (loads()) x = has_value ? std::optional<T>(T{}) : std::nullopt;
+    if (has_value) value(*x);
   }
 
   void bytes(void* data, std::size_t size) {

@@ -1,8 +1,22 @@
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
 #include <fstream>
 
 #include <pharos/core/atomic_file.h>
 
 namespace pharos {
+
+void flush_to_disk(const std::filesystem::path& path) {
+  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  // Some file systems, such as remote ones, cannot flush a folder and say so with EINVAL.
+  const bool is_done = file >= 0 && (fsync(file) == 0 || errno == EINVAL);
+  const int error = errno;
+  if (file >= 0) close(file);
+  if (!is_done) {
+    throw RunError("cannot write '" + path.string() + "': " + std::strerror(error));
+  }
+}
 
 void write_text_atomically(const std::filesystem::path& path, std::string_view text) {
   write_atomically(path, [&](const std::filesystem::path& temporary) {

@@ -11,10 +11,15 @@
 
 namespace pharos {
 
+/// Waits until a file, or the list of files in a folder, is on the disk. Throws RunError if it
+/// cannot be opened or written.
+void flush_to_disk(const std::filesystem::path& path);
+
 /// Writes the file `path` as a whole or not at all. `write(temporary)` writes a temporary file
 /// beside it, which is then renamed. If write() throws or the renaming fails, the temporary file is
 /// removed, an existing `path` stays as it was, and the error propagates. If `path` is a symbolic
-/// link, the link stays and the file that it points to is replaced. Throws RunError if the folder
+/// link, the link stays and the file that it points to is replaced. When the function returns, the
+/// file is on the disk, so that it survives even a loss of power. Throws RunError if the folder
 /// does not exist, or if `path` exists and is not a regular file: devices and folders are never
 /// replaced.
 template <class Write>
@@ -28,14 +33,15 @@ void write_atomically(const std::filesystem::path& path, Write&& write) {
   if (fs::exists(target, failed) && !fs::is_regular_file(target, failed)) {
     fail("it is not a regular file");
   }
-  if (target.has_parent_path() && !fs::is_directory(target.parent_path(), failed)) {
-    fail("there is no folder '" + target.parent_path().string() + "'");
-  }
+  const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+  if (!fs::is_directory(folder, failed)) fail("there is no folder '" + folder.string() + "'");
   const fs::path temporary = target.string() + "." + std::to_string(getpid()) + ".tmp";
   try {
     std::forward<Write>(write)(temporary);
+    flush_to_disk(temporary);
     fs::rename(temporary, target, failed);
     if (failed) fail(failed.message());
+    flush_to_disk(folder);
   } catch (...) {
     fs::remove(temporary, failed);
     throw;

@@ -37,6 +37,15 @@ Image::Image(int width, int height, std::vector<std::string> channels)
       channels_(std::move(channels)),
       values_(static_cast<std::size_t>(width) * height * channels_.size()) {}
 
+void Image::archive(Archive& archive) {
+  archive(width_, height_, channels_);
+  archive.block(values_);
+  const bool is_sound = width_ >= 0 && height_ >= 0 &&
+                        values_.size() == static_cast<std::size_t>(width_) *
+                                              static_cast<std::size_t>(height_) * channels_.size();
+  archive.expect(is_sound, "the image");
+}
+
 int Image::channel_index(const std::string& name) const {
   const auto found = std::find(channels_.begin(), channels_.end(), name);
   return found == channels_.end() ? -1 : static_cast<int>(found - channels_.begin());
@@ -49,6 +58,10 @@ std::array<int, 3> Image::color_channels() const {
   if (y >= 0) return {y, y, y};
   if (channel_count() < 3) return {0, 0, 0};
   return {0, 1, 2};
+}
+
+void prepare_image_files() {
+  image_files();
 }
 
 Image read_image(const std::filesystem::path& path, ColorSpace integer_formats) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <pharos/core/archive.h>
 #include <pharos/core/rgb.h>
 
 namespace pharos {
@@ -45,6 +46,8 @@ class Image {
   /// three times if there are fewer than three.
   std::array<int, 3> color_channels() const;
 
+  void archive(Archive& archive);
+
  private:
   std::size_t offset(int x, int y) const {
     return (static_cast<std::size_t>(y) * width_ + x) * channels_.size();
@@ -59,6 +62,10 @@ class Image {
 using Metadata = std::map<std::string, std::string>;
 
 enum class ColorSpace { linear, srgb };
+
+/// Loads the library that reads and writes image files, which otherwise happens at the first use.
+/// Throws RunError if it cannot be loaded.
+void prepare_image_files();
 
 /// Reads all channels of an image file as float, in any format that OpenImageIO knows. Values of
 /// 8-bit and 16-bit formats are decoded from sRGB unless `integer_formats` is `linear`; values of

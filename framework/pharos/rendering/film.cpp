@@ -141,6 +141,7 @@ Film::Film(PixelRect window, Ref<Filter> filter, float least_weight)
       moments_(pixels_.area()) {}
 
 void Film::merge(const FilmTile& tile) {
+  is_in_pass_ = true;
   const PixelRect& from = tile.bordered_;
   for (int y = from.y0; y < from.y1; ++y) {
     for (int x = from.x0; x < from.x1; ++x) {
@@ -196,6 +197,7 @@ Rgb Film::value(const Pixel& pixel, double paths) const {
 }
 
 void Film::end_pass(double samples, bool complete) {
+  is_in_pass_ = false;
   if (!complete && pass_has_splats_ && complete_passes_ > 0) {
     std::fill(pass_.begin(), pass_.end(), Pixel{});
     pass_paths_ = 0;
@@ -236,6 +238,21 @@ void Film::merge(const Film& other) {
   complete_samples_ = together;
   complete_passes_ += other.complete_passes_;
   total_paths_ += other.total_paths_;
+}
+
+void Film::archive(Archive& archive) {
+  archive.heading("film", 1);
+  archive.block(total_);
+  archive.block(moments_);
+  archive(is_in_pass_);
+  if (is_in_pass_) archive.block(pass_);
+  const std::size_t area = pixels_.area();
+  archive.expect(total_.size() == area && moments_.size() == area && pass_.size() == area,
+                 "the film");
+  bool has_splats = !splat_norms_.empty();
+  archive(samples_, total_paths_, pass_paths_, pass_has_splats_, has_splats, complete_samples_,
+          complete_passes_);
+  if (archive.loads() && has_splats) find_splat_norms();
 }
 
 Image Film::layers() const {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <pharos/config/schema.h>
+#include <pharos/core/archive.h>
 #include <pharos/core/image.h>
 #include <pharos/core/pixel_rect.h>
 #include <pharos/core/rgb.h>
@@ -124,6 +125,10 @@ class Film {
   /// The number of passes that were not cut short.
   int complete_passes() const { return complete_passes_; }
 
+  /// Saves all sums, or loads them into a film of the same size and filter. A pass may be in
+  /// progress.
+  void archive(Archive& archive);
+
  private:
   struct Pixel {
     FilmTile::Pixel sum;
@@ -149,6 +154,7 @@ class Film {
   /// the film makes no splats, so it cannot be filtered in. Empty until there are splats.
   std::vector<float> splat_norms_;
   double samples_ = 0, total_paths_ = 0, pass_paths_ = 0;
+  bool is_in_pass_ = false;  ///< something was merged after the last pass
   bool pass_has_splats_ = false;
   double complete_samples_ = 0;  ///< samples per pixel of the passes in `moments_`
   int complete_passes_ = 0;

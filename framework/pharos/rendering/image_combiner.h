@@ -31,10 +31,14 @@ class ImageCombiner {
   /// single pass is unknown; the variance of one sample is then taken from the last image.
   Image combine() const;
 
+  void archive(Archive& archive) { archive(images_); }
+
  private:
   struct Weighted {
     Image layers;
-    double begin, end;  ///< range of its samples among all samples of a pixel
+    double begin = 0, end = 0;  ///< range of its samples among all samples of a pixel
+
+    void archive(Archive& archive) { archive(layers, begin, end); }
     double samples() const { return end - begin; }
   };
   std::uint32_t latest_;

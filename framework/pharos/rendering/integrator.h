@@ -32,6 +32,7 @@ struct RenderCounters {
   std::uint64_t invalid_paths = 0;  ///< paths of NaN or infinite value; they count as black
 
   RenderCounters& operator+=(const RenderCounters& other);
+  void archive(Archive& archive) { archive(paths, rays, vertices, invalid_paths); }
 };
 
 /// The result of a work unit. Results are merged in the order of work units.

@@ -1,7 +1,9 @@
 #include <filesystem>
+#include <unistd.h>
 
 #include <fmt/format.h>
 
+#include <pharos/core/error.h>
 #include <pharos/core/version.h>
 #include <pharos/guiding/pipeline/model_file.h>
 #include <pharos/rendering/render_job.h>
@@ -9,8 +11,9 @@
 namespace pharos {
 namespace {
 
-Metadata metadata_of(const RenderResult& result, const LoadedConfig& loaded) {
-  return {
+Metadata metadata_of(const RenderResult& result, const LoadedConfig& loaded,
+                     const std::string& state_name) {
+  Metadata metadata{
       {"pharos:version", version()},
       {"pharos:config", to_yaml(loaded.resolved)},
       {"pharos:seed", std::to_string(loaded.config.seed)},
@@ -22,23 +25,74 @@ Metadata metadata_of(const RenderResult& result, const LoadedConfig& loaded) {
       {"pharos:seconds_rendering", fmt::format("{:.3f}", result.times.rendering)},
       {"pharos:rays", std::to_string(result.counters.rays)},
       {"pharos:invalid_paths", std::to_string(result.counters.invalid_paths)},
+      {"pharos:invalid_pixels", std::to_string(result.invalid_pixels)},
       {"pharos:stopped", result.stopped ? "true" : "false"},
       {"pharos:exposure", fmt::format("{}", loaded.config.output.exposure)},
   };
+  if (!state_name.empty()) metadata.emplace(kStateEntry, state_name);
+  return metadata;
 }
+
+/// Writes files one after another. If one cannot be written, it is written into the folder for
+/// temporary files instead.
+class Writer {
+ public:
+  template <class Write>
+  void write(const std::filesystem::path& file, Write&& write) {
+    try {
+      write(file);
+    } catch (const RunError& error) {
+      keep(file, error.what(), write);
+    }
+  }
+
+  /// Throws RunError if a file could not be written where it should be.
+  void finish() const {
+    if (!problems_.empty()) throw RunError(problems_);
+  }
+
+ private:
+  template <class Write>
+  void keep(const std::filesystem::path& file, const std::string& problem, Write& write) {
+    std::error_code failed;
+    const std::filesystem::path kept =
+        std::filesystem::temp_directory_path(failed) /
+        fmt::format("pharos-{}-{}", getpid(), file.filename().string());
+    problems_ += (problems_.empty() ? "" : "; ") + problem;
+    try {
+      write(kept);
+      problems_ += fmt::format("; it is kept as '{}'", kept.string());
+    } catch (const RunError& error) {
+      problems_ += fmt::format("; {}", error.what());
+    }
+  }
+
+  std::string problems_;
+};
 
 }  // namespace
 
-void write_outputs(const RenderResult& result, const LoadedConfig& loaded) {
+void write_outputs(const RenderResult& result, const LoadedConfig& loaded,
+                   const std::string& state_name) {
   const OutputSettings& output = loaded.config.output;
-  write_exr(select_layers(result.image, output.aovs), output.image, metadata_of(result, loaded));
+  const std::filesystem::path image = output.image;
+  Writer writer;
+  writer.write(image, [&](const std::filesystem::path& file) {
+    write_exr(select_layers(result.image, output.aovs), file,
+              metadata_of(result, loaded, state_name));
+  });
   if (output.png) {
-    write_png(result.image, std::filesystem::path(output.image).replace_extension(".png"),
-              output.exposure, output.filmic);
+    writer.write(std::filesystem::path(image).replace_extension(".png"),
+                 [&](const std::filesystem::path& file) {
+                   write_png(result.image, file, output.exposure, output.filmic);
+                 });
   }
   if (!output.model.empty() && result.learned != nullptr) {
-    write_model_file(*result.learned, output.model);
+    writer.write(output.model, [&](const std::filesystem::path& file) {
+      write_model_file(*result.learned, file);
+    });
   }
+  writer.finish();
 }
 
 }  // namespace pharos

@@ -41,4 +41,10 @@ std::uint32_t PassSizes::next(std::uint32_t done, double now) {
   return std::min(size_, iteration_.samples - done);
 }
 
+void PassSizes::archive(Archive& archive) {
+  archive(size_);
+  archive.expect(size_ > 0, "the size of passes");
+  size_ = std::min(size_, limit_);
+}
+
 }  // namespace pharos

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include <pharos/core/archive.h>
 #include <pharos/rendering/schedule.h>
 
 namespace pharos {
@@ -24,6 +25,9 @@ class PassSizes {
   /// by more than the time that is left. The time of a pass is estimated from all passes so far,
   /// because a single one may have been delayed.
   std::uint32_t next(std::uint32_t done, double now);
+
+  /// Saves the size of passes, or loads it for the same iteration or one with more samples.
+  void archive(Archive& archive);
 
  private:
   Iteration iteration_;

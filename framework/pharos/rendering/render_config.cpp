@@ -47,12 +47,20 @@ void check_film(const FilmSettings& film, const ConfigNode& node) {
   }
 }
 
+/// Appends the files that the nodes of a config come from.
+void add_sources(const ConfigNode& node, std::set<std::filesystem::path>& sources) {
+  if (!node.where().file.empty()) sources.insert(node.where().file);
+  for (const ConfigNode& item : node.items()) add_sources(item, sources);
+  for (const ConfigNode::Entry& entry : node.entries()) add_sources(entry.value, sources);
+}
+
 /// Checks conditions on several parameters at once.
 void check_together(const RenderConfig& config, const ConfigNode& node) {
   check_film(config.film, node);
   if (config.budget.spp.has_value() == config.budget.seconds.has_value()) {
     nearest_node(node, {"budget"}).fail("expected either 'spp' or 'seconds'");
   }
+  if (config.sensor != nullptr) check_sensor_reach(*config.sensor, *node.find("sensor"));
   if (config.sensor == nullptr && config.scene.sensor == nullptr) {
     node.fail("there is no sensor: neither the scene nor the config has one");
   }
@@ -114,6 +122,9 @@ void OutputSettings::describe(Schema<OutputSettings>& s) {
       .check("each layer once", has_no_duplicates);
   s.field("model", &OutputSettings::model,
           "File for what was learned: the models of all methods, and their mixing");
+  s.field("checkpoint", &OutputSettings::checkpoint,
+          "File from which `pharos render --resume` goes on after the render was killed");
+  s.field("every", &OutputSettings::every, "Time between two checkpoints").unit("s").above(0);
   s.field("png", &OutputSettings::png, "Whether to write a tone-mapped PNG beside the EXR file");
   s.field("exposure", &OutputSettings::exposure, "Exposure of the PNG").unit("stops");
   s.field("filmic", &OutputSettings::filmic,
@@ -136,7 +147,8 @@ void RenderConfig::describe(Schema<RenderConfig>& s) {
 LoadedConfig load_render_config(const std::filesystem::path& path,
                                 const std::vector<std::string>& overrides,
                                 const Registry& registry) {
-  ConfigNode node = read_config_or_scene(path, registry);
+  std::vector<std::filesystem::path> sources;
+  ConfigNode node = read_config_or_scene(path, registry, &sources);
   // Presets are expanded at once, so that an override can change what one of them states.
   expand_preset(node, registry);
   for (const std::string& assignment : overrides) {
@@ -144,6 +156,7 @@ LoadedConfig load_render_config(const std::filesystem::path& path,
     expand_preset(node, registry);
   }
   LoadedConfig loaded = build_render_config(node, registry);
+  loaded.sources.insert(loaded.sources.end(), sources.begin(), sources.end());
   if (loaded.config.output.image.empty()) {
     loaded.config.output.image = path.stem().string() + ".exr";
   }
@@ -158,6 +171,9 @@ LoadedConfig build_render_config(const ConfigNode& stated, const Registry& regis
   expand_preset(node, registry);
   loaded.config = Value<RenderConfig>::read(node, context, loaded.resolved);
   loaded.files = std::move(context.files);
+  std::set<std::filesystem::path> sources(context.sources.begin(), context.sources.end());
+  add_sources(node, sources);
+  loaded.sources.assign(sources.begin(), sources.end());
   check_together(loaded.config, node);
   return loaded;
 }

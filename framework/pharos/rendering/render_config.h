@@ -50,7 +50,9 @@ struct FilmSettings {
 struct OutputSettings {
   std::string image;  ///< EXR file, relative to the current folder; the PNG is written beside it
   std::vector<Layer> aovs;
-  std::string model;  ///< file for what was learned; empty: not written
+  std::string model;       ///< file for what was learned; empty: not written
+  std::string checkpoint;  ///< file from which a killed render goes on; empty: not written
+  double every = 300;      ///< time between two checkpoints [s]
   bool png = true;
   float exposure = 0;  ///< exposure of the PNG [stops]
   bool filmic = true;  ///< whether the PNG has a filmic curve
@@ -77,6 +79,9 @@ struct LoadedConfig {
   RenderConfig config;
   ConfigNode resolved;                       ///< all values in force; parses to the same config
   std::vector<std::filesystem::path> files;  ///< files that it names, such as meshes and images
+  /// The files that hold the config itself: configs, scenes, presets, and all that they extend or
+  /// include.
+  std::vector<std::filesystem::path> sources;
   std::vector<ImportNote> notes;  ///< approximations made in importing a scene of another program
 };
 

@@ -1,13 +1,16 @@
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <optional>
+#include <sstream>
+#include <utility>
 
 #include <fmt/format.h>
 #include <tbb/concurrent_queue.h>
 
+#include <pharos/core/archive.h>
 #include <pharos/core/error.h>
 #include <pharos/core/parallel.h>
+#include <pharos/core/stopwatch.h>
 #include <pharos/rendering/image_combiner.h>
 #include <pharos/rendering/pass_sizes.h>
 #include <pharos/rendering/render_job.h>
@@ -16,26 +19,6 @@
 
 namespace pharos {
 namespace {
-
-/// Measures wall-clock time without pauses.
-class Stopwatch {
- public:
-  double seconds() const { return std::chrono::duration<double>(elapsed()).count(); }
-
-  /// Runs `work` without counting its time.
-  template <class Work>
-  void pause(Work&& work) {
-    const Clock::duration before = elapsed();
-    work();
-    start_ = Clock::now() - before;
-  }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  Clock::duration elapsed() const { return Clock::now() - start_; }
-
-  Clock::time_point start_ = Clock::now();
-};
 
 /// Returns the parts of the whole film's tiles that lie in `window`.
 std::vector<PixelRect> tiles_of(const PixelRect& window, int edge) {
@@ -60,6 +43,29 @@ SceneParts with_sensor(SceneParts parts, const Ref<Sensor>& sensor) {
   if (sensor != nullptr) parts.sensor = sensor;
   return parts;
 }
+
+/// Returns the number of pixels whose color is NaN or infinite, although the values of all paths
+/// are finite: sums may be too large for a float.
+std::size_t invalid_pixels(const Image& image) {
+  std::size_t count = 0;
+  for (int y = 0; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x) count += is_finite(image.rgb(x, y)) ? 0 : 1;
+  }
+  return count;
+}
+
+/// The current iteration of a render between two work units.
+struct IterationState {
+  Film film;
+  PassSizes sizes;
+  double start = 0;          ///< on the budget's clock [s]
+  std::uint32_t done = 0;    ///< samples per pixel of whole passes
+  std::uint32_t pass = 0;    ///< samples per pixel of the pass in progress; 0: there is none
+  std::uint64_t units = 0;   ///< work units of this pass that are merged
+  double pixel_samples = 0;  ///< samples of these units, of all pixels together
+
+  void archive(Archive& archive) { archive(film, sizes, done, pass, units, pixel_samples); }
+};
 
 }  // namespace
 
@@ -89,14 +95,17 @@ class RenderJob::Implementation {
     sampler_seconds_ = watch_.seconds() - preparation_seconds_;
   }
 
-  RenderResult run(const RenderControl& control) {
+  RenderResult run(const RenderControl& control, const std::string& state) {
     begin(control);
+    if (!state.empty()) load_state(state);
     result_.times.preparation = preparation_seconds_;
     result_.times.sampler = sampler_seconds_;
-    while (!stopped() && begin_iteration()) run_iteration();
+    while (current_ || (!stopped() && begin_iteration())) run_iteration();
+    if (stopped()) save_when_stopped();
     // A render that was stopped during training has only training images to show.
     result_.image = combiner_.empty() ? last_image_ : combiner_.combine();
     result_.stopped = stopped();
+    result_.invalid_pixels = invalid_pixels(result_.image);
     if (guiding_ != nullptr) {
       result_.gain = guiding_->gain();
       result_.model_bytes = guiding_->model_bytes();
@@ -126,12 +135,14 @@ class RenderJob::Implementation {
  private:
   void begin(const RenderControl& control) {
     control_ = control;
-    watch_ = {};
+    watch_ = Stopwatch();
     result_ = {};
     schedule_.emplace(schedule());
     spending_ = {};
     combiner_ = ImageCombiner(training_.latest_images);
     has_image_ = false;
+    current_.reset();
+    is_saved_ = false;
     last_image_ = make_film().layers();
     const GuidingSettings* settings = config_.integrator->guiding();
     const LearningContext learning{
@@ -157,22 +168,32 @@ class RenderJob::Implementation {
     const std::optional<Iteration> next = schedule_->next(spending_);
     if (!next) return false;
     iteration_ = *next;
+    current_.emplace(begun_iteration(seconds()));
+    if (!iteration_.training) add_left_over_samples(current_->film);
     return true;
   }
 
-  void run_iteration() {
-    const double start = seconds();
-    Film film = make_film();
-    if (!iteration_.training) add_left_over_samples(film);
+  /// Returns the state of the current iteration before its first pass.
+  IterationState begun_iteration(double start) const {
     // Training iterations do not wait for whole sets.
-    PassSizes sizes(iteration_, iteration_.training ? 1 : set_size_, start);
-    std::uint32_t done = 0;
-    while (const std::uint32_t size = sizes.next(done, seconds())) {
-      if (!run_pass(done, size, film)) break;
-      done += size;
-      if (control_.on_pass) watch_.pause([&] { show(film); });
+    return {make_film(), PassSizes(iteration_, iteration_.training ? 1 : set_size_, start), start};
+  }
+
+  void run_iteration() {
+    while (begin_pass() && run_pass()) {
+      if (control_.on_pass) watch_.pause([&] { show(current_->film); });
     }
-    const double taken = seconds() - start;
+    const bool is_stopped = stopped();
+    if (is_stopped) save_when_stopped();
+    if (!is_stopped && !iteration_.training) save_state(true);
+    const IterationState done = std::move(*current_);
+    current_.reset();
+    end_iteration(done, is_stopped);
+  }
+
+  void end_iteration(const IterationState& state, bool is_stopped) {
+    const Film& film = state.film;
+    const double taken = seconds() - state.start;
     (iteration_.training ? result_.times.training : result_.times.rendering) += taken;
     // A film that was stopped during its first pass has holes. It is used only if there is no
     // other.
@@ -182,9 +203,9 @@ class RenderJob::Implementation {
       combiner_.add(film, result_.samples_per_pixel);
     }
     result_.samples_per_pixel += film.samples_per_pixel();
-    spending_.samples += done;
-    spending_.seconds_per_sample = taken / std::max(done, 1u);
-    if (iteration_.training && !stopped()) update_guiding(done);
+    spending_.samples += state.done;
+    spending_.seconds_per_sample = taken / std::max(state.done, 1u);
+    if (iteration_.training && !is_stopped) update_guiding(state.done);
   }
 
   /// Returns whether the image of the current iteration is part of the result.
@@ -251,46 +272,113 @@ class RenderJob::Implementation {
     film.merge(tile);
   }
 
-  /// Renders `size` samples of every pixel. Returns false if the pass was stopped early.
-  bool run_pass(std::uint32_t first_sample, std::uint32_t size, Film& film) {
+  /// Makes the next pass the current one unless there is one. Returns false if the iteration is
+  /// over.
+  bool begin_pass() {
+    IterationState& now = *current_;
+    if (now.pass == 0) now.pass = now.sizes.next(now.done, seconds());
+    return now.pass > 0;
+  }
+
+  /// Renders what the current pass lacks. Returns false if the pass was stopped early.
+  bool run_pass() {
+    IterationState& now = *current_;
     const IterationContext shared = context();
     // Large passes are divided into chunks. The units of a chunk cover all tiles before the units
     // of the next chunk.
     const std::uint32_t chunk = unit_samples(iteration_);
-    const std::size_t chunks = (size + chunk - 1) / chunk;
+    const std::size_t chunks = (now.pass + chunk - 1) / chunk;
+    const std::size_t first = now.units;
     const auto unit = [&](std::size_t i) {
-      const auto done = static_cast<std::uint32_t>(i / tiles_.size()) * chunk;
-      return WorkUnit{.pixels = tiles_[i % tiles_.size()],
+      const std::size_t number = first + i;
+      const auto before = static_cast<std::uint32_t>(number / tiles_.size()) * chunk;
+      return WorkUnit{.pixels = tiles_[number % tiles_.size()],
                       .iteration = iteration_.index,
-                      .first_sample = first_sample + done,
-                      .sample_count = std::min(chunk, size - done)};
+                      .first_sample = now.done + before,
+                      .sample_count = std::min(chunk, now.pass - before)};
     };
     const auto produce = [&](std::size_t i) {
-      WorkResult work{.film = film.make_tile(unit(i).pixels)};
+      WorkResult work{.film = now.film.make_tile(unit(i).pixels)};
       spare_logs_.try_pop(work.log);
       integrator_->render(unit(i), shared, work);
       return work;
     };
-    double pixel_samples = 0;
     const auto consume = [&](std::size_t i, WorkResult& work) {
-      film.merge(work.film);
-      if (shared.record) {
-        guiding_->absorb(work.log);
-        work.log.clear();
-        spare_logs_.push(std::move(work.log));
-      }
-      result_.counters += work.counters;
-      if (!result_.first_invalid) result_.first_invalid = work.first_invalid;
-      pixel_samples += static_cast<double>(unit(i).pixels.area()) * unit(i).sample_count;
+      merge(unit(i), work);
       if (control_.on_progress) {
-        control_.on_progress(progress(first_sample + pixel_samples / film_area()));
+        control_.on_progress(progress(now.done + now.pixel_samples / film_area()));
       }
+      if (control_.checkpoint.is_due && control_.checkpoint.is_due()) save_state(false);
     };
-    parallel_ordered(chunks * tiles_.size(), produce, consume,
+    parallel_ordered(chunks * tiles_.size() - first, produce, consume,
                      [&](std::size_t) { return !stopped(); });
-    const bool complete = pixel_samples == size * film_area();
-    film.end_pass(pixel_samples / film_area(), complete);
+    const bool complete = now.units == chunks * tiles_.size();
+    if (!complete) save_when_stopped();
+    now.film.end_pass(now.pixel_samples / film_area(), complete);
+    if (complete) now.done += now.pass;
+    now.pass = 0;
+    now.units = 0;
+    now.pixel_samples = 0;
     return complete;
+  }
+
+  /// Adds the result of a work unit to the film and the training data.
+  void merge(const WorkUnit& unit, WorkResult& work) {
+    IterationState& now = *current_;
+    now.film.merge(work.film);
+    if (iteration_.training) {
+      guiding_->absorb(work.log);
+      work.log.clear();
+      spare_logs_.push(std::move(work.log));
+    }
+    result_.counters += work.counters;
+    if (!result_.first_invalid) result_.first_invalid = work.first_invalid;
+    now.pixel_samples += static_cast<double>(unit.pixels.area()) * unit.sample_count;
+    ++now.units;
+  }
+
+  /// Hands out the state of a render that was stopped, once. Nothing that comes after it belongs to
+  /// the render that goes on.
+  void save_when_stopped() {
+    if (!is_saved_) save_state(false);
+    is_saved_ = true;
+  }
+
+  void save_state(bool finished) {
+    if (!control_.checkpoint.take) return;
+    std::ostringstream out;
+    Archive archive(out);
+    archive_state(archive);
+    control_.checkpoint.take(std::move(out).str(), finished);
+  }
+
+  void load_state(const std::string& state) {
+    std::istringstream in(state);
+    Archive archive(in);
+    archive_state(archive);
+    archive.expect(in.peek() == std::istringstream::traits_type::eof(), "the state of the render");
+  }
+
+  void archive_state(Archive& archive) {
+    archive.heading("render", 1);
+    double watch_seconds = watch_.seconds();
+    archive(watch_seconds, result_.times.training, result_.times.update, result_.times.rendering,
+            result_.counters, result_.samples_per_pixel, result_.first_invalid, *schedule_,
+            spending_, iteration_, combiner_, has_image_);
+    if (archive.loads()) watch_ = Stopwatch(watch_seconds);
+    if (has_image_ && combiner_.empty()) archive(last_image_);
+    if (guiding_ != nullptr) guiding_->archive(archive);
+    if (guiding_ != nullptr) frame_ = guiding_->frame();
+    bool has_current = current_.has_value();
+    double start = has_current ? current_->start : 0;
+    archive(has_current, start);
+    if (!has_current) return;
+    if (archive.loads()) {
+      // The budget of the final image may have grown.
+      if (!iteration_.training) iteration_ = schedule_->final_image(spending_);
+      current_.emplace(begun_iteration(start));
+    }
+    archive(*current_);
   }
 
   double film_area() const { return static_cast<double>(config_.film.window().area()); }
@@ -324,10 +412,12 @@ class RenderJob::Implementation {
   RenderResult result_;
   std::optional<Schedule> schedule_;
   Spending spending_;
-  Iteration iteration_;  ///< the current one
+  Iteration iteration_;                    ///< the current one
+  std::optional<IterationState> current_;  ///< its state; none between two iterations
   ImageCombiner combiner_{1};
   Image last_image_;
   bool has_image_ = false;  ///< `last_image_` shows at least one whole pass
+  bool is_saved_ = false;   ///< the render was stopped and has handed out its state
   std::unique_ptr<GuidingState> guiding_;
   /// Empty logs whose memory is used again until training ends. Fresh memory would cost page
   /// faults.
@@ -340,8 +430,8 @@ RenderJob::RenderJob(const RenderConfig& config)
 
 RenderJob::~RenderJob() = default;
 
-RenderResult RenderJob::run(const RenderControl& control) {
-  return implementation_->run(control);
+RenderResult RenderJob::run(const RenderControl& control, const std::string& state) {
+  return implementation_->run(control, state);
 }
 
 PathTrace RenderJob::replay(int x, int y, std::uint32_t sample, std::uint32_t iteration) {

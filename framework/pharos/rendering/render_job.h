@@ -34,6 +34,16 @@ struct RenderSnapshot {
   std::function<Image()> image;
 };
 
+/// Whoever keeps the states of a render, so that the render can go on after it was killed.
+struct CheckpointControl {
+  /// Whether a state is wanted now. Called after every work unit, by one thread at a time. May be
+  /// empty: never.
+  std::function<bool()> is_due;
+  /// Receives a state that RenderJob::run() takes: when one is due, when the render was stopped,
+  /// and when it has `finished` its budget. May be empty. The time of the call counts.
+  std::function<void(std::string state, bool finished)> take;
+};
+
 /// Callbacks to watch a render and a flag to stop it.
 struct RenderControl {
   /// Called between work units, by one thread at a time. May be empty.
@@ -44,6 +54,7 @@ struct RenderControl {
   std::function<void(const RenderSnapshot&)> on_pass;
   /// Set it from any thread to end the render early. The samples so far are kept.
   const std::atomic<bool>* stop = nullptr;
+  CheckpointControl checkpoint;
 };
 
 /// Wall-clock seconds by what they were spent on.
@@ -71,6 +82,7 @@ struct RenderResult {
   /// Everything that was learned; null if a method has learned nothing, and without guiding.
   std::shared_ptr<const LearnedGuiding> learned;
   std::optional<PathKey> first_invalid;  ///< first path whose value is NaN or infinite
+  std::size_t invalid_pixels = 0;        ///< pixels of the image whose color is NaN or infinite
 };
 
 /// Runs a render config. It divides the budget into iterations and passes, runs their work units on
@@ -81,7 +93,13 @@ class RenderJob {
   explicit RenderJob(const RenderConfig& config);
   ~RenderJob();
 
-  RenderResult run(const RenderControl& control = {});
+  /// Renders the image. If `state` is not empty, the render goes on from this state, which a render
+  /// with the same config has handed out. With a sample budget the result has the same bits as if
+  /// the render had never stopped; with a time budget the time that was spent until then counts.
+  /// The config may have a larger budget than the earlier render: a finished image then gets the
+  /// samples that are left, from models that learn no more. Throws InputError if the state is
+  /// damaged.
+  RenderResult run(const RenderControl& control = {}, const std::string& state = {});
 
   /// Traces one path of `iteration` again, after training up to this iteration. (x, y) is its pixel
   /// on the whole film. `iteration` counts training iterations too; unguided renders only have
@@ -95,8 +113,14 @@ class RenderJob {
   std::unique_ptr<Implementation> implementation_;
 };
 
-/// Writes the image, its PNG and the model. The image's metadata contain `resolved` and the facts
-/// in `result`. Files appear whole or not at all.
-void write_outputs(const RenderResult& result, const LoadedConfig& loaded);
+/// The name under which the header of an image file holds the name of the finished render's state.
+inline constexpr const char* kStateEntry = "pharos:state";
+
+/// Writes the image, its PNG and the model. The image's metadata contain `resolved`, the facts in
+/// `result` and, if it is not empty, `state_name`. Files appear whole or not at all. A file that
+/// cannot be written is written into the folder for temporary files instead. Then throws RunError,
+/// which says where.
+void write_outputs(const RenderResult& result, const LoadedConfig& loaded,
+                   const std::string& state_name = {});
 
 }  // namespace pharos

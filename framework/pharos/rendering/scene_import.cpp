@@ -40,8 +40,9 @@ Import import_scene(const fs::path& file, const Registry& registry) {
   return registry.build<SceneImporter>(name, context, resolved)->import(file);
 }
 
-ConfigNode read_config_or_scene(const fs::path& file, const Registry& registry) {
-  if (!is_importable(file, registry)) return read_config(file);
+ConfigNode read_config_or_scene(const fs::path& file, const Registry& registry,
+                                std::vector<fs::path>* files) {
+  if (!is_importable(file, registry)) return read_config(file, files);
   ConfigNode config = ConfigNode::mapping();
   config.set("scene", ConfigNode::scalar(file.string()));
   return config;

@@ -18,7 +18,8 @@ Import import_scene(const std::filesystem::path& file, const Registry& registry)
 
 /// Reads a config like read_config(). For an importable file, returns a config that only names this
 /// file as its scene.
-ConfigNode read_config_or_scene(const std::filesystem::path& file, const Registry& registry);
+ConfigNode read_config_or_scene(const std::filesystem::path& file, const Registry& registry,
+                                std::vector<std::filesystem::path>* files = nullptr);
 
 /// Replaces an importable file that `config` names as its `scene` by the imported scene. Members of
 /// `film` that the config does not state come from the file. So do `sampler`, `integrator` and

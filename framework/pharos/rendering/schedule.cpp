@@ -45,8 +45,7 @@ std::optional<Iteration> Schedule::next(const Spending& spending) {
   if (over_) return std::nullopt;
   if (training_over_) {
     over_ = true;
-    if (budget_.seconds) return Iteration{.index = index_, .deadline = *budget_.seconds};
-    return Iteration{.index = index_, .samples = *budget_.spp - spending.samples};
+    return final_image(spending);
   }
   // Learners were told that this iteration follows, so there is one even if nothing is left for it.
   const std::uint32_t count = std::max(1u, fitting(spending)), most = largest(spending);
@@ -66,6 +65,11 @@ std::optional<Iteration> Schedule::next(const Spending& spending) {
   size_ = wanted(spending);
   training_over_ = is_last;
   return iteration;
+}
+
+Iteration Schedule::final_image(const Spending& spending) const {
+  if (budget_.seconds) return {.index = index_, .deadline = *budget_.seconds};
+  return {.index = index_, .samples = *budget_.spp - spending.samples};
 }
 
 double Schedule::left(const Spending& spending) const {

@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 
+#include <pharos/core/archive.h>
 #include <pharos/guiding/pipeline/training_settings.h>
 #include <pharos/rendering/budget.h>
 
@@ -23,6 +24,10 @@ struct Iteration {
   std::uint32_t training_left = 0;
 
   bool is_timed() const { return deadline < std::numeric_limits<double>::infinity(); }
+  void archive(Archive& archive) {
+    archive(index, training, samples, least_samples, training_left);
+    archive.unchecked(deadline);
+  }
 };
 
 /// What a render has spent so far, and what its last iteration has shown.
@@ -36,6 +41,10 @@ struct Spending {
   /// Largest share of the budget that the next training iteration may take, update included [1].
   /// It may always have `region_minimum` samples, and render for as long as an update takes.
   double largest_share = 1;
+
+  void archive(Archive& archive) {
+    archive(samples, seconds, seconds_per_sample, update_seconds, region_minimum, largest_share);
+  }
 };
 
 /// Divides a budget into training iterations and the final image, one iteration at a time. A sample
@@ -59,6 +68,8 @@ class Schedule {
 
   /// Returns the next iteration. After the final image there is none.
   std::optional<Iteration> next(const Spending& spending);
+  /// Returns the final image, which takes all of the budget that training has left.
+  Iteration final_image(const Spending& spending) const;
   /// Ends training early. The next iteration is the final image.
   void end_training() { training_over_ = true; }
 
@@ -67,6 +78,8 @@ class Schedule {
   std::uint32_t longest() const;
   /// Returns the fraction of the budget that was spent, in [0, 1].
   double fraction(double samples, double seconds) const;
+
+  void archive(Archive& archive) { archive(index_, size_, training_over_, over_); }
 
  private:
   /// Returns the part of the budget that is left for training [spp or seconds].

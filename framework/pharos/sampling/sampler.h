@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include <pharos/config/component.h>
+#include <pharos/core/archive.h>
 #include <pharos/core/rgb.h>
 #include <pharos/core/vec.h>
 #include <pharos/sampling/dimension.h>
@@ -21,6 +22,8 @@ struct PathKey {
   std::uint32_t iteration = 0;  ///< training iteration; each is an independent image
   std::uint64_t index = 0;      ///< pixel (y * width + x) or path number
   std::uint32_t sample = 0;     ///< sample of this pixel within the iteration, from 0 on
+
+  void archive(Archive& archive) { archive(seed, iteration, index, sample); }
 };
 
 /// The primary numbers of one path: a small value that is free to copy. Repeated requests for the

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include <pharos/scene/group_table.h>
+#include <pharos/scene/reach.h>
 #include <pharos/scene/scene_loader.h>
 #include <pharos/scene/texture.h>
 
@@ -50,6 +51,16 @@ void check_emitter_place(const Emitter& emitter, const ConfigNode& node, bool on
   }
 }
 
+/// Calls `check` and locates its error at `node`.
+template <class Check>
+void check_at(const ConfigNode& node, Check&& check) {
+  try {
+    check();
+  } catch (const InputError& error) {
+    node.fail(error.what());
+  }
+}
+
 /// Reads a scene's mapping part by part and writes the values in force into `resolved`.
 class SceneReader {
  public:
@@ -71,6 +82,7 @@ class SceneReader {
                 check_emitter_place(*parts.emitters.back(), entry, false);
               });
     parts.sensor = read_part<Sensor>("sensor", given("sensor"), resolved_);
+    if (parts.sensor != nullptr) check_sensor_reach(*parts.sensor, given("sensor"));
     parts.medium = read_part<Medium>("medium", given("medium"), resolved_);
     return parts;
   }
@@ -200,6 +212,7 @@ class SceneReader {
     if (material.is_null()) material = ConfigNode::scalar("default", entry.where());
     SceneObject object;
     object.shape = build<Shape>(shape, resolved);
+    check_at(entry, [&] { check_reach(object.shape->bounds(), "the shape"); });
     object.bsdf = read_part<Bsdf>("material", material, resolved);
     object.emitter = read_part<Emitter>("emitter", emitter, resolved);
     if (object.emitter != nullptr) check_emitter_place(*object.emitter, emitter, true);
@@ -222,6 +235,10 @@ SceneParts read_mapping(const ConfigNode& scene, BuildContext& context, ConfigNo
 
 }  // namespace
 
+void check_sensor_reach(const Sensor& sensor, const ConfigNode& node) {
+  check_at(node, [&] { check_reach(sensor.position(), "the sensor"); });
+}
+
 SceneParts Value<SceneParts>::read(const ConfigNode& node, BuildContext& context,
                                    ConfigNode& resolved) {
   if (!node.is_scalar()) return read_mapping(node, context, resolved);
@@ -233,7 +250,7 @@ SceneParts Value<SceneParts>::read(const ConfigNode& node, BuildContext& context
   if (std::filesystem::is_directory(path, failed)) {
     node.fail("expected a scene file, found the folder '" + path.string() + "'");
   }
-  return read_mapping(read_config(path), context, resolved);
+  return read_mapping(read_config(path, &context.sources), context, resolved);
 }
 
 }  // namespace pharos

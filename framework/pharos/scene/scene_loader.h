@@ -28,4 +28,7 @@ struct Value<SceneParts> : PlainValue {
   static SceneParts read(const ConfigNode& node, BuildContext& context, ConfigNode& resolved);
 };
 
+/// Throws InputError at `node` if the sensor is too far from the origin.
+void check_sensor_reach(const Sensor& sensor, const ConfigNode& node);
+
 }  // namespace pharos

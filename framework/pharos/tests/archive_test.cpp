@@ -26,10 +26,14 @@ struct Thing {
   std::array<int, 2> pair{};
   float triple[3] = {};
   std::vector<std::vector<Vec2>> lists;
+  std::optional<int> absent, present;
+  std::vector<float> block;
 
   void archive(Archive& archive) {
     archive.heading("thing", 3);
-    archive(flag, count, number, kind, text, place, color, box, pair, triple, lists);
+    archive(flag, count, number, kind, text, place, color, box, pair, triple, lists, absent,
+            present);
+    archive.block(block);
     archive.unchecked(infinite);
     archive.expect(number != 7, "the thing");
   }

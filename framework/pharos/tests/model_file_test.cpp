@@ -1,11 +1,13 @@
 // Files of learned models: a model is read back as it was written, and all damage is reported.
 
+#include <cstring>
 #include <fstream>
 #include <iterator>
 
 #include <doctest/doctest.h>
 
 #include <pharos/config/registry.h>
+#include <pharos/core/checksum.h>
 #include <pharos/guiding/pipeline/model_file.h>
 
 #include "fixtures.h"
@@ -86,6 +88,14 @@ std::string sound_file(const TemporaryFolder& folder, std::uint32_t number = 7) 
   return content(folder / "sound.model");
 }
 
+/// Returns a changed file with a checksum that fits.
+std::string sealed(std::string bytes) {
+  const std::size_t size = bytes.size() - sizeof(std::uint64_t);
+  const std::uint64_t sum = checksum(std::string_view(bytes).substr(0, size));
+  std::memcpy(bytes.data() + size, &sum, sizeof sum);
+  return bytes;
+}
+
 /// The offsets of some fields [bytes].
 constexpr std::size_t kVersionAt = 8 + 4 + 8 + (8 + 8) + (8 + 8), kLengthAt = kVersionAt + 4,
                       kMethodsAt = kLengthAt + 8, kMixingAt = kMethodsAt + 8 + 4 + 4,
@@ -96,7 +106,7 @@ constexpr std::size_t kVersionAt = 8 + 4 + 8 + (8 + 8) + (8 + 8), kLengthAt = kV
 
 TEST_CASE("model files: what was written is read") {
   const TemporaryFolder folder;
-  CHECK(sound_file(folder).size() == kModelAt + 4 + 4);
+  CHECK(sound_file(folder).size() == kModelAt + 4 + 4 + 8);
   const ModelFileHead head = read_model_head(folder / "sound.model");
   REQUIRE(head.models.size() == 1);
   CHECK(head.models[0].learner == "counting");
@@ -157,17 +167,17 @@ TEST_CASE("model files: damaged heads") {
   const auto changed = [&](std::size_t at, char value) {
     std::string bytes = sound_file(folder);
     bytes[at] = value;
-    return refusal(folder, bytes);
+    return refusal(folder, sealed(bytes));
   };
   CHECK(changed(0, 'P') == "the model file 'changed.model' is no model of Pharos");
-  CHECK(changed(8, 3) == "the model file 'changed.model' is of form 3; this Pharos reads form 4");
+  CHECK(changed(8, 3) == "the model file 'changed.model' is of form 3; this Pharos reads form 5");
   CHECK(changed(8 + 4 + 8 + 3, 2) == "the model file 'changed.model' is cut off in its head");
   CHECK(changed(kVersionAt, 2) ==
         "the model file 'changed.model' holds version 2 of the model 'a_number'; the learner "
         "'counting' reads version 3");
   for (const std::size_t length : {kLengthAt, kMixingLengthAt}) {
-    CHECK(changed(length + 7, 1).find("is cut off: it has 8 bytes") != std::string::npos);
-    CHECK(changed(length + 7, '\xff').find("is cut off: it has 8 bytes") != std::string::npos);
+    CHECK(changed(length + 7, 1).find("is cut off: it has 16 bytes") != std::string::npos);
+    CHECK(changed(length + 7, '\xff').find("is cut off: it has 16 bytes") != std::string::npos);
   }
   CHECK(changed(kMethodsAt + 8, 1) == "the model file 'changed.model' has a damaged head");
   CHECK(refusal(folder, "") == "the model file 'changed.model' is no model of Pharos");
@@ -179,6 +189,18 @@ TEST_CASE("model files: damaged heads") {
         "the model file 'changed.model' has a damaged head");
 }
 
+TEST_CASE("model files: every flipped bit is refused") {
+  const TemporaryFolder folder;
+  const std::string sound = sound_file(folder);
+  for (std::size_t i = 0; i < sound.size(); ++i) {
+    for (int bit = 0; bit < 8; ++bit) {
+      std::string damaged = sound;
+      damaged[i] = static_cast<char>(damaged[i] ^ (1 << bit));
+      CHECK(refusal(folder, damaged) != "no error");
+    }
+  }
+}
+
 TEST_CASE("model files: of another learner, of another kind or of another version") {
   const TemporaryFolder folder;
   CHECK(refusal(folder, sound_file(folder), "guessing") ==
@@ -188,7 +210,7 @@ TEST_CASE("model files: of another learner, of another kind or of another versio
             .find("reads version 4") != std::string::npos);
   std::string other_kind = sound_file(folder);
   other_kind[kVersionAt - 8] = 'b';
-  CHECK(refusal(folder, other_kind) ==
+  CHECK(refusal(folder, sealed(other_kind)) ==
         "the model file 'changed.model' holds a model 'b_number'; the learner 'counting' reads "
         "models 'a_number'");
 }
@@ -201,10 +223,11 @@ TEST_CASE("model files: what the model makes of the rest") {
   std::string longer = sound_file(folder), shorter = longer;
   longer[kLengthAt] = 8;
   longer[kMixingLengthAt] = 0;
-  CHECK(refusal(folder, longer) == "the model file 'changed.model' holds more than its model");
+  CHECK(refusal(folder, sealed(longer)) ==
+        "the model file 'changed.model' holds more than its model");
   shorter[kLengthAt] = 2;
   shorter[kMixingLengthAt] = 6;
-  CHECK(refusal(folder, shorter) ==
+  CHECK(refusal(folder, sealed(shorter)) ==
         "the model file 'changed.model' cannot be read: what was saved is cut off");
 }
 

@@ -62,13 +62,17 @@ std::string content_key_of_file(const std::filesystem::path& path) {
   return content_key(content.str());
 }
 
-std::string content_key(const LoadedConfig& loaded) {
+ConfigNode content_of(const LoadedConfig& loaded) {
   std::set<std::string> files;
   for (const std::filesystem::path& file : loaded.files) files.insert(file.string());
   ConfigNode node = loaded.resolved;
   node.take("output");
   replace_paths(node, files);
-  return content_key(to_yaml(node));
+  return node;
+}
+
+std::string content_key(const LoadedConfig& loaded) {
+  return content_key(to_yaml(content_of(loaded)));
 }
 
 }  // namespace pharos

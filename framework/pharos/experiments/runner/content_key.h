@@ -13,6 +13,11 @@ std::string content_key(std::string_view text);
 /// Returns the hash of a file's content. Throws RunError if the file cannot be read.
 std::string content_key_of_file(const std::filesystem::path& path);
 
+/// Returns everything that determines a render: the resolved config without its output, in which
+/// the paths of files are replaced by hashes of their contents. Throws RunError if a file cannot be
+/// read.
+ConfigNode content_of(const LoadedConfig& loaded);
+
 /// Returns the hash of everything that determines a render: the resolved config without its output,
 /// and the contents of the files it names, wherever they are stored, including the buffers of glTF
 /// files. Throws RunError if a file cannot be read.

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <fstream>
 #include <sstream>
 
@@ -7,6 +8,7 @@
 
 #include <pharos/core/archive.h>
 #include <pharos/core/atomic_file.h>
+#include <pharos/core/checksum.h>
 #include <pharos/core/error.h>
 #include <pharos/guiding/pipeline/guiding_settings.h>
 #include <pharos/guiding/pipeline/model_file.h>
@@ -15,7 +17,8 @@ namespace pharos {
 namespace {
 
 constexpr std::array<char, 8> kMagic{'p', 'h', 'a', 'r', 'o', 's', 'g', 'm'};
-constexpr std::uint32_t kForm = 4;
+constexpr std::uint32_t kForm = 5;
+constexpr std::uint64_t kChecksumBytes = sizeof(std::uint64_t);
 
 [[noreturn]] void fail(const std::filesystem::path& path, const std::string& what) {
   throw InputError(fmt::format("the model file '{}' {}", path.string(), what));
@@ -31,6 +34,7 @@ class FileReader {
     in_.open(path, std::ios::binary);
     read_head();
     check_size(std::filesystem::file_size(path));
+    check_sum();
   }
 
   const ModelFileHead& head() const { return head_; }
@@ -38,9 +42,9 @@ class FileReader {
   std::string model(std::size_t index) {
     std::uint64_t skipped = 0;
     for (std::size_t i = 0; i < index; ++i) skipped += head_.models[i].bytes;
-    return bytes(skipped, head_.models[index].bytes);
+    return bytes(data_begin_ + skipped, head_.models[index].bytes);
   }
-  std::string mixing() { return bytes(model_bytes(), head_.mixing_bytes); }
+  std::string mixing() { return bytes(data_begin_ + model_bytes(), head_.mixing_bytes); }
 
  private:
   void read_head() {
@@ -84,7 +88,16 @@ class FileReader {
     }
     if (left < head_.mixing_bytes) fail_short(found);
     left -= head_.mixing_bytes;
+    if (left < kChecksumBytes) fail_short(found);
+    left -= kChecksumBytes;
     if (left > 0) fail(path_, fmt::format("goes on for {} bytes after its end", left));
+  }
+  /// check_size() has checked that the bytes exist.
+  void check_sum() {
+    const std::uint64_t size = data_begin_ + model_bytes() + head_.mixing_bytes;
+    const std::string covered = bytes(0, size), saved = bytes(size, kChecksumBytes);
+    const std::uint64_t sum = checksum(covered);
+    if (std::memcmp(saved.data(), &sum, kChecksumBytes) != 0) fail(path_, "is damaged");
   }
   [[noreturn]] void fail_short(std::uint64_t found) const {
     fail(path_, fmt::format("is cut off: it has {} bytes after its head, too few for what the "
@@ -93,9 +106,9 @@ class FileReader {
   }
 
   /// check_size() has checked that the bytes exist.
-  std::string bytes(std::uint64_t skipped, std::uint64_t count) {
+  std::string bytes(std::uint64_t begin, std::uint64_t count) {
     std::string text(count, '\0');
-    in_.seekg(static_cast<std::streamoff>(data_begin_ + skipped));
+    in_.seekg(static_cast<std::streamoff>(begin));
     in_.read(text.data(), static_cast<std::streamsize>(count));
     if (!in_) fail(path_, "cannot be read");
     return text;
@@ -169,16 +182,15 @@ void write_model_file(const LearnedGuiding& learned, const std::filesystem::path
     data += bytes;
   }
   data += learned.mixing_state;
-  write_atomically(path, [&](const std::filesystem::path& temporary) {
-    std::ofstream out(temporary, std::ios::binary);
-    out.write(kMagic.data(), kMagic.size());
-    std::uint32_t form = kForm;
-    Archive archive(out);
-    archive(form, head);
-    out.write(data.data(), static_cast<std::streamsize>(data.size()));
-    out.flush();
-    if (!out) throw RunError(fmt::format("cannot write '{}'", path.string()));
-  });
+  std::ostringstream out;
+  out.write(kMagic.data(), kMagic.size());
+  std::uint32_t form = kForm;
+  Archive archive(out);
+  archive(form, head);
+  out << data;
+  std::uint64_t sum = checksum(out.view());
+  archive(sum);
+  write_text_atomically(path, out.view());
 }
 
 ModelFileHead read_model_head(const std::filesystem::path& path) {

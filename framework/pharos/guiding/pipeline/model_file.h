@@ -14,13 +14,14 @@
 /// MixingState::archive() write. Numbers are little-endian.
 ///
 ///     8 bytes   "pharosgm"
-///     uint32    version of this form, 4
+///     uint32    version of this form, 5
 ///     list      models: ModelHeader       (a list: its length as uint64, its elements)
 ///     list      methods: LearnedMethod
 ///     text      plugin name of the mixing policy    (a text: its length as uint64, its bytes)
 ///     text      settings of the policy, as YAML on one line
 ///     uint64    length of what the policy has learned [bytes]
 ///     the models in the same order, then what the policy has learned
+///     uint64    checksum() of all bytes before it
 ///
 /// Errors in a file throw an InputError without location that names the file in quotes.
 namespace pharos {

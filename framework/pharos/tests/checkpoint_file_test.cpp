@@ -1,0 +1,91 @@
+// Checkpoint files: read back as they were written; all damage is reported.
+
+#include <fstream>
+#include <iterator>
+
+#include <doctest/doctest.h>
+
+#include <pharos/rendering/checkpoint.h>
+
+#include "fixtures.h"
+
+namespace pharos::test {
+namespace {
+
+const Checkpoint kCheckpoint{
+    .config = "budget: { spp: 4 }", .build = "abc", .finished = true, .state = "a state"};
+
+std::string content(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// Returns the error message for a file of these bytes.
+std::string refusal(const TemporaryFolder& folder, const std::string& bytes) {
+  const std::filesystem::path path = folder.write("changed", bytes);
+  return input_error_in(folder, [&] { read_checkpoint(path); });
+}
+
+std::string sound_file(const TemporaryFolder& folder) {
+  write_checkpoint(kCheckpoint, folder / "sound");
+  return content(folder / "sound");
+}
+
+TEST_CASE("checkpoint files: what is read is what was written") {
+  const TemporaryFolder folder;
+  write_checkpoint(kCheckpoint, folder / "a");
+  const Checkpoint read = read_checkpoint(folder / "a");
+  CHECK(read.config == kCheckpoint.config);
+  CHECK(read.build == kCheckpoint.build);
+  CHECK(read.finished);
+  CHECK(read.state == kCheckpoint.state);
+}
+
+TEST_CASE("checkpoint files: every flipped bit and every shorter file is refused") {
+  const TemporaryFolder folder;
+  const std::string sound = sound_file(folder);
+  for (std::size_t i = 0; i < sound.size(); ++i) {
+    CAPTURE(i);
+    CHECK_FALSE(refusal(folder, sound.substr(0, i)).empty());
+    for (int bit = 0; bit < 8; ++bit) {
+      std::string damaged = sound;
+      damaged[i] = static_cast<char>(damaged[i] ^ (1 << bit));
+      CHECK_FALSE(refusal(folder, damaged).empty());
+    }
+  }
+  CHECK(refusal(folder, sound + "x").find("goes on after its end") != std::string::npos);
+  CHECK(refusal(folder, "text").find("is no checkpoint of Pharos") != std::string::npos);
+  CHECK(input_error_in(folder, [&] { read_checkpoint(folder / "none"); }).find("none") !=
+        std::string::npos);
+}
+
+TEST_CASE("a writer writes what is due, and removes what dead writers have left") {
+  const TemporaryFolder folder;
+  // Processes have at most seven digits on Linux.
+  const std::filesystem::path dead = folder.write("a.99999999.tmp", "left");
+  const std::filesystem::path other = folder.write("a.b.tmp", "of someone else");
+  std::string warning;
+  {
+    CheckpointWriter writer(folder / "a", kCheckpoint, 1e9,
+                            [&](const std::string& message) { warning += message; });
+    CHECK_FALSE(std::filesystem::exists(dead));
+    CHECK(std::filesystem::exists(other));
+    CHECK_FALSE(writer.is_due());
+    writer.request();
+    CHECK(writer.is_due());
+    writer.write("new", false);
+    CHECK_FALSE(writer.is_due());
+    CHECK(writer.finish());
+  }
+  CHECK(read_checkpoint(folder / "a").state == "new");
+  CHECK(warning.empty());
+
+  CheckpointWriter lost(folder / "none" / "a", kCheckpoint, 1e9,
+                        [&](const std::string& message) { warning += message; });
+  lost.write("new", false);
+  CHECK_FALSE(lost.finish());
+  CHECK(warning.find("no checkpoint: cannot write") != std::string::npos);
+}
+
+}  // namespace
+}  // namespace pharos::test
