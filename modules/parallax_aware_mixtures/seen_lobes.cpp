@@ -73,7 +73,9 @@ const SeenLobes* SeenLobes::make(std::span<const LobeGroup> groups, Vec3 offset,
     sums += seen[i].share;
   }
   const float total = sum(sums);
-  if (!(total > 0)) return nullptr;
+  // One over a smaller sum may be infinite.
+  constexpr float kLeastTotal = 1e-30f;
+  if (!(total > kLeastTotal)) return nullptr;
   const float over = 1 / total;
   for (std::size_t i = 0; i < count; ++i) {
     seen[i].share *= over;

@@ -3,11 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/core.h>
-
-#include <pharos/core/error.h>
-#include <pharos/core/image.h>
-
 namespace pharos {
 
 LatLong LatLong::of(Vec3 d) {
@@ -27,28 +22,13 @@ Vec3 LatLong::direction(float u, double above) {
   return {sine * std::sin(azimuth), static_cast<float>(1 - 2 * above), -sine * std::cos(azimuth)};
 }
 
-LatLongImage::LatLongImage(const std::filesystem::path& file) {
-  const Image image = read_image(file);
-  width_ = image.width();
-  height_ = image.height();
-  pixels_.reserve(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
-  const auto [red, green, blue] = image.color_channels();
-  for (int y = 0; y < height_; ++y) {
-    for (int x = 0; x < width_; ++x) {
-      const float* pixel = image.pixel(x, y);
-      const Rgb c{pixel[red], pixel[green], pixel[blue]};
-      if (!is_finite(c) || c.r < 0 || c.g < 0 || c.b < 0) {
-        throw InputError(Location{.file = file.string()},
-                         fmt::format("pixel ({}, {}) is negative or not finite", x, y));
-      }
-      pixels_.push_back(c);
-    }
-  }
+LatLongImage::LatLongImage(const std::filesystem::path& file) : pixels_(read_colors(file)) {
+  check_colors(pixels_, file);
 }
 
 Rgb LatLongImage::evaluate(const LatLong& place) const {
-  const PixelPair across = PixelPair::at(place.u, width_);
-  const PixelPair down = PixelPair::at(place.v, height_);
+  const PixelPair across = PixelPair::at(place.u, width());
+  const PixelPair down = PixelPair::at(place.v, height());
   const int left = wrapped(across.low), right = wrapped(across.low + 1);
   const auto along = [&](int row) {
     return (1 - across.t) * pixel(left, row) + across.t * pixel(right, row);

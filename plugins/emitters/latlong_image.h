@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include <pharos/core/color_image.h>
 #include <pharos/core/rgb.h>
 #include <pharos/core/vec.h>
 
@@ -47,28 +48,24 @@ class LatLongImage {
  public:
   /// Reads an image file. The color comes from the channels R, G, B or else Y; if there are no
   /// channels of these names, it comes from the first three channels or from the only one. Throws
-  /// InputError as read_image() does, and for values that are negative or not finite.
+  /// InputError as read_colors() does, and for values that are negative or not finite.
   explicit LatLongImage(const std::filesystem::path& file);
   /// Takes width x height `pixels` row by row, top row first. They must be finite and not negative.
-  LatLongImage(int width, int height, std::vector<Rgb> pixels)
-      : width_(width), height_(height), pixels_(std::move(pixels)) {}
+  LatLongImage(int width, int height, const std::vector<Rgb>& pixels)
+      : pixels_(width, height, pixels) {}
 
-  int width() const { return width_; }
-  int height() const { return height_; }
-  Rgb pixel(int column, int row) const {
-    return pixels_[static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) +
-                   static_cast<std::size_t>(column)];
-  }
+  int width() const { return pixels_.width(); }
+  int height() const { return pixels_.height(); }
+  Rgb pixel(int column, int row) const { return pixels_.pixel(column, row); }
   Rgb evaluate(const LatLong& place) const;
 
   /// Maps a column index that is at most one outside the image to the column it refers to;
   /// clamped() does the same for rows.
-  int wrapped(int column) const { return column < 0 ? width_ - 1 : column < width_ ? column : 0; }
-  int clamped(int row) const { return row < 0 ? 0 : row < height_ ? row : height_ - 1; }
+  int wrapped(int column) const { return column < 0 ? width() - 1 : column < width() ? column : 0; }
+  int clamped(int row) const { return row < 0 ? 0 : row < height() ? row : height() - 1; }
 
  private:
-  int width_ = 0, height_ = 0;
-  std::vector<Rgb> pixels_;
+  ColorImage pixels_;
 };
 
 }  // namespace pharos

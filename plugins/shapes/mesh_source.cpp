@@ -5,6 +5,7 @@
 
 #include <fmt/core.h>
 
+#include <pharos/core/confinement.h>
 #include <pharos/core/error.h>
 
 namespace pharos {
@@ -14,6 +15,9 @@ std::string read_regular_file(const std::filesystem::path& path) {
   const auto status = std::filesystem::status(path, failed);
   if (!exists(status)) throw InputError("there is no such file" + file_suggestion(path));
   if (!is_regular_file(status)) throw InputError("it is not a regular file");
+  if (const std::string problem = confinement_problem(path); !problem.empty()) {
+    throw InputError(problem);
+  }
   const std::uintmax_t size = std::filesystem::file_size(path, failed);
   std::ifstream file(path, std::ios::binary);
   if (failed || !file) throw InputError("it cannot be opened");

@@ -46,7 +46,7 @@ class HeaderParser {
         header_.elements.push_back(element(words));
       } else if (keyword == "property") {
         if (header_.elements.empty()) fail("belongs to no element");
-        header_.elements.back().properties.push_back(property(words));
+        add(property(words), header_.elements.back());
       } else if (!keyword.empty() && keyword != "comment" && keyword != "obj_info") {
         fail("is unknown");
       }
@@ -73,8 +73,9 @@ class HeaderParser {
   }
 
   PlyFormat format(std::istringstream& words) const {
-    std::string name;
-    words >> name;
+    std::string name, version;
+    words >> name >> version;
+    if (version != "1.0") fail("names no known version: known is 1.0");
     if (name == "ascii") return PlyFormat::ascii;
     if (name == "binary_little_endian") return PlyFormat::little_endian;
     if (name == "binary_big_endian") return PlyFormat::big_endian;
@@ -104,6 +105,13 @@ class HeaderParser {
     property.type = type(first);
     words >> property.name;
     return property;
+  }
+
+  void add(PlyProperty property, PlyElement& element) const {
+    for (const PlyProperty& other : element.properties) {
+      if (other.name == property.name) fail("names a property for the second time");
+    }
+    element.properties.push_back(std::move(property));
   }
 
   PlyType type(const std::string& name) const {

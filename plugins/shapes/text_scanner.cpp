@@ -14,8 +14,9 @@
 namespace pharos {
 namespace {
 
+/// Other control characters, such as NUL, belong to words, where no statement accepts them.
 bool is_blank_or_break(char c) {
-  return static_cast<unsigned char>(c) <= ' ';
+  return c == ' ' || (c >= '\t' && c <= '\r');
 }
 
 /// Returns the first character after a line break at `at`, across which a backslash before `at`

@@ -7,8 +7,6 @@
 //     { type: bitmap, file: wood.png, filter: bilinear, wrap: repeat, uv_scale: [2, 2] }
 #include "bitmap.h"
 
-#include <fmt/core.h>
-
 namespace pharos {
 
 void Bitmap::Settings::describe(Schema<Settings>& s) {
@@ -23,32 +21,25 @@ void Bitmap::Settings::describe(Schema<Settings>& s) {
 }
 
 Bitmap::Bitmap(const Settings& settings) : settings_(settings) {
-  const Image image = read_image(settings.file, settings.color_space);
-  width_ = image.width();
-  height_ = image.height();
-  const auto [red, green, blue] = image.color_channels();
+  texels_ = read_colors(settings.file, settings.color_space);
+  check_colors(texels_, settings.file);
   double sums[3] = {};
-  for (int y = 0; y < height_; ++y) {
-    for (int x = 0; x < width_; ++x) {
-      const float* pixel = image.pixel(x, y);
-      const Rgb c{pixel[red], pixel[green], pixel[blue]};
-      if (!is_finite(c) || c.r < 0 || c.g < 0 || c.b < 0) {
-        throw InputError(Location{.file = settings.file.string()},
-                         fmt::format("pixel ({}, {}) is negative or not finite", x, y));
-      }
-      texels_.push_back(c);
+  for (int y = 0; y < texels_.height(); ++y) {
+    for (int x = 0; x < texels_.width(); ++x) {
+      const Rgb c = texels_.pixel(x, y);
       maximum_ = max(maximum_, c);
       for (int i = 0; i < 3; ++i) sums[i] += double{c[i]};
     }
   }
-  const double n = static_cast<double>(texels_.size());
+  const double n = double{1} * texels_.width() * texels_.height();
   for (int i = 0; i < 3; ++i) average_[i] = static_cast<float>(sums[i] / n);
 }
 
 Rgb Bitmap::value_at(const SurfacePoint& point) const {
   const float u = wrapped(point.uv.x * settings_.uv_scale.x);
   const float v = wrapped(point.uv.y * settings_.uv_scale.y);
-  const float x = u * static_cast<float>(width_), y = (1 - v) * static_cast<float>(height_);
+  const float x = u * static_cast<float>(texels_.width()),
+              y = (1 - v) * static_cast<float>(texels_.height());
   return settings_.filter == BitmapFilter::nearest ? nearest(x, y) : bilinear(x, y);
 }
 
@@ -74,19 +65,19 @@ int Bitmap::neighbor(int index, int size) const {
 }
 
 Rgb Bitmap::nearest(float x, float y) const {
-  return texel(std::min(static_cast<int>(x), width_ - 1),
-               std::min(static_cast<int>(y), height_ - 1));
+  return texels_.pixel(std::min(static_cast<int>(x), texels_.width() - 1),
+                       std::min(static_cast<int>(y), texels_.height() - 1));
 }
 
 Rgb Bitmap::bilinear(float x, float y) const {
   const float left = std::floor(x - 0.5f), top = std::floor(y - 0.5f);
   const float a = x - 0.5f - left, b = y - 0.5f - top;
-  const int x0 = neighbor(static_cast<int>(left), width_);
-  const int x1 = neighbor(static_cast<int>(left) + 1, width_);
-  const int y0 = neighbor(static_cast<int>(top), height_);
-  const int y1 = neighbor(static_cast<int>(top) + 1, height_);
-  return (1 - b) * ((1 - a) * texel(x0, y0) + a * texel(x1, y0)) +
-         b * ((1 - a) * texel(x0, y1) + a * texel(x1, y1));
+  const int x0 = neighbor(static_cast<int>(left), texels_.width());
+  const int x1 = neighbor(static_cast<int>(left) + 1, texels_.width());
+  const int y0 = neighbor(static_cast<int>(top), texels_.height());
+  const int y1 = neighbor(static_cast<int>(top) + 1, texels_.height());
+  return (1 - b) * ((1 - a) * texels_.pixel(x0, y0) + a * texels_.pixel(x1, y0)) +
+         b * ((1 - a) * texels_.pixel(x0, y1) + a * texels_.pixel(x1, y1));
 }
 
 }  // namespace pharos

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include <pharos/config/schema.h>
-#include <pharos/core/image.h>
+#include <pharos/core/color_image.h>
 #include <pharos/scene/texture.h>
 
 namespace pharos {
@@ -41,7 +41,7 @@ class Bitmap final : public Texture {
     Vec2 uv_scale{1, 1};
     static void describe(Schema<Settings>& s);
   };
-  /// Reads the file. Throws InputError as read_image() does, and for values that are negative or
+  /// Reads the file. Throws InputError as read_colors() does, and for values that are negative or
   /// not finite.
   explicit Bitmap(const Settings& settings);
 
@@ -52,13 +52,11 @@ class Bitmap final : public Texture {
  private:
   float wrapped(float coordinate) const;
   int neighbor(int index, int size) const;
-  Rgb texel(int x, int y) const { return texels_[static_cast<std::size_t>(y) * width_ + x]; }
   Rgb nearest(float x, float y) const;
   Rgb bilinear(float x, float y) const;
 
   Settings settings_;
-  int width_ = 0, height_ = 0;
-  std::vector<Rgb> texels_;
+  ColorImage texels_;
   Rgb maximum_;
   Rgb average_;
 };

@@ -41,6 +41,55 @@ TEST_CASE("replays of paths that are not there") {
   check_refused(typed("render good.yaml --replay 1,2"), {"--replay"});
   check_refused(typed("render good.yaml --replay 1,2,x"), {"--replay", "x"});
   check_refused(typed("render good.yaml --replay 0,0,0,7"), {"iteration 7"});
+  check_refused(typed("render good.yaml --replay 0,0,1"), {"no sample 1: iteration 0 has 1"});
+}
+
+TEST_CASE("outputs that are inputs, or the same file twice") {
+  const auto refused = [](const std::string& arguments, const std::vector<std::string>& says) {
+    check_refused({.arguments = arguments,
+                   .prepare =
+                       [](const ScratchFolder& f) {
+                         f.write("good.exr", config_with(""));
+                         f.write("base.yaml", config_with(""));
+                         f.write("over.yaml", "extends: base.yaml\n");
+                         f.write("quad.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+                         f.write("mesh.yaml", config_with_shape("{ type: mesh, file: quad.obj }"));
+                         std::filesystem::create_symlink("quad.obj", f.path() / "link.exr");
+                       }},
+                  says);
+  };
+  refused("render good.exr", {"good.exr: error: ", "'output.image' would overwrite an input"});
+  refused("render over.yaml --set output.model=base.yaml", {"base.yaml: error: ", "an input"});
+  refused("render over.yaml --set output.model=./over.yaml", {"over.yaml: error: ", "an input"});
+  refused("render mesh.yaml --set output.model=quad.obj", {"quad.obj: error: ", "an input"});
+  refused("render mesh.yaml -o link.exr", {"link.exr: error: ", "an input"});
+  refused("render mesh.yaml -o a.exr --set output.model=./a.exr",
+          {"'output.image' and 'output.model' name the same file"});
+  refused("render mesh.yaml -o a.exr --set output.checkpoint=a.png",
+          {"'output.png' and 'output.checkpoint' name the same file"});
+}
+
+TEST_CASE("input outside of the folder that --confine names") {
+  const auto refused = [](const std::string& arguments, const std::vector<std::string>& says) {
+    check_refused({.arguments = arguments,
+                   .prepare =
+                       [](const ScratchFolder& f) {
+                         std::filesystem::create_directory(f.path() / "in");
+                         f.write("out.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+                         f.write("in/mesh.yaml",
+                                 config_with_shape("{ type: mesh, file: ../out.obj }"));
+                         f.write("in/scene.xml",
+                                 "<scene version=\"3.0.0\"><shape type=\"obj\"><string "
+                                 "name=\"filename\" value=\"../out.obj\"/></shape></scene>");
+                         f.write("out.yaml", config_with(""));
+                         f.write("in/over.yaml", "extends: ../out.yaml\n");
+                       }},
+                  says);
+  };
+  for (const char* file : {"mesh.yaml", "scene.xml", "over.yaml"}) {
+    refused(std::string("render --confine in in/") + file, {"lies outside of '", "--confine"});
+  }
+  refused("validate --confine in out.yaml", {"lies outside of '"});
 }
 
 TEST_CASE("overrides") {

@@ -7,6 +7,33 @@
 namespace pharos::testing {
 namespace {
 
+TEST_CASE("geometry, lights and sensors that are too far away") {
+  const std::vector<std::string> says{"at most 1e+09 scene units"};
+  check_refused(config_with_shape("{ type: quad, to_world: [{ scale: 1e10 }] }"), says);
+  check_refused(config_with_shape("{ type: sphere, center: [0, -1e19, 0] }"), says);
+  const auto with_sensor = [](const std::string& sensor) {
+    return "scene:\n  sensor: " + sensor + "\n  shapes: [sphere]\nbudget: { spp: 1 }\n";
+  };
+  const auto from = [](const std::string& origin) {
+    return "to_world: { look_at: { origin: " + origin + ", target: [0, 0, 0], up: [0, 1, 0] } }";
+  };
+  check_refused(with_sensor("{ type: perspective, " + from("[0, 0, 1e19]") + " }"), says);
+  check_refused(
+      with_sensor("perspective") + "sensor: { type: perspective, " + from("[0, 0, 1e12]") + " }\n",
+      says);
+  check_refused(with_sensor("{ type: orthographic, width: 1e19 }"),
+                {"width must be <= 1000000000"});
+  check_refused(with_sensor("{ type: thin_lens, aperture_radius: 1e19 }"),
+                {"aperture_radius must be <= 1000000000"});
+  check_refused(with_sensor("{ type: thin_lens, focus_distance: 1e-40 }"), {"focus_distance must"});
+  for (const char* light : {"{ type: point, position: [1e19, 0, 0] }",
+                            "{ type: spot, to_world: [{ translate: [0, 1e19, 0] }] }"}) {
+    check_refused("scene:\n  sensor: perspective\n  emitters: [" + std::string(light) +
+                      "]\nbudget: { spp: 1 }\n",
+                  says);
+  }
+}
+
 /// A scene with these lines, which begin in line 2 and are indented by two spaces.
 std::string scene_of(const std::string& lines) {
   return "scene:\n" + lines + "budget: { spp: 1 }\n";

@@ -32,6 +32,8 @@ TEST_CASE("numbers") {
   }
   check_refused(config_with("output: { exposure: 1e999 }\n"),
                 {"bad.yaml:5:21: error: ", "magnitude"});
+  check_refused(config_with("film: { filter: { type: gaussian, stddev: 0.01 } }\n"),
+                {"bad.yaml:5:", "stddev must be >= 0.1"});
   check_refused(config_with("output: { exposure: -1e39 }\n"),
                 {"bad.yaml:5:21: error: ", "magnitude"});
   check_refused(config_with("output: { exposure: 1,5 }\n"), {"bad.yaml:5:", "error: "});

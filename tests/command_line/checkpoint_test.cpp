@@ -206,7 +206,7 @@ double seconds_of(const ScratchFolder& folder) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-TEST_CASE("long: killed at random moments, renders of four methods go on to the same bits") {
+TEST_CASE("soak: killed at random moments, renders of four methods go on to the same bits") {
   RandomStream random(7);
   int equal = 0;
   for (const char* integrator : kSoaked) {
@@ -227,7 +227,7 @@ TEST_CASE("long: killed at random moments, renders of four methods go on to the 
   CHECK(equal == 100);
 }
 
-TEST_CASE("long: killed while a checkpoint is written, a render goes on to the same bits") {
+TEST_CASE("soak: killed while a checkpoint is written, a render goes on to the same bits") {
   const ScratchFolder folder;
   write_config(folder, kSoaked[3], 128, 1e-3);
   const Outputs whole = undisturbed(folder);

@@ -1,6 +1,7 @@
 // Rendering from the command line: files, metadata, exit codes, interruption.
 
 #include <chrono>
+#include <fstream>
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -75,6 +76,54 @@ TEST_CASE("the config in an image's metadata renders that image again") {
   REQUIRE(run_pharos("render again.yaml -q", folder.path()).exit_code == 0);
   CHECK(read_image(folder.path() / "box.exr").values() ==
         read_image(folder.path() / "again.exr").values());
+}
+
+TEST_CASE("pixels beyond the range of a float are counted") {
+  const ScratchFolder folder;
+  folder.write("box.yaml",
+               "scene:\n  emitters: [{ type: constant, radiance: 3e38 }]\n  sensor: perspective\n"
+               "film: { width: 8, height: 8 }\nbudget: { spp: 64 }\n");
+  const Outcome outcome = run_pharos("render box.yaml", folder.path());
+  CHECK(outcome.exit_code == 0);
+  CHECK_MESSAGE(outcome.err.find(" pixels are NaN or infinite") != std::string::npos, outcome.err);
+  CHECK(read_metadata(folder.path() / "box.exr").at("pharos:invalid_pixels") != "0");
+}
+
+TEST_CASE("an image whose folder vanishes is kept elsewhere") {
+  const ScratchFolder folder;
+  folder.write("box.yaml", small_render());
+  std::filesystem::create_directory(folder.path() / "sub");
+  std::filesystem::create_directory(folder.path() / "kept");
+  const Outcome outcome = run_pharos("render box.yaml -o sub/box.exr --set 'budget={ seconds: 2 }'",
+                                     folder.path(), "{ (sleep 1; rm -r sub) & } && TMPDIR=kept");
+  CHECK(outcome.exit_code == 3);
+  CHECK(outcome.err.find("cannot write 'sub/box.exr'") != std::string::npos);
+  CHECK(outcome.err.find("it is kept as 'kept/pharos-") != std::string::npos);
+  int images = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path() / "kept")) {
+    images += read_image(entry.path()).width() == 40 ? 1 : 0;
+  }
+  CHECK(images == 2);  // the EXR file and its PNG
+}
+
+TEST_CASE("a disk that is full is noticed before the render") {
+  const ScratchFolder folder;
+  folder.write("box.yaml", small_render());
+  const Outcome outcome = run_pharos(
+      "render box.yaml --set film.width=512 --set film.height=512 --set budget.spp=10000",
+      folder.path(), "ulimit -f 100;");
+  CHECK(outcome.exit_code == 3);
+  CHECK_MESSAGE(outcome.err.find("the image needs up to") != std::string::npos, outcome.err);
+}
+
+TEST_CASE("output that cannot be written is an error") {
+  const ScratchFolder folder;
+  folder.write("box.yaml", small_render());
+  CHECK(run_pharos("validate box.yaml >/dev/full; (echo $? >code)", folder.path()).exit_code == 0);
+  std::ifstream in(folder.path() / "code");
+  int code = 0;
+  in >> code;
+  CHECK(code == 3);
 }
 
 TEST_CASE("Ctrl-C and SIGTERM keep what was rendered") {

@@ -2,13 +2,13 @@
 # Runs one fuzzer on seeds and words that come from the scenes and the registry:
 #
 #     cmake --preset fuzz && cmake --build --preset fuzz
-#     tests/fuzzing/fuzz.sh config 600        # or mesh, mitsuba; seconds
+#     tests/fuzzing/fuzz.sh config 600        # or another name; seconds
 #
 # What it learns stays in build/fuzz/corpus/NAME, input that fails in build/fuzz/found/.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 build=${PHAROS_BUILD:-$root/build/fuzz}
-name=${1:?usage: fuzz.sh config|mesh|mitsuba [seconds] [libFuzzer options]}
+name=${1:?usage: fuzz.sh checkpoint|config|image|mesh|mitsuba|model [seconds] [libFuzzer options]}
 seconds=${2:-600}
 shift $(($# < 2 ? $# : 2))
 
@@ -51,8 +51,31 @@ case $name in
     printf '"%s"\n' name value type id as filename version temperature origin target up angle \
       '<!--' '-->' '<![CDATA[' ']]>' '<?xml' '&quot;' '<scene version=\"0.6.0\">' '</scene>' >>"$words"
     limit=4096 ;;
+  checkpoint | image | model)
+    # Files that a small render leaves, each after the byte that says what it is.
+    left=$(mktemp -d)
+    trap 'rm -rf "$left"' EXIT
+    (cd "$left" && "$build/pharos" render "$root/configs/cornell-box.yaml" -q -o a.exr \
+      --set 'film={ width: 4, height: 4 }' --set budget.spp=8 --set output.checkpoint=a.checkpoint \
+      --set 'integrator={ type: path, guiding: pavmm }')
+    if [ "$name" = checkpoint ]; then
+      { printf '\0' && cat "$left/a.checkpoint"; } >"$corpus/file"
+      printf '\1pharos render 1\n' >"$corpus/state"
+    elif [ "$name" = image ]; then
+      { printf '\0' && cat "$left/a.exr"; } >"$corpus/a.exr"
+      { printf '\3' && cat "$left/a.png"; } >"$corpus/a.png"
+      printf '\4P6 2 2 255\n123456789012' >"$corpus/a.ppm"
+    else
+      for learner in 0 1 2 3 4 5 6 7; do
+        { printf "\\$learner" && head -c 512 /dev/zero; } >"$corpus/$learner"
+      done
+    fi
+    rm -rf "$left"
+    printf '"%s"\n' pharos render film guiding pharoscp pharosgm IHDR IDAT IEND channels \
+      dataWindow compression >"$words"
+    limit=65536 ;;
   *)
-    echo "fuzz.sh: there is no fuzzer '$name': config, mesh or mitsuba" >&2
+    echo "fuzz.sh: there is no fuzzer '$name'" >&2
     exit 2 ;;
 esac
 exec "$build/fuzz-$name" "$corpus" -dict="$words" -max_total_time="$seconds" -max_len="$limit" \

@@ -1,9 +1,14 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
+
+#include <pharos/config/registry.h>
+#include <pharos/core/confinement.h>
+#include <pharos/core/user_cache.h>
 
 namespace pharos {
 
@@ -21,6 +26,23 @@ struct ConfigOptions {
         ->expected(1)
         ->type_name("KEY=VALUE");
     command.add_flag("--strict", strict, "Take what an imported scene approximates for an error");
+  }
+};
+
+/// The option that restricts what configs and scenes of others may read.
+struct ConfineOption {
+  std::string folder;  ///< below which all input must lie; empty: anywhere
+
+  void add_to(CLI::App& command) {
+    command.add_option("--confine", folder, "Read input only from files below this folder");
+  }
+  /// Restricts reading to the folder, the presets and the user's cache.
+  void apply(const Registry& registry) const {
+    if (folder.empty()) return;
+    std::vector<std::filesystem::path> folders{folder};
+    for (const std::string& each : registry.searched_folders()) folders.emplace_back(each);
+    folders.push_back(user_cache_folder());
+    confine_reading(folders);
   }
 };
 

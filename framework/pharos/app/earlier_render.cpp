@@ -50,9 +50,9 @@ std::optional<std::string> difference(const ConfigNode* there, const ConfigNode*
 
 /// Reads the checkpoint of `loaded` and checks that it belongs to the same config. Without `budget`
 /// the budgets may differ.
-Checkpoint matching_checkpoint(const LoadedConfig& loaded, const Checkpoint& own, bool budget) {
+SavedRender matching_checkpoint(const LoadedConfig& loaded, const SavedRender& own, bool budget) {
   const std::string& file = loaded.config.output.checkpoint;
-  Checkpoint checkpoint = read_checkpoint(file);
+  SavedRender checkpoint = read_checkpoint(file);
   ConfigNode there = parse_yaml(checkpoint.config, file), here = parse_yaml(own.config, file);
   if (!budget) {
     there.take("budget");
@@ -75,7 +75,7 @@ void check_named(const OutputSettings& output, const char* option) {
       "{}: error: the config names no checkpoint: expected --set output.checkpoint=FILE", option));
 }
 
-void check_budget_grows(const Checkpoint& checkpoint, const Budget& now) {
+void check_budget_grows(const SavedRender& checkpoint, const Budget& now) {
   const ConfigNode config = parse_yaml(checkpoint.config, "checkpoint");
   const ConfigNode* before = config.find("budget");
   const char* key = now.spp ? "spp" : "seconds";
@@ -94,11 +94,11 @@ void check_budget_grows(const Checkpoint& checkpoint, const Budget& now) {
 
 }  // namespace
 
-Checkpoint checkpoint_head(const LoadedConfig& loaded, const Registry& registry) {
+SavedRender saved_render_head(const LoadedConfig& loaded, const Registry& registry) {
   return {.config = to_yaml(content_of(loaded)), .build = build_key(loaded.resolved, registry)};
 }
 
-std::string state_to_resume(const LoadedConfig& loaded, const Checkpoint& own) {
+std::string state_to_resume(const LoadedConfig& loaded, const SavedRender& own) {
   const OutputSettings& output = loaded.config.output;
   check_named(output, "--resume");
   if (!std::filesystem::exists(output.checkpoint)) {
@@ -109,12 +109,12 @@ std::string state_to_resume(const LoadedConfig& loaded, const Checkpoint& own) {
   return matching_checkpoint(loaded, own, true).state;
 }
 
-std::string state_to_continue(const LoadedConfig& loaded, const Checkpoint& own,
+std::string state_to_continue(const LoadedConfig& loaded, const SavedRender& own,
                               const std::filesystem::path& image) {
   const OutputSettings& output = loaded.config.output;
   check_named(output, "--continue");
   const Metadata metadata = read_metadata(image);
-  Checkpoint checkpoint = matching_checkpoint(loaded, own, false);
+  SavedRender checkpoint = matching_checkpoint(loaded, own, false);
   if (!checkpoint.finished) {
     throw InputError(fmt::format(
         "--continue: error: the render of the checkpoint '{}' is not finished: expected --resume",

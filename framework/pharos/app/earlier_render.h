@@ -10,18 +10,18 @@
 namespace pharos {
 
 /// Returns a checkpoint of the render of `loaded`, without a state.
-Checkpoint checkpoint_head(const LoadedConfig& loaded, const Registry& registry);
+SavedRender saved_render_head(const LoadedConfig& loaded, const Registry& registry);
 
 /// Returns the state from which `pharos render --resume` goes on; empty if there is no checkpoint
 /// yet. Throws InputError if the config names no checkpoint, or if the checkpoint cannot be read or
 /// belongs to another config. Warns if it was written by another build of Pharos.
-std::string state_to_resume(const LoadedConfig& loaded, const Checkpoint& own);
+std::string state_to_resume(const LoadedConfig& loaded, const SavedRender& own);
 
 /// Returns the state from which `pharos render --continue IMAGE` adds samples to a finished image.
 /// Throws InputError in the same cases as state_to_resume(), and if the budget is not larger than
 /// that of the finished image, if there is no checkpoint, if it is not that of a finished render,
 /// or if `image` is not the image of that render.
-std::string state_to_continue(const LoadedConfig& loaded, const Checkpoint& own,
+std::string state_to_continue(const LoadedConfig& loaded, const SavedRender& own,
                               const std::filesystem::path& image);
 
 /// Returns a name of a state: the same for equal states only.

@@ -43,9 +43,21 @@ void report(const ExperimentResults& results) {
                     "'invalid paths'",
                     invalid));
   }
+  if (!results.failed.empty()) {
+    log_warning(
+        fmt::format("{} runs failed: {}", results.failed.size(), quoted_list(results.failed)));
+  }
   log_info(fmt::format("{}: {} of {} runs{}", (results.folder() / "report.html").string(),
                        results.records.size(), results.run_count,
                        results.stopped ? " (interrupted; the same command goes on)" : ""));
+}
+
+/// Returns the command by which this program makes a run in a process of its own.
+std::vector<std::string> run_program(const ExperimentOptions& options) {
+  std::vector<std::string> command{std::filesystem::canonical("/proc/self/exe").string(),
+                                   "experiment-run", "--threads", std::to_string(options.threads)};
+  if (options.quiet) command.push_back("--quiet");
+  return command;
 }
 
 int run(const ExperimentOptions& options) {
@@ -67,13 +79,15 @@ int run(const ExperimentOptions& options) {
       bar.clear();
       log_info(message);
     };
+    control.run_program = run_program(options);
     return run_experiment(config, std::move(plan), registry, control);
   }();
   // An unfinished reference measures nothing, so there are no records. Earlier results are then
   // kept.
   if (!results.records.empty()) write_results(results);
   report(results);
-  return results.stopped ? kInterrupted : kDone;
+  if (results.stopped) return kInterrupted;
+  return results.failed.empty() ? kDone : kFailed;
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include <pharos/rendering/scene_import.h>
 
 #include "commands.h"
+#include "config_options.h"
 #include "import_notes.h"
 
 namespace pharos {
@@ -23,6 +24,7 @@ namespace fs = std::filesystem;
 struct ImportOptions {
   std::string scene, output;
   bool report = false, strict = false, quiet = false;
+  ConfineOption confine;
 };
 
 /// The files that a scene names. Each gets a unique name within the output folder.
@@ -129,6 +131,7 @@ void write_scene(ConfigNode config, const LoadedConfig& loaded, const ImportOpti
 int import(const ImportOptions& options) {
   set_log_quiet(options.quiet);
   const Registry registry = load_default_modules();
+  options.confine.apply(registry);
   Import imported = import_scene(options.scene, registry);
   const LoadedConfig loaded = build_render_config(imported.config, registry);
   if (options.report) print_report(imported);
@@ -145,6 +148,7 @@ void add_import_command(CLI::App& app, int& exit_code) {
   command->add_option("scene", options->scene, "Scene, such as Mitsuba's .xml")->required();
   command->add_option("-o,--output", options->output,
                       "Folder for the scene as YAML, with its meshes and images");
+  options->confine.add_to(*command);
   command->add_flag("--report", options->report, "List every object and what stands for it");
   command->add_flag("--strict", options->strict, "Take approximations for errors");
   command->add_flag("-q,--quiet", options->quiet, "Only warnings and errors");

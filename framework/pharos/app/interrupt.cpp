@@ -43,9 +43,10 @@ void handle_request(int) {
 
 constexpr int kEnding[] = {SIGINT, SIGTERM, SIGHUP, SIGUSR2};
 
-/// Sets the handler of a signal unless the signal is ignored.
+/// Sets the handler of a signal. SIGHUP stays ignored if it is, because nohup ignores it.
 void set_handler(int signal, void (*handler)(int)) {
-  if (std::signal(signal, handler) == SIG_IGN) std::signal(signal, SIG_IGN);
+  const auto before = std::signal(signal, handler);
+  if (signal == SIGHUP && before == SIG_IGN) std::signal(signal, SIG_IGN);
 }
 
 }  // namespace

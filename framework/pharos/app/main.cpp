@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <string>
 #include <vector>
@@ -48,6 +50,7 @@ int run(int argc, char** argv) {
   add_conformance_command(app, exit_code);
   add_compare_command(app, exit_code);
   add_experiment_command(app, exit_code);
+  add_experiment_run_command(app, exit_code);
   add_convergence_command(app, exit_code);
   add_inspect_command(app, exit_code);
   add_points_command(app, exit_code);
@@ -80,5 +83,8 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return run(argc, argv);
+  const int exit_code = run(argc, argv);
+  if (std::fflush(stdout) == 0) return exit_code;
+  fmt::print(stderr, "pharos: error: cannot write the output: {}\n", std::strerror(errno));
+  return pharos::kFailed;
 }

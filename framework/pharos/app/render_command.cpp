@@ -1,4 +1,4 @@
-#include <atomic>
+#include <filesystem>
 #include <optional>
 
 #include <CLI/CLI.hpp>
@@ -28,6 +28,7 @@ namespace {
 
 struct RenderOptions {
   ConfigOptions config;
+  ConfineOption confine;
   std::string output;
   int threads = 0;
   bool quiet = false;
@@ -98,6 +99,7 @@ class Render {
   /// Renders the image and writes it, with a preview in `viewer` if one is given.
   RenderResult run(const std::optional<HostPort>& viewer) {
     std::optional<TevPreview> preview;
+    prepare_image_files();
     OutputSpace space(loaded_.config);
     RenderControl control{.on_progress = {}, .on_pass = {}, .stop = &interrupt_.flag()};
     if (!options_.quiet) control.on_progress = [this](const Progress& p) { bar_.show(p); };
@@ -129,9 +131,13 @@ class Render {
   void find_checkpoint(const Registry& registry) {
     const OutputSettings& output = loaded_.config.output;
     if (output.checkpoint.empty() && !options_.resume && options_.continued.empty()) return;
-    const Checkpoint head = checkpoint_head(loaded_, registry);
+    const SavedRender head = saved_render_head(loaded_, registry);
     if (options_.resume) state_ = state_to_resume(loaded_, head);
     if (!options_.continued.empty()) state_ = state_to_continue(loaded_, head, options_.continued);
+    if (state_.empty() && std::filesystem::exists(output.checkpoint)) {
+      log_info(
+          fmt::format("{}: will be replaced; --resume would go on from it", output.checkpoint));
+    }
     checkpoints_.emplace(output.checkpoint, head, output.every,
                          [this](const std::string& message) { warn(message); });
   }
@@ -141,7 +147,7 @@ class Render {
     log_warning(message);
   }
 
-  /// Whoever sends SIGUSR1 wants a checkpoint, or the end if there can be none.
+  /// SIGUSR1 asks for a checkpoint. A render without a checkpoint file ends instead.
   bool is_checkpoint_due() {
     if (interrupt_.take_request()) {
       if (!checkpoints_) interrupt_.set();
@@ -166,11 +172,11 @@ int render(const RenderOptions& options) {
   std::optional<HostPort> viewer;
   if (options.preview) viewer = parse_host_port(*options.preview, kTevPort, {"--preview"});
   const Registry registry = load_default_modules();
+  options.confine.apply(registry);
   LoadedConfig loaded = load_render_config(options.config.path, options.config.overrides, registry);
   if (!options.continued.empty()) loaded.config.output.image = options.continued;
   if (!options.output.empty()) loaded.config.output.image = options.output;
   check_outputs(loaded);
-  prepare_image_files();
   tell_notes(loaded.notes, options.config.strict);
 
   Render render(loaded, registry, options);
@@ -189,6 +195,7 @@ void add_render_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("render", "Render an image");
   const auto options = std::make_shared<RenderOptions>();
   options->config.add_to(*command);
+  options->confine.add_to(*command);
   command->add_option("-o,--output", options->output, "Image file (.exr) instead of the config's");
   command->add_option("--threads", options->threads, "Number of threads; 0: all cores")
       ->check(CLI::Range(0, 1024));

@@ -32,11 +32,18 @@ std::vector<std::pair<const char*, std::filesystem::path>> outputs_of(
   return outputs;
 }
 
+/// Returns the absolute path without links, also of a file that does not exist; empty if it cannot
+/// be found out.
+std::filesystem::path without_links(const std::filesystem::path& file) {
+  std::error_code failed;
+  return std::filesystem::weakly_canonical(std::filesystem::absolute(file, failed), failed);
+}
+
 bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
   std::error_code failed;
   if (std::filesystem::equivalent(a, b, failed)) return true;
-  const std::filesystem::path whole = std::filesystem::weakly_canonical(a, failed);
-  return !whole.empty() && whole == std::filesystem::weakly_canonical(b, failed);
+  const std::filesystem::path whole = without_links(a);
+  return !whole.empty() && whole == without_links(b);
 }
 
 /// Checks that no output is an input or another output.

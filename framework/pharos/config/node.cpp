@@ -169,9 +169,8 @@ class ConfigReader {
       name.fail("expected the path of a config or a list of paths, found " + name.describe());
     }
     const auto path = (chain_.back().shown.parent_path() / name.text()).lexically_normal();
-    std::error_code failed;
-    if (!std::filesystem::exists(path, failed)) {
-      name.fail(fmt::format("no such file '{}'{}", path.string(), file_suggestion(path)));
+    if (const std::string problem = file_problem(path); !problem.empty()) {
+      name.fail(fmt::format("'{}': {}", path.string(), problem));
     }
     check_cycle(path, key_where);
     if (++count_ > kMostFiles) {

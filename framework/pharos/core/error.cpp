@@ -2,6 +2,7 @@
 #include <unistd.h>
 #include <vector>
 
+#include <pharos/core/confinement.h>
 #include <pharos/core/error.h>
 
 namespace pharos {
@@ -74,10 +75,12 @@ std::string file_suggestion(const std::filesystem::path& missing) {
 
 std::string file_problem(const std::filesystem::path& path) {
   using std::filesystem::file_type;
+  if (path.empty()) return "expected the name of a file, found an empty one";
   std::error_code failed;
   switch (std::filesystem::status(path, failed).type()) {
     case file_type::regular:
-      return access(path.c_str(), R_OK) == 0 ? "" : "the file may not be read";
+      if (access(path.c_str(), R_OK) != 0) return "the file may not be read";
+      return confinement_problem(path);
     case file_type::not_found:
       return "no such file" + file_suggestion(path);
     case file_type::directory:

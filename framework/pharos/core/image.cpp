@@ -60,12 +60,24 @@ std::array<int, 3> Image::color_channels() const {
   return {0, 1, 2};
 }
 
+std::size_t invalid_colors(const Image& image) {
+  std::size_t count = 0;
+  for (int y = 0; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x) count += is_finite(image.rgb(x, y)) ? 0 : 1;
+  }
+  return count;
+}
+
 void prepare_image_files() {
   image_files();
 }
 
 Image read_image(const std::filesystem::path& path, ColorSpace integer_formats) {
   return image_files().read(path, integer_formats);
+}
+
+ColorImage read_colors(const std::filesystem::path& path, ColorSpace integer_formats) {
+  return image_files().read_colors(path, integer_formats);
 }
 
 Metadata read_metadata(const std::filesystem::path& path) {

@@ -58,10 +58,16 @@ class Image {
   std::vector<float> values_;
 };
 
+/// Returns the number of pixels whose channels 0 to 2 are NaN or infinite.
+std::size_t invalid_colors(const Image& image);
+
 /// The text entries of an image file's header.
 using Metadata = std::map<std::string, std::string>;
 
 enum class ColorSpace { linear, srgb };
+
+/// The most pixels of an image file that is read. A small file may claim to be huge.
+inline constexpr std::size_t kMostPixels = std::size_t{1} << 28;
 
 /// Loads the library that reads and writes image files, which otherwise happens at the first use.
 /// Throws RunError if it cannot be loaded.
@@ -71,8 +77,9 @@ void prepare_image_files();
 /// 8-bit and 16-bit formats are decoded from sRGB unless `integer_formats` is `linear`; values of
 /// float formats are linear. Channels keep their names but not always their order, so look them up
 /// by channel_index(). Throws InputError with the path if the file is missing, unreadable or cut
-/// off, if the image is over 65,536 pixels wide or high or has more than 2^30 values, and if it is
-/// deep or cropped (the OpenEXR data window is not the display window).
+/// off, if the image is over 65,536 pixels wide or high or has more than kMostPixels, and if it is
+/// deep or cropped (the OpenEXR data window is not the display window). The size is checked before
+/// any pixel is read.
 Image read_image(const std::filesystem::path& path, ColorSpace integer_formats = ColorSpace::srgb);
 
 /// Reads the text entries of an image file's header. Throws InputError like read_image().

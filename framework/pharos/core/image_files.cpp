@@ -2,10 +2,12 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <cstring>
 #include <memory>
 #include <mutex>
 #include <new>
 #include <utility>
+#include <vector>
 
 #include <OpenImageIO/imageio.h>
 
@@ -18,7 +20,8 @@ namespace pharos {
 namespace {
 
 constexpr int kLargestEdge = 65536;
-constexpr std::size_t kMostValues = std::size_t{1} << 30;
+/// More than any image format of textures and renders needs.
+constexpr int kMostChannels = 1024;
 
 /// Makes the image libraries work on the caller's thread. Their own thread pools would compete with
 /// the renderer's.
@@ -94,10 +97,13 @@ void check_extent(const std::filesystem::path& path, const OIIO::ImageSpec& spec
     fail_reading(path, "it has " + size + " pixels, more than " + std::to_string(kLargestEdge) +
                            " along an edge");
   }
-  const std::size_t pixels = static_cast<std::size_t>(spec.width) * spec.height;
-  if (pixels > kMostValues / spec.nchannels) {
-    fail_reading(path, "it has " + size + " pixels of " + std::to_string(spec.nchannels) +
-                           " channels, more than 2^30 values");
+  if (static_cast<std::size_t>(spec.width) * spec.height > kMostPixels) {
+    fail_reading(path, "it has " + size + " pixels, more than the " + std::to_string(kMostPixels) +
+                           " that Pharos reads");
+  }
+  if (spec.nchannels > kMostChannels) {
+    fail_reading(path, "it has " + std::to_string(spec.nchannels) + " channels, more than " +
+                           std::to_string(kMostChannels));
   }
   if (spec.deep || spec.depth > 1) fail_reading(path, "deep and volume images are not supported");
   const bool whole = spec.x == spec.full_x && spec.y == spec.full_y &&
@@ -173,6 +179,79 @@ Image read_image_file(const std::filesystem::path& path, ColorSpace integer_form
   });
 }
 
+ColorImage::Depth depth_of(OIIO::TypeDesc format) {
+  if (format == OIIO::TypeDesc::UINT8) return ColorImage::Depth::bits8;
+  if (format == OIIO::TypeDesc::UINT16) return ColorImage::Depth::bits16;
+  if (format == OIIO::TypeDesc::HALF) return ColorImage::Depth::half;
+  return ColorImage::Depth::single;
+}
+
+OIIO::TypeDesc format_of(ColorImage::Depth depth) {
+  switch (depth) {
+    case ColorImage::Depth::bits8:
+      return OIIO::TypeDesc::UINT8;
+    case ColorImage::Depth::bits16:
+      return OIIO::TypeDesc::UINT16;
+    case ColorImage::Depth::half:
+      return OIIO::TypeDesc::HALF;
+    case ColorImage::Depth::single:
+      break;
+  }
+  return OIIO::TypeDesc::FLOAT;
+}
+
+/// Returns the values of all integers of a depth; empty for floating point.
+std::vector<float> table_of(ColorImage::Depth depth, ColorSpace space) {
+  if (depth == ColorImage::Depth::half || depth == ColorImage::Depth::single) return {};
+  const int count = depth == ColorImage::Depth::bits8 ? 256 : 65536;
+  std::vector<float> table;
+  for (int i = 0; i < count; ++i) {
+    const float value = static_cast<float>(i) * (1.0f / static_cast<float>(count - 1));
+    table.push_back(space == ColorSpace::srgb ? linear_from_srgb(value) : value);
+  }
+  return table;
+}
+
+/// Copies numbers of `size` bytes: for each of `count` pixels, those at `channels`.
+void pick_channels(const std::byte* from, std::size_t count, int from_channels,
+                   const std::vector<int>& channels, std::size_t size, std::byte* to) {
+  for (std::size_t i = 0; i < count; ++i) {
+    for (const int channel : channels) {
+      std::memcpy(to, from + (i * from_channels + channel) * size, size);
+      to += size;
+    }
+  }
+}
+
+ColorImage read_color_file(const std::filesystem::path& path, ColorSpace integer_formats) {
+  return guarded_read(path, [&] {
+    const auto input = open_image(path);
+    const OIIO::ImageSpec& spec = input->spec();
+    check_extent(path, spec);
+    const auto [red, green, blue] = Image(1, 1, spec.channelnames).color_channels();
+    const bool is_gray = red == green && green == blue;
+    const ColorImage::Depth depth = depth_of(spec.format);
+    ColorImage image(spec.width, spec.height, is_gray ? 1 : 3, depth,
+                     table_of(depth, integer_formats));
+    const int first = std::min({red, green, blue}), end = std::max({red, green, blue}) + 1;
+    const bool in_order = is_gray || (green == red + 1 && blue == red + 2);
+    const std::size_t size = ColorImage::size_of(depth);
+    const std::size_t pixels = static_cast<std::size_t>(spec.width) * spec.height;
+    std::vector<std::byte> others(in_order ? 0 : pixels * (end - first) * size);
+    std::byte* to = in_order ? image.data() : others.data();
+    const bool complete = input->read_image(0, 0, first, end, format_of(depth), to);
+    // Some readers fill in missing pixels, report success and only leave a message.
+    if (!complete || input->has_error()) {
+      fail_reading(path, reason(input->geterror(), "it is cut off or damaged"));
+    }
+    if (!in_order) {
+      pick_channels(others.data(), pixels, end - first, {red - first, green - first, blue - first},
+                    size, image.data());
+    }
+    return image;
+  });
+}
+
 Metadata read_file_metadata(const std::filesystem::path& path) {
   return guarded_read(path, [&] {
     Metadata metadata;
@@ -213,7 +292,8 @@ void write_png_file(const Image& image, const std::filesystem::path& path, float
   write_image(path, "png", spec, OIIO::TypeDesc::UINT8, bytes.data());
 }
 
-const ImageFiles kImageFiles{read_image_file, read_file_metadata, write_exr_file, write_png_file};
+const ImageFiles kImageFiles{read_image_file, read_color_file, read_file_metadata, write_exr_file,
+                             write_png_file};
 
 }  // namespace
 }  // namespace pharos

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include <pharos/core/color_image.h>
 #include <pharos/core/image.h>
 
 namespace pharos {
@@ -12,6 +13,7 @@ namespace pharos {
 /// scene.
 struct ImageFiles {
   Image (*read)(const std::filesystem::path& path, ColorSpace integer_formats);
+  ColorImage (*read_colors)(const std::filesystem::path& path, ColorSpace integer_formats);
   Metadata (*read_metadata)(const std::filesystem::path& path);
   void (*write_exr)(const Image& image, const std::filesystem::path& path,
                     const Metadata& metadata);

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <vector>
 
 namespace pharos {
 
@@ -18,5 +20,18 @@ struct PixelRect {
   }
   friend bool operator==(const PixelRect&, const PixelRect&) = default;
 };
+
+/// Returns the parts of a film's square tiles that lie in `window`, row by row. The tiles have
+/// edges of `edge` pixels and begin at the film's corner.
+inline std::vector<PixelRect> tiles_of(const PixelRect& window, int edge) {
+  std::vector<PixelRect> tiles;
+  for (int y = window.y0 / edge * edge; y < window.y1; y += edge) {
+    for (int x = window.x0 / edge * edge; x < window.x1; x += edge) {
+      tiles.push_back({std::max(x, window.x0), std::max(y, window.y0),
+                       std::min(x + edge, window.x1), std::min(y + edge, window.y1)});
+    }
+  }
+  return tiles;
+}
 
 }  // namespace pharos

@@ -104,7 +104,7 @@ std::vector<fs::path> left_overs(const fs::path& path) {
 
 }  // namespace
 
-void write_checkpoint(const Checkpoint& checkpoint, const fs::path& path) {
+void write_checkpoint(const SavedRender& checkpoint, const fs::path& path) {
   std::ostringstream head_out;
   Archive archive(head_out);
   std::string saved_by = version();
@@ -126,7 +126,7 @@ void write_checkpoint(const Checkpoint& checkpoint, const fs::path& path) {
   });
 }
 
-Checkpoint read_checkpoint(const fs::path& path) {
+SavedRender read_checkpoint(const fs::path& path) {
   if (const std::string problem = file_problem(path); !problem.empty()) {
     throw InputError(fmt::format("the checkpoint '{}': {}", path.string(), problem));
   }
@@ -144,12 +144,12 @@ Checkpoint read_checkpoint(const fs::path& path) {
   const std::uint64_t found = size - begin - length - sizeof head_checksum;
   if (found < head.state_bytes) fail(path, "is cut off");
   if (found > head.state_bytes) fail(path, "goes on after its end");
-  Checkpoint checkpoint{head.config, head.build, head.finished, read_bytes(in, path, found)};
+  SavedRender checkpoint{head.config, head.build, head.finished, read_bytes(in, path, found)};
   if (checksum(checkpoint.state) != head.state_checksum) fail(path, "is damaged");
   return checkpoint;
 }
 
-CheckpointWriter::CheckpointWriter(fs::path path, Checkpoint head, double every, Warn warn)
+CheckpointWriter::CheckpointWriter(fs::path path, SavedRender head, double every, Warn warn)
     : path_(std::move(path)),
       head_(std::move(head)),
       every_(std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(every))),
@@ -173,7 +173,7 @@ bool CheckpointWriter::is_due() const {
 void CheckpointWriter::write(std::string state, bool finished) {
   finish();
   next_ = Clock::now() + every_;
-  Checkpoint checkpoint{head_.config, head_.build, finished, std::move(state)};
+  SavedRender checkpoint{head_.config, head_.build, finished, std::move(state)};
   writing_ = std::async(std::launch::async, [path = path_, checkpoint = std::move(checkpoint)] {
     write_checkpoint(checkpoint, path);
   });

@@ -19,7 +19,7 @@
 namespace pharos {
 
 /// What a checkpoint file holds.
-struct Checkpoint {
+struct SavedRender {
   std::string config;     ///< the render's config and the content of its files, as YAML
   std::string build;      ///< key of the code that rendered
   bool finished = false;  ///< whether the budget is spent
@@ -28,11 +28,11 @@ struct Checkpoint {
 
 /// Writes a checkpoint. The file appears whole or not at all. Throws RunError if it cannot be
 /// written; an older checkpoint then stays as it was.
-void write_checkpoint(const Checkpoint& checkpoint, const std::filesystem::path& path);
+void write_checkpoint(const SavedRender& checkpoint, const std::filesystem::path& path);
 
 /// Reads a checkpoint. Throws InputError if the file is missing, unreadable or no checkpoint, if it
 /// is of another form or version of Pharos, and if it is cut off or damaged.
-Checkpoint read_checkpoint(const std::filesystem::path& path);
+SavedRender read_checkpoint(const std::filesystem::path& path);
 
 /// Writes the checkpoints of one render in the background: while one is written, the render goes
 /// on.
@@ -44,7 +44,7 @@ class CheckpointWriter {
   /// last one or after the start. `warn` receives the reasons why one could not be written, in the
   /// thread that calls a member function. Removes what writers that were killed have left beside
   /// `path`.
-  CheckpointWriter(std::filesystem::path path, Checkpoint head, double every, Warn warn);
+  CheckpointWriter(std::filesystem::path path, SavedRender head, double every, Warn warn);
   /// Waits for the last checkpoint.
   ~CheckpointWriter();
 
@@ -61,7 +61,7 @@ class CheckpointWriter {
   using Clock = std::chrono::steady_clock;
 
   std::filesystem::path path_;
-  Checkpoint head_;
+  SavedRender head_;
   Clock::duration every_;
   Warn warn_;
   Clock::time_point next_;

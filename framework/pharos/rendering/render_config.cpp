@@ -11,7 +11,7 @@ namespace {
 
 /// The most pixels of a film. Pharos can still read an image of this size with all layers.
 /// Rendering it takes about 16 GiB.
-constexpr std::int64_t kMostPixels = std::int64_t{1} << 26;
+constexpr std::int64_t kMostFilmPixels = std::int64_t{1} << 26;
 
 bool is_exr_or_empty(const std::string& path) {
   return path.empty() || std::filesystem::path(path).extension() == ".exr";
@@ -40,10 +40,10 @@ void check_film(const FilmSettings& film, const ConfigNode& node) {
                           "({}, {})",
                           film.width, film.height, window.x0, window.y0, window.x1, window.y1));
   }
-  if (static_cast<std::int64_t>(window.area()) > kMostPixels) {
+  if (static_cast<std::int64_t>(window.area()) > kMostFilmPixels) {
     nearest_node(node, {"film"})
         .fail(fmt::format("a film of {} x {} has more than {} pixels", window.width(),
-                          window.height(), kMostPixels));
+                          window.height(), kMostFilmPixels));
   }
 }
 

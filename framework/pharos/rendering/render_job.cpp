@@ -12,25 +12,13 @@
 #include <pharos/core/parallel.h>
 #include <pharos/core/stopwatch.h>
 #include <pharos/rendering/image_combiner.h>
-#include <pharos/rendering/pass_sizes.h>
+#include <pharos/rendering/iteration_state.h>
 #include <pharos/rendering/render_job.h>
 #include <pharos/rendering/schedule.h>
 #include <pharos/rendering/window_sensor.h>
 
 namespace pharos {
 namespace {
-
-/// Returns the parts of the whole film's tiles that lie in `window`.
-std::vector<PixelRect> tiles_of(const PixelRect& window, int edge) {
-  std::vector<PixelRect> tiles;
-  for (int y = window.y0 / edge * edge; y < window.y1; y += edge) {
-    for (int x = window.x0 / edge * edge; x < window.x1; x += edge) {
-      tiles.push_back({std::max(x, window.x0), std::max(y, window.y0),
-                       std::min(x + edge, window.x1), std::min(y + edge, window.y1)});
-    }
-  }
-  return tiles;
-}
 
 std::unique_ptr<const PreparedSensor> prepared_sensor(const Sensor& sensor,
                                                       const FilmSettings& film) {
@@ -43,29 +31,6 @@ SceneParts with_sensor(SceneParts parts, const Ref<Sensor>& sensor) {
   if (sensor != nullptr) parts.sensor = sensor;
   return parts;
 }
-
-/// Returns the number of pixels whose color is NaN or infinite, although the values of all paths
-/// are finite: sums may be too large for a float.
-std::size_t invalid_pixels(const Image& image) {
-  std::size_t count = 0;
-  for (int y = 0; y < image.height(); ++y) {
-    for (int x = 0; x < image.width(); ++x) count += is_finite(image.rgb(x, y)) ? 0 : 1;
-  }
-  return count;
-}
-
-/// The current iteration of a render between two work units.
-struct IterationState {
-  Film film;
-  PassSizes sizes;
-  double start = 0;          ///< on the budget's clock [s]
-  std::uint32_t done = 0;    ///< samples per pixel of whole passes
-  std::uint32_t pass = 0;    ///< samples per pixel of the pass in progress; 0: there is none
-  std::uint64_t units = 0;   ///< work units of this pass that are merged
-  double pixel_samples = 0;  ///< samples of these units, of all pixels together
-
-  void archive(Archive& archive) { archive(film, sizes, done, pass, units, pixel_samples); }
-};
 
 }  // namespace
 
@@ -105,7 +70,7 @@ class RenderJob::Implementation {
     // A render that was stopped during training has only training images to show.
     result_.image = combiner_.empty() ? last_image_ : combiner_.combine();
     result_.stopped = stopped();
-    result_.invalid_pixels = invalid_pixels(result_.image);
+    result_.invalid_pixels = invalid_colors(result_.image);
     if (guiding_ != nullptr) {
       result_.gain = guiding_->gain();
       result_.model_bytes = guiding_->model_bytes();
@@ -122,7 +87,11 @@ class RenderJob::Implementation {
     }
     begin({});
     while (begin_iteration()) {
-      if (iteration_.index == key.iteration) return integrator_->replay(key, context());
+      if (iteration_.index == key.iteration) {
+        if (key.sample < iteration_.samples) return integrator_->replay(key, context());
+        throw InputError(fmt::format("--replay: error: there is no sample {}: iteration {} has {}",
+                                     key.sample, key.iteration, iteration_.samples));
+      }
       run_iteration();
     }
     throw InputError(fmt::format("there is no iteration {}: this render has {}", key.iteration,

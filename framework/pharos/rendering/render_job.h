@@ -34,7 +34,7 @@ struct RenderSnapshot {
   std::function<Image()> image;
 };
 
-/// Whoever keeps the states of a render, so that the render can go on after it was killed.
+/// Callbacks that keep the states of a render. A render that was killed can go on from them.
 struct CheckpointControl {
   /// Whether a state is wanted now. Called after every work unit, by one thread at a time. May be
   /// empty: never.

@@ -243,12 +243,8 @@ SceneParts Value<SceneParts>::read(const ConfigNode& node, BuildContext& context
                                    ConfigNode& resolved) {
   if (!node.is_scalar()) return read_mapping(node, context, resolved);
   const auto path = Value<std::filesystem::path>::read(node, context, resolved);
-  std::error_code failed;  // checking a name that is too long fails
-  if (!std::filesystem::exists(path, failed)) {
-    node.fail("there is no scene file '" + path.string() + "'");
-  }
-  if (std::filesystem::is_directory(path, failed)) {
-    node.fail("expected a scene file, found the folder '" + path.string() + "'");
+  if (const std::string problem = file_problem(path); !problem.empty()) {
+    node.fail("the scene '" + path.string() + "': " + problem);
   }
   return read_mapping(read_config(path, &context.sources), context, resolved);
 }

@@ -1,4 +1,4 @@
-// Checkpoint files: read back as they were written; all damage is reported.
+// SavedRender files: read back as they were written; all damage is reported.
 
 #include <fstream>
 #include <iterator>
@@ -12,7 +12,7 @@
 namespace pharos::test {
 namespace {
 
-const Checkpoint kCheckpoint{
+const SavedRender kSaved{
     .config = "budget: { spp: 4 }", .build = "abc", .finished = true, .state = "a state"};
 
 std::string content(const std::filesystem::path& path) {
@@ -27,18 +27,18 @@ std::string refusal(const TemporaryFolder& folder, const std::string& bytes) {
 }
 
 std::string sound_file(const TemporaryFolder& folder) {
-  write_checkpoint(kCheckpoint, folder / "sound");
+  write_checkpoint(kSaved, folder / "sound");
   return content(folder / "sound");
 }
 
 TEST_CASE("checkpoint files: what is read is what was written") {
   const TemporaryFolder folder;
-  write_checkpoint(kCheckpoint, folder / "a");
-  const Checkpoint read = read_checkpoint(folder / "a");
-  CHECK(read.config == kCheckpoint.config);
-  CHECK(read.build == kCheckpoint.build);
+  write_checkpoint(kSaved, folder / "a");
+  const SavedRender read = read_checkpoint(folder / "a");
+  CHECK(read.config == kSaved.config);
+  CHECK(read.build == kSaved.build);
   CHECK(read.finished);
-  CHECK(read.state == kCheckpoint.state);
+  CHECK(read.state == kSaved.state);
 }
 
 TEST_CASE("checkpoint files: every flipped bit and every shorter file is refused") {
@@ -66,7 +66,7 @@ TEST_CASE("a writer writes what is due, and removes what dead writers have left"
   const std::filesystem::path other = folder.write("a.b.tmp", "of someone else");
   std::string warning;
   {
-    CheckpointWriter writer(folder / "a", kCheckpoint, 1e9,
+    CheckpointWriter writer(folder / "a", kSaved, 1e9,
                             [&](const std::string& message) { warning += message; });
     CHECK_FALSE(std::filesystem::exists(dead));
     CHECK(std::filesystem::exists(other));
@@ -80,7 +80,7 @@ TEST_CASE("a writer writes what is due, and removes what dead writers have left"
   CHECK(read_checkpoint(folder / "a").state == "new");
   CHECK(warning.empty());
 
-  CheckpointWriter lost(folder / "none" / "a", kCheckpoint, 1e9,
+  CheckpointWriter lost(folder / "none" / "a", kSaved, 1e9,
                         [&](const std::string& message) { warning += message; });
   lost.write("new", false);
   CHECK_FALSE(lost.finish());

@@ -78,7 +78,7 @@ TEST_CASE("extends: errors") {
         "self.yaml:1:1: error: 'extends' goes in a circle: 'self.yaml' extends 'self.yaml'");
   folder.write("lost.yaml", "x: 1\nextends: bb.yaml\n");
   CHECK(config_error(folder, "lost.yaml") ==
-        "lost.yaml:2:10: error: no such file 'bb.yaml' (did you mean 'b.yaml'?)");
+        "lost.yaml:2:10: error: 'bb.yaml': no such file (did you mean 'b.yaml'?)");
   folder.write("odd.yaml", "extends: {a: b}\n");
   CHECK(config_error(folder, "odd.yaml") ==
         "odd.yaml:1:10: error: expected the path of a config or a list of paths, found the "

@@ -312,7 +312,8 @@ TEST_CASE("a path stands for the scene in that file, relative to the file that s
   const auto wrong = folder.write("wrong.yaml", "\nscene: absent.yaml\n");
   const std::string message =
       test::input_error_in(folder, [&] { load(*read_yaml(wrong).find("scene")); });
-  CHECK(message == "wrong.yaml:2:8: error: there is no scene file 'absent.yaml'");
+  CHECK(message ==
+        "wrong.yaml:2:8: error: the scene 'absent.yaml': no such file (did you mean 'base.yaml'?)");
 }
 
 TEST_CASE("what does not fit together is an error with its place") {

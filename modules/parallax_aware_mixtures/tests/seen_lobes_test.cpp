@@ -98,6 +98,17 @@ TEST_CASE("opposite lobes of the same concentration leave a flat one") {
   CHECK(seen->density({1, 0, 0}) == doctest::Approx(warp::sphere_pdf()).epsilon(2e-3));
 }
 
+TEST_CASE("where almost nothing is left, densities are finite or there is no distribution") {
+  Arena arena;
+  for (float kappa = 20; kappa < 80; kappa += 0.25f) {
+    CAPTURE(kappa);
+    const std::vector<LobeGroup> groups = groups_of({{1, Direction::UnitZ(), kappa}});
+    const Factor opposite{{0, 0, -1}, kappa, 1};
+    const SeenLobes* seen = SeenLobes::make(groups, {}, {&opposite, 1}, arena);
+    if (seen != nullptr) CHECK(seen->density({1, 0, 0}) == doctest::Approx(warp::sphere_pdf()));
+  }
+}
+
 TEST_CASE("where nothing is left there is no distribution") {
   Arena arena;
   const std::vector<LobeGroup> groups = groups_of({{1, Direction::UnitZ(), 30'000}});

@@ -9,6 +9,8 @@ namespace pharos::mitsuba {
 
 std::string read_file(const std::filesystem::path& path, ReadingBudget& budget) {
   const Location where{path.string()};
+  if (budget.files == 0) throw InputError(where, "a scene may read at most 4096 files");
+  --budget.files;
   std::ifstream in(path, std::ios::binary);
   if (!in) throw InputError(where, "the file cannot be opened");
   std::string text;

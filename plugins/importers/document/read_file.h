@@ -8,6 +8,7 @@ namespace pharos::mitsuba {
 
 /// Limits for all files of one scene together. Each file takes its share.
 struct ReadingBudget {
+  std::size_t files = 4096;
   std::size_t bytes = std::size_t{256} << 20;
   std::size_t elements = 1'000'000;
   std::size_t attributes = 8'000'000;

@@ -8,8 +8,8 @@
 
 #include <fmt/core.h>
 
+#include <pharos/core/color_image.h>
 #include <pharos/core/error.h>
-#include <pharos/core/image.h>
 
 #include "uv_placement.h"
 
@@ -153,12 +153,13 @@ std::optional<Rgb> image_average(Part& part) {
   const std::filesystem::path folder = std::filesystem::path(node.where().file).parent_path();
   const std::filesystem::path file = folder / node.text();
   if (!file_problem(file).empty()) return std::nullopt;
-  const Image image = read_image(file, reads_linear(part) ? ColorSpace::linear : ColorSpace::srgb);
-  const std::array<int, 3> channels = image.color_channels();
+  const ColorImage image =
+      read_colors(file, reads_linear(part) ? ColorSpace::linear : ColorSpace::srgb);
   std::array<double, 3> sums{};
   for (int y = 0; y < image.height(); ++y) {
     for (int x = 0; x < image.width(); ++x) {
-      for (std::size_t c = 0; c < 3; ++c) sums[c] += double{image.pixel(x, y)[channels[c]]};
+      const Rgb color = image.pixel(x, y);
+      for (int c = 0; c < 3; ++c) sums[c] += double{color[c]};
     }
   }
   const double pixels = double{1} * image.width() * image.height();

@@ -266,6 +266,20 @@ TEST_CASE("includes") {
   CHECK(message() == "part.xml:1:8: error: unknown tag <flaot> (did you mean 'float'?)");
 }
 
+TEST_CASE("includes that fan out") {
+  const test::TemporaryFolder folder;
+  for (int level = 0; level < 12; ++level) {
+    std::string text = "<scene version=\"3.0.0\">";
+    for (int i = 0; level < 11 && i < 10; ++i) {
+      text += "<include filename=\"" + std::to_string(level + 1) + ".xml\"/>";
+    }
+    folder.write(std::to_string(level) + ".xml", text + "</scene>");
+  }
+  CHECK(test::input_error_in(folder, [&] {
+          read_document(folder / "0.xml");
+        }).find("a scene may read at most 4096 files") != std::string::npos);
+}
+
 TEST_CASE("files that are not there") {
   const test::TemporaryFolder folder;
   const auto message = [&](const std::string& name) {

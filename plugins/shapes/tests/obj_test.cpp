@@ -59,6 +59,7 @@ TEST_CASE("OBJ: a statement ends with its last continued line, though what is th
       "v 1 2 3 \\\n1.0\nv 0 1 0 \\\r\n\\\r\n0.5 0.5 0.5\nvt 0.5 0.5 \\\n0\n"
       "vn 0 0 1 \\\n # weight \\\nv 1e-400 -1e-60 1\nf 1/1/1 2/1/1 3/1/1\n");
   CHECK(mesh.positions == std::vector<Point3>{{1, 2, 3}, {0, 1, 0}, {0, 0, 1}});
+  CHECK(refusal(std::string("v 0\0 0 0\n", 9)).find("a.obj:1:3: error: '0?' is not a number") == 0);
   CHECK(refusal("v 0 0 0 \\\n1\nv 0 0\n") == "a.obj:3:6: error: a number is missing");
 }
 

@@ -128,6 +128,14 @@ TEST_CASE("PLY: an element comes once, so that every vertex has the same propert
         "line 9 of its header, 'element face 1', names an element for the second time");
 }
 
+TEST_CASE("PLY: a property comes once, and the format has version 1.0") {
+  CHECK(refusal("ply\nformat ascii 1.0\nelement vertex 1\n" + kVertexHeader +
+                "property float x\nend_header\n0 0 0 0\n") ==
+        "line 7 of its header, 'property float x', names a property for the second time");
+  CHECK(refusal("ply\nformat ascii 2.0\nend_header\n") ==
+        "line 2 of its header, 'format ascii 2.0', names no known version: known is 1.0");
+}
+
 TEST_CASE("PLY: counts are believed no further than the bytes reach") {
   // Rows without properties take no bytes, so a loop over the rows would not end.
   const std::string empty = "element nothing 18446744073709551615\n";

@@ -5,55 +5,18 @@
 
 #include <pharos/core/error.h>
 #include <pharos/core/file_lock.h>
-#include <pharos/core/version.h>
-#include <pharos/experiments/pictures/density_pictures.h>
 #include <pharos/experiments/runner/build_key.h>
+#include <pharos/experiments/runner/child.h>
 #include <pharos/experiments/runner/content_key.h>
 #include <pharos/experiments/runner/experiment.h>
 #include <pharos/experiments/runner/machine.h>
 #include <pharos/experiments/runner/output_folder.h>
-#include <pharos/experiments/runner/peak_memory.h>
+#include <pharos/experiments/runner/run_order.h>
 
 namespace pharos {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Measures an image in progress whenever the number of its own samples has doubled.
-class CheckpointLog {
- public:
-  explicit CheckpointLog(const Image& reference) : reference_(reference) {}
-
-  void look(const RenderSnapshot& snapshot) {
-    const double samples = snapshot.progress.samples_per_pixel;
-    if (snapshot.progress.training) {
-      training_samples_ = samples;
-      return;
-    }
-    if (samples - training_samples_ < next_) return;
-    next_ = 2 * (samples - training_samples_);
-    checkpoints_.push_back({samples, snapshot.progress.seconds,
-                            measure(snapshot.image(), reference_, checkpoint_metrics())});
-  }
-
-  double training_samples() const { return training_samples_; }
-
-  /// Returns all checkpoints, including the end of the run.
-  std::vector<Checkpoint> finish(const RunRecord& record) {
-    if (checkpoints_.empty() || checkpoints_.back().samples_per_pixel < record.samples_per_pixel) {
-      Checkpoint end{record.samples_per_pixel, record.seconds(), {}};
-      for (const Metric metric : checkpoint_metrics()) end.errors[metric] = record.errors[metric];
-      checkpoints_.push_back(end);
-    }
-    return std::move(checkpoints_);
-  }
-
- private:
-  const Image& reference_;
-  std::vector<Checkpoint> checkpoints_;
-  double training_samples_ = 0;
-  double next_ = 0;  ///< samples of the final image before the next checkpoint
-};
 
 /// Reports the progress of an experiment. The remaining time is estimated from the runs so far.
 class RunCounter {
@@ -109,9 +72,10 @@ class Runner {
     for (Run& run : runs) {
       if (results_.stopped) break;
       if (run.record) continue;
+      const std::size_t failed = results_.failed.size();
       run.record = render(run);
       if (run.record) counter.finish(*run.record);
-      results_.stopped = !run.record;
+      results_.stopped = !run.record && results_.failed.size() == failed;
     }
     for (Run& run : runs) {
       if (run.record) results_.records.push_back(std::move(*run.record));
@@ -153,7 +117,8 @@ class Runner {
       const auto report = [&](std::uint32_t part, std::uint32_t parts) {
         tell(fmt::format("{}: reference, part {} of {}", scene, part + 1, parts));
       };
-      auto reference = find_or_render(planned, cache, registry_, control_.render, report);
+      auto reference = find_or_render(planned, cache, registry_, control_.render, report,
+                                      [this](const std::string& message) { tell(message); });
       if (!reference) return false;
       if (planned.parts > 0 && reference->build != build_of(planned)) {
         tell(
@@ -194,74 +159,64 @@ class Runner {
     return content_key(key);
   }
 
-  /// Returns the record of an earlier run with the same key, if the files that must be kept exist.
+  /// Returns the record of an earlier run with the same key, if its files are as the run left them.
+  /// A damaged record is moved aside.
   std::optional<RunRecord> load(const Run& run) const {
-    std::optional<RunRecord> record = load_record(file_of(run, ".json"));
+    const fs::path file = file_of(run, ".json");
+    std::optional<RunRecord> record;
+    try {
+      record = load_record(file);
+    } catch (const InputError& error) {
+      tell(fmt::format("{}: {}", error.what(), moved_aside(file)));
+      return std::nullopt;
+    }
     if (!record || record->key != key_of(run)) return std::nullopt;
-    if (keeps_image(run) && !fs::exists(file_of(run, ".exr"))) return std::nullopt;
+    if (keeps_image(run) && !record->files.contains(".exr")) return std::nullopt;
+    for (const auto& [extension, key] : record->files) {
+      const fs::path kept = file_of(run, extension);
+      if (fs::is_regular_file(kept) && content_key_of_file(kept) == key) continue;
+      tell(fmt::format("{}: missing or changed, so the run is made again", kept.string()));
+      return std::nullopt;
+    }
     return record;
   }
 
-  /// Makes a run and writes its files. Returns empty if it was stopped.
-  std::optional<RunRecord> render(const Run& run) {
-    remove_run(file_of(run, ""));
-    PeakMemory peak;
-    const LoadedConfig loaded = build_run(run.cell->config, run.seed, registry_);
-    const Image& reference = results_.references[run.cell->scene].image;
-    RenderJob job(loaded.config);
-    CheckpointLog checkpoints(reference);
-    RenderControl control = control_.render;
-    control.on_pass = [&](const RenderSnapshot& snapshot) {
-      peak.leave_out([&] { checkpoints.look(snapshot); });
-    };
-    const RenderResult result = job.run(control);
-    if (result.stopped) return std::nullopt;
-    RunRecord record = record_of(run, result);
-    record.peak_bytes = peak.bytes();
-    record.training_samples = checkpoints.training_samples();
-    const Display display{loaded.config.output.exposure};
-    record.errors = measure(result.image, reference, display);
-    record.checkpoints = checkpoints.finish(record);
-    keep_images(run, result, job.scene(), display);
-    save_record(record, file_of(run, ".json"));
-    return record;
-  }
-
-  RunRecord record_of(const Run& run, const RenderResult& result) const {
+  /// Returns the order for a run.
+  RunOrder order_of(const Run& run) const {
     return {.key = key_of(run),
-            .version = version(),
-            .threads = thread_count(),
-            .processor = processor_name(),
             .scene = scene_of(run),
             .method = method_of(run),
             .seed = run.seed,
-            .samples_per_pixel = result.samples_per_pixel,
-            .training_samples = 0,
-            .times = result.times,
-            .rays = result.counters.rays,
-            .invalid_paths = result.counters.invalid_paths,
-            .gain = result.gain,
-            .model_bytes = result.model_bytes,
-            .peak_bytes = {},
-            .errors = {},
-            .checkpoints = {}};
+            .config = run.cell->text,
+            .exposure = run.cell->exposure,
+            .reference = fs::absolute(results_.references[run.cell->scene].file),
+            .stem = fs::absolute(file_of(run, "")),
+            .keeps_image = keeps_image(run),
+            .keeps_pictures = run.seed == results_.config.first_seed};
   }
 
-  void keep_images(const Run& run, const RenderResult& result, const Scene& scene,
-                   const Display& display) const {
-    fs::create_directories(file_of(run, "").parent_path());
-    if (keeps_image(run)) {
-      write_exr(select_layers(result.image, {}), file_of(run, ".exr"),
-                {{"pharos:version", version()},
-                 {"pharos:exposure", fmt::format("{}", display.exposure)}});
+  /// Makes a run, in a process of its own if there is a program for it. Returns empty if the run
+  /// was stopped or has failed.
+  std::optional<RunRecord> render(const Run& run) {
+    remove_run(file_of(run, ""));
+    const RunOrder order = order_of(run);
+    if (control_.run_program.empty()) return make_run(order, registry_, control_.render);
+    const fs::path file = file_of(run, ".order");
+    fs::create_directories(file.parent_path());
+    save_order(order, file);
+    std::vector<std::string> command = control_.run_program;
+    command.push_back(file.string());
+    const ChildEnd end = run_child(command, results_.config.limits(), control_.render.stop);
+    fs::remove(file);
+    if (end.is_stopped) return std::nullopt;
+    std::optional<RunRecord> record = end.problem.empty() ? load(run) : std::nullopt;
+    if (!record) {
+      const std::string name = fmt::format("{}, {}, seed {}", order.scene, order.method, run.seed);
+      tell(fmt::format("{}: failed: {}", name,
+                       end.problem.empty() ? "it left no record" : end.problem));
+      results_.failed.push_back(name);
     }
-    if (run.seed != results_.config.first_seed || result.model == nullptr) return;
-    const Image& image = result.image;
-    for (const DensityPicture& picture :
-         density_pictures(*result.model, scene, image.width(), image.height())) {
-      write_exr(picture.image, file_of(run, "." + picture.name + ".exr"),
-                {{"pharos:caption", picture.caption}});
-    }
+    return record;
   }
 
   const Registry& registry_;

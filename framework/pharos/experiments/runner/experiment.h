@@ -20,13 +20,18 @@
 /// Runs are made one after the other, each on all threads: seed by seed, then scene by scene, then
 /// method by method. If the machine is disturbed for a while, all methods are affected alike. Each
 /// finished run leaves a record in the output folder. A run is skipped if its record exists and the
-/// run would give the same result, so an experiment that was stopped can be resumed.
+/// run would give the same result, so an experiment that was stopped can be resumed. A run whose
+/// record or images were damaged or changed is made again. A run that fails ends nothing but
+/// itself.
 namespace pharos {
 
 /// Callbacks that observe and stop an experiment.
 struct ExperimentControl {
   RenderControl render;  ///< control of each render; `on_pass` is not used
   std::function<void(const std::string&)> on_message;  ///< progress messages
+  /// The program and arguments that make a run, see make_run(). The path of a file by save_order()
+  /// is added. Empty: runs are made in this process.
+  std::vector<std::string> run_program;
 };
 
 /// The results of an experiment so far.
@@ -37,6 +42,7 @@ struct ExperimentResults {
   std::vector<RunRecord> records;     ///< all known records, in the order of the runs
   std::size_t run_count = 0;          ///< number of runs of the whole experiment
   bool stopped = false;
+  std::vector<std::string> failed;  ///< runs that failed, by scene, method and seed
 
   std::filesystem::path folder() const { return config.output; }
   /// Returns the path of a file of a run, such as "output/runs/cornell-box/sobol/seed-1" +

@@ -125,10 +125,25 @@ void ExperimentConfig::describe(Schema<ExperimentConfig>& s) {
   s.field("reference", &ExperimentConfig::reference, "Reference that errors are measured against");
   s.field("images", &ExperimentConfig::images,
           "Runs whose images are kept: runs of the first seed or all");
+  s.field("time_limit", &ExperimentConfig::time_limit,
+          "A run that takes longer is ended and counts as failed")
+      .unit("s")
+      .above(0);
+  s.field("memory_limit", &ExperimentConfig::memory_limit,
+          "Address space of a run; one that needs more fails")
+      .unit("GiB")
+      .above(0);
   s.field("output", &ExperimentConfig::output,
           "Folder, relative to the current one; by default the file's name");
   s.field("cache", &ExperimentConfig::cache,
           "Folder of rendered references; by default pharos/references in the user's cache");
+}
+
+ChildLimits ExperimentConfig::limits() const {
+  constexpr double kGibibyte = 1 << 30;
+  ChildLimits limits{.seconds = time_limit, .bytes = {}};
+  if (memory_limit) limits.bytes = *memory_limit * kGibibyte;
+  return limits;
 }
 
 ExperimentConfig load_experiment(const std::filesystem::path& path,

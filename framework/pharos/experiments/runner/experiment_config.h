@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include <pharos/experiments/runner/child.h>
 #include <pharos/rendering/budget.h>
 #include <pharos/rendering/render_config.h>
 
@@ -70,12 +71,16 @@ struct ExperimentConfig {
   std::string baseline;  ///< denominator of ratios; empty: the first method
   ReferenceSettings reference;
   KeptImages images = KeptImages::first;
-  std::string output;           ///< folder, relative to the current one
-  std::filesystem::path cache;  ///< folder of references; empty: the user's cache folder
+  std::optional<double> time_limit;    ///< of a run [s]; none: unlimited
+  std::optional<double> memory_limit;  ///< address space of a run [GiB]; none: unlimited
+  std::string output;                  ///< folder, relative to the current one
+  std::filesystem::path cache;         ///< folder of references; empty: the user's cache folder
 
   std::filesystem::path source;           ///< absolute path of the file it was read from
   std::vector<ExperimentScene> left_out;  ///< optional scenes whose config does not exist
 
+  /// Returns the limits of the process that makes a run.
+  ChildLimits limits() const;
   /// Returns the budget of every run of a scene.
   const Budget& budget_of(const ExperimentScene& scene) const {
     return scene.budget ? *scene.budget : budget;

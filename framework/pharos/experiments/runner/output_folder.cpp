@@ -11,6 +11,10 @@ namespace pharos {
 
 namespace fs = std::filesystem;
 
+namespace {
+constexpr const char* kDamaged = ".damaged";
+}  // namespace
+
 FileLock claim_folder(const fs::path& folder, const fs::path& source) {
   std::error_code failed;
   fs::create_directories(folder, failed);
@@ -39,9 +43,18 @@ void remove_run(const fs::path& stem) {
   const std::string start = stem.filename().string() + ".";
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(stem.parent_path())) {
-    if (entry.path().filename().string().starts_with(start)) files.push_back(entry.path());
+    const fs::path& file = entry.path();
+    if (file.extension() == kDamaged) continue;
+    if (file.filename().string().starts_with(start)) files.push_back(file);
   }
   for (const fs::path& file : files) fs::remove(file);
+}
+
+std::string moved_aside(const fs::path& path) {
+  const fs::path aside = path.string() + kDamaged;
+  fs::remove_all(aside);
+  fs::rename(path, aside);
+  return fmt::format("moved to '{}'", aside.string());
 }
 
 }  // namespace pharos

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include <pharos/core/file_lock.h>
 
@@ -12,7 +13,10 @@ namespace pharos {
 FileLock claim_folder(const std::filesystem::path& folder, const std::filesystem::path& source);
 
 /// Removes the files of a run, which are `stem` with any extension, so that no file of an earlier
-/// config remains.
+/// config remains. Damaged files that were moved aside stay.
 void remove_run(const std::filesystem::path& stem);
+
+/// Renames a damaged file or folder to its name with `.damaged`. Returns a text that says so.
+std::string moved_aside(const std::filesystem::path& path);
 
 }  // namespace pharos

@@ -14,6 +14,7 @@ struct PlannedCell {
   std::size_t scene = 0, method = 0;  ///< indices into the experiment's lists
   ConfigNode config;                  ///< config of the render, budget included
   std::string text;                   ///< YAML with every value in force, without seed and output
+  float exposure = 0;                 ///< OutputSettings::exposure [stops]
   std::string key;  ///< key of the config's content and of the code that renders it
 };
 

@@ -3,12 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <pharos/core/error.h>
 #include <pharos/core/file_lock.h>
 #include <pharos/core/user_cache.h>
 #include <pharos/core/version.h>
 #include <pharos/experiments/metrics/metrics.h>
 #include <pharos/experiments/runner/build_key.h>
 #include <pharos/experiments/runner/content_key.h>
+#include <pharos/experiments/runner/output_folder.h>
 #include <pharos/experiments/runner/reference.h>
 
 namespace pharos {
@@ -56,19 +58,27 @@ std::optional<double> number_at(const Metadata& metadata, const std::string& key
   return std::strtod(text.c_str(), nullptr);
 }
 
+/// The name under which the header of an image file holds pixels_key().
+constexpr const char* kPixelsEntry = "pharos:pixels";
+
+std::string pixels_key(const Image& image) {
+  const std::vector<float>& values = image.values();
+  return content_key({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float)});
+}
+
 /// The references of one cache folder, by key. The parts of unfinished references are stored next
 /// to them.
 class Cache {
  public:
-  Cache(fs::path folder, std::string key, const PlannedReference& planned)
-      : folder_(std::move(folder)), key_(std::move(key)), planned_(planned) {}
+  Cache(fs::path folder, std::string key, const PlannedReference& planned, const Tell& tell)
+      : folder_(std::move(folder)), key_(std::move(key)), planned_(planned), tell_(tell) {}
 
   std::optional<Reference> find() const {
     const fs::path file = path();
-    if (!fs::exists(file)) return std::nullopt;
+    std::optional<Image> image = sound_image(file);
+    if (!image) return std::nullopt;
     const Metadata metadata = read_metadata(file);
-    Reference reference{
-        .image = read_reference(file, planned_.width, planned_.height), .key = key_, .file = file};
+    Reference reference{.image = std::move(*image), .key = key_, .file = file};
     reference.samples_per_pixel = number_at(metadata, "pharos:samples_per_pixel").value_or(0);
     reference.seconds = number_at(metadata, "pharos:seconds").value_or(0);
     reference.mse = number_at(metadata, "pharos:own_mse");
@@ -78,11 +88,13 @@ class Cache {
     return reference;
   }
 
-  bool has_part(std::uint32_t part) const { return fs::exists(part_path(part)); }
+  bool has_part(std::uint32_t part) const { return sound_image(part_path(part)).has_value(); }
 
   void keep_part(std::uint32_t part, const RenderResult& result) const {
-    write_exr(select_layers(result.image, {}), part_path(part),
+    const Image image = select_layers(result.image, {});
+    write_exr(image, part_path(part),
               {{"pharos:version", version()},
+               {kPixelsEntry, pixels_key(image)},
                {"pharos:samples_per_pixel", fmt::format("{}", result.samples_per_pixel)},
                {"pharos:seconds", fmt::format("{}", result.times.budgeted())}});
   }
@@ -104,8 +116,10 @@ class Cache {
     // of a half is twice the variance of the whole.
     static constexpr std::array<Metric, 2> metrics{Metric::mse, Metric::relative_mse};
     const ImageErrors difference = measure(halves[0].mean(), halves[1].mean(), metrics);
-    write_exr(whole.mean(), path(),
+    const Image image = whole.mean();
+    write_exr(image, path(),
               {{"pharos:version", version()},
+               {kPixelsEntry, pixels_key(image)},
                {"pharos:build", build},
                {"pharos:config", config},
                {"pharos:parts", std::to_string(planned_.parts)},
@@ -124,6 +138,24 @@ class Cache {
   fs::path lock_path() const { return folder_ / (key_ + ".lock"); }
 
  private:
+  /// Returns the image in a file; none if there is no file or it is damaged. A damaged file is
+  /// moved aside.
+  std::optional<Image> sound_image(const fs::path& file) const {
+    if (!fs::exists(file)) return std::nullopt;
+    std::string problem = "its pixels were changed";
+    try {
+      Image image = read_reference(file, planned_.width, planned_.height);
+      // Files of older versions have no such entry.
+      const std::string key = text_at(read_metadata(file), kPixelsEntry);
+      if (key.empty() || key == pixels_key(image)) return image;
+    } catch (const InputError& error) {
+      problem = error.what();
+    }
+    tell_(fmt::format("{}: {}; {}, and is rendered again", file.string(), problem,
+                      moved_aside(file)));
+    return std::nullopt;
+  }
+
   fs::path path() const { return folder_ / (key_ + ".exr"); }
   fs::path part_path(std::uint32_t part) const {
     return folder_ / fmt::format("{}.part-{}.exr", key_, part);
@@ -132,6 +164,7 @@ class Cache {
   fs::path folder_;
   std::string key_;
   const PlannedReference& planned_;
+  const Tell& tell_;
 };
 
 }  // namespace
@@ -142,19 +175,18 @@ fs::path default_reference_cache() {
 
 std::optional<Reference> find_or_render(const PlannedReference& planned,
                                         const fs::path& cache_folder, const Registry& registry,
-                                        const RenderControl& control, const PartReport& report) {
+                                        const RenderControl& control, const PartReport& report,
+                                        const Tell& tell) {
   if (planned.parts == 0) {
     Reference given{.image = read_reference(planned.file, planned.width, planned.height),
                     .file = planned.file};
-    const std::vector<float>& values = given.image.values();
-    given.key =
-        content_key({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float)});
+    given.key = pixels_key(given.image);
     return given;
   }
   const LoadedConfig whole = build_run(planned.config, kReferenceSeed, registry);
   const Cache cache(cache_folder,
-                    content_key(content_key(whole) + fmt::format(" in {}", planned.parts)),
-                    planned);
+                    content_key(content_key(whole) + fmt::format(" in {}", planned.parts)), planned,
+                    tell);
   fs::create_directories(cache_folder);
   // Another process may be rendering the same reference. In this case, its result is used.
   const auto lock = FileLock::wait(cache.lock_path(), control.stop);

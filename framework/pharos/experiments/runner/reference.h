@@ -31,13 +31,15 @@ std::filesystem::path default_reference_cache();
 
 /// Called before each part of a reference is rendered.
 using PartReport = std::function<void(std::uint32_t part, std::uint32_t parts)>;
+/// Receives messages on files that were damaged.
+using Tell = std::function<void(const std::string&)>;
 
 /// Returns the reference of a plan. It is read from its file or from `cache`, or those parts are
 /// rendered that are missing. If the work is stopped, finished parts stay in the cache and the
-/// result is empty. Throws InputError if a file of the cache is damaged.
+/// result is empty. Damaged files of the cache are moved aside and rendered again.
 std::optional<Reference> find_or_render(const PlannedReference& planned,
                                         const std::filesystem::path& cache,
                                         const Registry& registry, const RenderControl& control,
-                                        const PartReport& report);
+                                        const PartReport& report, const Tell& tell);
 
 }  // namespace pharos

@@ -3,6 +3,8 @@
 #include <fstream>
 
 #include <pharos/core/atomic_file.h>
+#include <pharos/core/error.h>
+#include <pharos/experiments/runner/content_key.h>
 #include <pharos/experiments/runner/run_record.h>
 #include <pharos/experiments/tables/json_number.h>
 
@@ -12,7 +14,7 @@ namespace {
 using nlohmann::json;
 
 /// The format version of record files.
-constexpr int kFormat = 4;
+constexpr int kFormat = 5;
 
 ImageErrors errors_from(const json& node) {
   ImageErrors errors;
@@ -67,7 +69,8 @@ RunRecord record_from(const json& node) {
                    .model_bytes = node.at("model_bytes"),
                    .peak_bytes = optional_number(node.at("peak_bytes")),
                    .errors = errors_from(node.at("errors")),
-                   .checkpoints = {}};
+                   .checkpoints = {},
+                   .files = node.at("files")};
   for (const json& checkpoint : node.at("checkpoints")) {
     record.checkpoints.push_back({checkpoint.at("samples_per_pixel"), checkpoint.at("seconds"),
                                   errors_from(checkpoint.at("errors"))});
@@ -120,25 +123,41 @@ json to_json(const RunRecord& record) {
           {"model_bytes", record.model_bytes},
           {"peak_bytes", optional_json(record.peak_bytes)},
           {"errors", to_json(record.errors)},
-          {"checkpoints", std::move(checkpoints)}};
+          {"checkpoints", std::move(checkpoints)},
+          {"files", record.files}};
 }
+
+namespace {
+
+/// Returns the checksum of a record without its checksum.
+std::string checksum_of(json node) {
+  node.erase("checksum");
+  return content_key(node.dump());
+}
+
+}  // namespace
 
 void save_record(const RunRecord& record, const std::filesystem::path& path) {
   json node = to_json(record);
   node["format"] = kFormat;
+  node["checksum"] = checksum_of(node);
   write_text_atomically(path, node.dump(1) + "\n");
 }
 
 std::optional<RunRecord> load_record(const std::filesystem::path& path) {
+  if (!std::filesystem::exists(path)) return std::nullopt;
+  const Location where{path.string()};
+  if (const std::string problem = file_problem(path); !problem.empty()) {
+    throw InputError(where, problem);
+  }
   std::ifstream in(path);
-  if (!in) return std::nullopt;
   try {
     const json node = json::parse(in);
     if (node.value("format", 0) != kFormat) return std::nullopt;
-    return record_from(node);
-  } catch (const json::exception&) {
-    return std::nullopt;
+    if (node.at("checksum") == checksum_of(node)) return record_from(node);
+  } catch (const json::exception&) {  // no JSON, or values are missing
   }
+  throw InputError(where, "the record is damaged or was changed");
 }
 
 }  // namespace pharos

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -39,6 +40,8 @@ struct RunRecord {
   std::optional<double> peak_bytes;
   ImageErrors errors;
   std::vector<Checkpoint> checkpoints;  ///< of the final image, in order; the last is the end
+  /// The content keys of the run's images, by what follows the stem of their names.
+  std::map<std::string, std::string> files;
 
   /// Returns the time that a time budget counts [s], see RenderTimes::budgeted().
   double seconds() const { return times.budgeted(); }
@@ -54,7 +57,7 @@ nlohmann::json to_json(const RunRecord& record);
 /// Writes the record. The file is written completely or not at all.
 void save_record(const RunRecord& record, const std::filesystem::path& path);
 /// Reads the record in a file. Returns empty if there is no file or the file has another format.
-/// Such files are written anew.
+/// Such files are written anew. Throws InputError if the file is damaged or was changed.
 std::optional<RunRecord> load_record(const std::filesystem::path& path);
 
 }  // namespace pharos

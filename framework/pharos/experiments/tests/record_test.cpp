@@ -1,3 +1,5 @@
+#include <fstream>
+#include <iterator>
 #include <limits>
 
 #include <doctest/doctest.h>
@@ -24,7 +26,8 @@ RunRecord full_record() {
                    .model_bytes = 7,
                    .peak_bytes = 8.5,
                    .errors = {},
-                   .checkpoints = {}};
+                   .checkpoints = {},
+                   .files = {{".exr", "abc"}}};
   record.errors[Metric::mse] = 1.0 / 7;
   record.errors[Metric::psnr] = std::numeric_limits<double>::infinity();
   record.errors.invalid_pixels = 9;
@@ -49,17 +52,37 @@ TEST_CASE("records come back as they were, to the bit") {
   CHECK(loaded->errors.invalid_pixels == 9);
   CHECK(loaded->checkpoints.at(0).errors[Metric::mse] == record.errors[Metric::mse]);
   CHECK(*loaded->peak_bytes == 8.5);
+  CHECK(loaded->files == record.files);
   REQUIRE(loaded->gain);
   CHECK(loaded->gain->nats == -0.5);
   CHECK(loaded->gain->noise_ratio == std::optional(0.75));
   CHECK(loaded->gain->is_off);
 }
 
-TEST_CASE("no file, a cut file and one of another format are no records") {
+TEST_CASE("no file and a file of another format are no records") {
   const test::TemporaryFolder folder;
   CHECK_FALSE(load_record(folder / "none.json"));
-  CHECK_FALSE(load_record(folder.write("cut.json", "{\"format\": 1, \"key\": \"")));
   CHECK_FALSE(load_record(folder.write("other.json", "{\"format\": 99}")));
-  CHECK_FALSE(load_record(folder.write("list.json", "[1, 2]")));
-  CHECK_FALSE(load_record(folder.write("bare.json", "{\"format\": 1, \"key\": 3}")));
+}
+
+TEST_CASE("records that are cut off or changed are input errors") {
+  const test::TemporaryFolder folder;
+  const auto refusal = [&](const std::string& text) {
+    const auto path = folder.write("record.json", text);
+    return test::input_error_in(folder, [&] { load_record(path); });
+  };
+  const std::string damaged = "record.json: error: the record is damaged or was changed";
+  CHECK(refusal("{\"format\": 5, \"key\": \"") == damaged);
+  CHECK(refusal("[1, 2]") == damaged);
+  CHECK(refusal("{\"format\": 5, \"key\": 3}") == damaged);
+  save_record(full_record(), folder / "record.json");
+  std::ifstream in(folder / "record.json");
+  std::string text{std::istreambuf_iterator<char>(in), {}};
+  CHECK(refusal(text) == "no error");
+  text.replace(text.find("\"seed\": "), 9, "\"seed\": 2");
+  CHECK(refusal(text) == damaged);
+  std::filesystem::remove(folder / "record.json");
+  std::filesystem::create_directory(folder / "record.json");
+  CHECK(test::input_error_in(folder, [&] { load_record(folder / "record.json"); }) ==
+        "record.json: error: expected a file, found a folder");
 }

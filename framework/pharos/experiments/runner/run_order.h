@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include <pharos/experiments/runner/run_record.h>
+
+namespace pharos {
+
+/// Everything that one run of an experiment needs. A process of its own can make the run, so that a
+/// run that aborts ends nothing but itself.
+struct RunOrder {
+  std::string key;  ///< RunRecord::key
+  std::string scene, method;
+  std::uint64_t seed = 0;
+  std::string config;               ///< resolved config without seed and output, as YAML
+  float exposure = 0;               ///< at which metrics of displayed images look [stops]
+  std::filesystem::path reference;  ///< image that errors are measured against
+  std::filesystem::path stem;       ///< the run's files without their extensions
+  bool keeps_image = false;         ///< writes the image
+  bool keeps_pictures = false;      ///< writes pictures of what was learned
+};
+
+/// Writes an order, or reads it. Both throw RunError.
+void save_order(const RunOrder& order, const std::filesystem::path& path);
+RunOrder load_order(const std::filesystem::path& path);
+
+/// Makes a run and writes its files. Returns empty if it was stopped.
+std::optional<RunRecord> make_run(const RunOrder& order, const Registry& registry,
+                                  const RenderControl& control);
+
+}  // namespace pharos
