@@ -1,9 +1,11 @@
 #include "render_outputs.h"
 
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
+#include <string>
 #include <unistd.h>
 #include <utility>
 #include <vector>
@@ -37,6 +39,17 @@ std::vector<std::pair<const char*, std::filesystem::path>> outputs_of(
 std::filesystem::path without_links(const std::filesystem::path& file) {
   std::error_code failed;
   return std::filesystem::weakly_canonical(std::filesystem::absolute(file, failed), failed);
+}
+
+/// Opens a file without a name in a folder; a negative number if that fails. Where the file system
+/// has no such files, it removes the name at once.
+int open_nameless(const std::filesystem::path& folder) {
+  const int file = open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);
+  if (file >= 0) return file;
+  std::string name = (folder / ".pharos-XXXXXX").string();
+  const int named = mkostemp(name.data(), O_CLOEXEC);
+  if (named >= 0) unlink(name.c_str());
+  return named;
 }
 
 bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
@@ -88,8 +101,7 @@ OutputSpace::OutputSpace(const RenderConfig& config) {
   constexpr int kColors = 3, kMostChannels = 3;
   const std::filesystem::path image = config.output.image;
   const std::filesystem::path folder = image.has_parent_path() ? image.parent_path() : ".";
-  // Not all file systems have files without a name.
-  file_ = open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600);
+  file_ = open_nameless(folder);
   if (file_ < 0) return;
   const std::size_t channels = kColors + kMostChannels * config.output.aovs.size();
   const std::size_t bytes = config.film.window().area() * channels * sizeof(float);

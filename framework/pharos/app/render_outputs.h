@@ -9,7 +9,7 @@ namespace pharos {
 void check_outputs(const LoadedConfig& loaded);
 
 /// Holds the disk space of an image while it renders, in a file without a name that vanishes with
-/// the process. Does nothing where the file system has no such files.
+/// the process.
 class OutputSpace {
  public:
   /// Throws RunError if there is too little space.
