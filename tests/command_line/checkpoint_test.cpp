@@ -170,7 +170,7 @@ TEST_CASE("checkpoints that do not fit are refused") {
 
   REQUIRE(run_pharos("render box.yaml -q --set seed=5 -o other.exr", folder.path()).exit_code == 0);
   refused("--continue box.exr --set budget.spp=16 --set seed=5",
-          {"box.exr: error: is not the image of the checkpoint"},
+          {"box.exr: error: this is not the image of the checkpoint"},
           content(folder.path() / "box.checkpoint"));
   interrupt_pharos("render box.yaml -q --set budget.spp=100000", folder.path(), 0.5, "INT");
   refused("--continue box.exr --set budget.spp=200000", {"not finished", "--resume"},

@@ -131,7 +131,7 @@ TEST_CASE("an experiment leaves tables, images, records and a report") {
     CHECK(read_text(folder.path() / "test/report.html").find("0.05 s in flat") !=
           std::string::npos);
   }
-  SUBCASE("an optional scene that does not exist is left out, and its name is told") {
+  SUBCASE("a message names an optional scene that is left out") {
     const std::string absent = "'scenes.1={ name: far, config: far/away.yaml, optional: true }'";
     const Outcome rest = run_pharos("experiment test.yaml --set " + absent, folder.path());
     REQUIRE_MESSAGE(rest.exit_code == 0, rest.err);

@@ -122,7 +122,7 @@ std::string state_to_continue(const LoadedConfig& loaded, const SavedRender& own
   }
   const auto entry = metadata.find(kStateEntry);
   if (entry == metadata.end() || entry->second != state_name(checkpoint.state)) {
-    throw InputError(fmt::format("{}: error: is not the image of the checkpoint '{}'",
+    throw InputError(fmt::format("{}: error: this is not the image of the checkpoint '{}'",
                                  image.string(), output.checkpoint));
   }
   check_budget_grows(checkpoint, loaded.config.budget);

@@ -18,9 +18,9 @@ SavedRender saved_render_head(const LoadedConfig& loaded, const Registry& regist
 std::string state_to_resume(const LoadedConfig& loaded, const SavedRender& own);
 
 /// Returns the state from which `pharos render --continue IMAGE` adds samples to a finished image.
-/// Throws InputError in the same cases as state_to_resume(), and if the budget is not larger than
-/// that of the finished image, if there is no checkpoint, if it is not that of a finished render,
-/// or if `image` is not the image of that render.
+/// Throws InputError in the same cases as state_to_resume(), and if there is no checkpoint, if its
+/// render is not finished, if `image` is not the image of this render, or if the budget has not
+/// grown.
 std::string state_to_continue(const LoadedConfig& loaded, const SavedRender& own,
                               const std::filesystem::path& image);
 

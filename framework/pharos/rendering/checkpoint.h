@@ -15,10 +15,10 @@
 ///     uint64    checksum of the head
 ///     the state
 ///
-/// A text is its length as uint64 and its bytes. Checksums are those of checksum().
+/// A text is stored as its length (uint64), followed by its bytes. checksum() makes the checksums.
 namespace pharos {
 
-/// What a checkpoint file holds.
+/// The content of a checkpoint file.
 struct SavedRender {
   std::string config;     ///< the render's config and the content of its files, as YAML
   std::string build;      ///< key of the code that rendered

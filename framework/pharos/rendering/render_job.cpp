@@ -256,8 +256,7 @@ class RenderJob::Implementation {
     // Large passes are divided into chunks. The units of a chunk cover all tiles before the units
     // of the next chunk.
     const std::uint32_t chunk = unit_samples(iteration_);
-    const std::size_t chunks = (now.pass + chunk - 1) / chunk;
-    const std::size_t first = now.units;
+    const std::size_t count = unit_count(), first = now.units;
     const auto unit = [&](std::size_t i) {
       const std::size_t number = first + i;
       const auto before = static_cast<std::uint32_t>(number / tiles_.size()) * chunk;
@@ -279,9 +278,8 @@ class RenderJob::Implementation {
       }
       if (control_.checkpoint.is_due && control_.checkpoint.is_due()) save_state(false);
     };
-    parallel_ordered(chunks * tiles_.size() - first, produce, consume,
-                     [&](std::size_t) { return !stopped(); });
-    const bool complete = now.units == chunks * tiles_.size();
+    parallel_ordered(count - first, produce, consume, [&](std::size_t) { return !stopped(); });
+    const bool complete = now.units == count;
     if (!complete) save_when_stopped();
     now.film.end_pass(now.pixel_samples / film_area(), complete);
     if (complete) now.done += now.pass;
@@ -289,6 +287,12 @@ class RenderJob::Implementation {
     now.units = 0;
     now.pixel_samples = 0;
     return complete;
+  }
+
+  /// Returns the number of work units in the current pass.
+  std::size_t unit_count() const {
+    const std::size_t chunk = unit_samples(iteration_);
+    return (current_->pass + chunk - 1) / chunk * tiles_.size();
   }
 
   /// Adds the result of a work unit to the film and the training data.
@@ -348,6 +352,7 @@ class RenderJob::Implementation {
       current_.emplace(begun_iteration(start));
     }
     archive(*current_);
+    archive.expect(current_->units <= unit_count(), "the state of the render");
   }
 
   double film_area() const { return static_cast<double>(config_.film.window().area()); }

@@ -21,7 +21,7 @@ constexpr int kNotStarted = 127;
 /// The exit code of a program that was interrupted.
 constexpr int kInterruptedCode = 130;
 
-/// Holds back all signals of the thread.
+/// Blocks all signals of the thread while it exists.
 class HeldSignals {
  public:
   HeldSignals() {
@@ -48,8 +48,9 @@ void forget_handlers() {
   }
 }
 
-/// Becomes the program. Only calls what is safe after fork() in a process with threads. A handler
-/// of the parent must not run here: it would swallow the signal, or wait for a lock forever.
+/// Replaces the forked process by the program. Only calls functions that are safe after fork() in a
+/// process with threads. No signal handler of the parent may run here, because the signal would
+/// then be lost, or the handler could wait forever for a lock that another thread held.
 [[noreturn]] void become(char* const* arguments, rlim_t bytes, const HeldSignals& held) {
   forget_handlers();
   held.release();

@@ -7,7 +7,7 @@
 
 namespace pharos {
 
-/// What a child process may use.
+/// Limits on the time and memory of a child process.
 struct ChildLimits {
   std::optional<double> seconds;  ///< wall-clock time
   std::optional<double> bytes;    ///< address space

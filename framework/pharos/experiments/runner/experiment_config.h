@@ -95,8 +95,8 @@ struct ExperimentConfig {
 };
 
 /// Reads an experiment file, follows `extends`, applies `overrides` and makes the checks that
-/// concern several values: names exist and are unique, the baseline is a method. Optional scenes
-/// whose config does not exist are moved to `left_out`. Throws InputError.
+/// concern several values: names exist and are unique, the baseline is a method. Moves optional
+/// scenes without a config file to `left_out`. Throws InputError.
 ExperimentConfig load_experiment(const std::filesystem::path& path,
                                  const std::vector<std::string>& overrides,
                                  const Registry& registry);
