@@ -26,7 +26,7 @@ TEST_CASE("children: done, failed, interrupted, killed, not there") {
 }
 
 TEST_CASE("children: limits of time and memory") {
-  CHECK(shell("sleep 20", {.seconds = 0.2, .bytes = {}}).problem == "took longer than 0.2 s");
+  CHECK(shell("exec sleep 20", {.seconds = 0.2, .bytes = {}}).problem == "took longer than 0.2 s");
   CHECK_FALSE(shell("true", {.seconds = {}, .bytes = 1e4}).problem.empty());
 }
 
@@ -40,7 +40,7 @@ TEST_CASE("children: asked to end") {
   later.join();
   CHECK(end.is_stopped);
   CHECK(end.problem.empty());
-  CHECK(shell("sleep 20", {}, &stop).is_stopped);  // it ends at once, by the signal
+  CHECK(shell("exec sleep 20", {}, &stop).is_stopped);  // it ends at once, by the signal
 }
 
 }  // namespace
