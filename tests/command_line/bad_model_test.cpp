@@ -2,7 +2,6 @@
 // renders anything.
 
 #include <fstream>
-#include <iterator>
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -14,11 +13,6 @@
 
 namespace pharos::testing {
 namespace {
-
-std::string bytes_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 /// A config that takes the model of the stub `method` from `file`, in line 9 from column 12 on.
 std::string config_with_model(const std::string& file, const std::string& method) {
@@ -63,7 +57,8 @@ TEST_CASE("a model is learned once and rendered with many times") {
   CHECK(metadata.at("pharos:samples_per_pixel") == "4");
   CHECK(metadata.at("pharos:seconds_training") == "0.000");
   CHECK(metadata.at("pharos:config").find("box.model") != std::string::npos);
-  CHECK(bytes_of(folder.path() / "again.model") == bytes_of(folder.path() / "box.model"));
+  CHECK(test::bytes_of(folder.path() / "again.model") ==
+        test::bytes_of(folder.path() / "box.model"));
 }
 
 TEST_CASE("a model that nobody learned is not written, and that is told") {

@@ -2,7 +2,6 @@
 
 #include <chrono>
 #include <fstream>
-#include <iterator>
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -17,11 +16,6 @@ namespace pharos::testing {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string content(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 void write_content(const fs::path& path, const std::string& bytes) {
   std::ofstream(path, std::ios::binary) << bytes;
@@ -49,7 +43,8 @@ struct Outputs {
 };
 
 Outputs outputs_in(const ScratchFolder& folder) {
-  return {read_image(folder.path() / "box.exr").values(), content(folder.path() / "box.model")};
+  return {read_image(folder.path() / "box.exr").values(),
+          test::bytes_of(folder.path() / "box.model")};
 }
 
 /// Renders the config of another folder without interruption.
@@ -137,7 +132,7 @@ TEST_CASE("checkpoints that do not fit are refused") {
   const ScratchFolder folder;
   write_config(folder, kGuided, 8, 1e9);
   REQUIRE(run_pharos("render box.yaml -q", folder.path()).exit_code == 0);
-  const std::string sound = content(folder.path() / "box.checkpoint");
+  const std::string sound = test::bytes_of(folder.path() / "box.checkpoint");
   const auto refused = [&](const std::string& arguments, const std::vector<std::string>& says,
                            const std::string& checkpoint) {
     check_refused({.arguments = "render box.yaml " + arguments,
@@ -171,10 +166,10 @@ TEST_CASE("checkpoints that do not fit are refused") {
   REQUIRE(run_pharos("render box.yaml -q --set seed=5 -o other.exr", folder.path()).exit_code == 0);
   refused("--continue box.exr --set budget.spp=16 --set seed=5",
           {"box.exr: error: this is not the image of the checkpoint"},
-          content(folder.path() / "box.checkpoint"));
+          test::bytes_of(folder.path() / "box.checkpoint"));
   interrupt_pharos("render box.yaml -q --set budget.spp=100000", folder.path(), 0.5, "INT");
   refused("--continue box.exr --set budget.spp=200000", {"not finished", "--resume"},
-          content(folder.path() / "box.checkpoint"));
+          test::bytes_of(folder.path() / "box.checkpoint"));
   refused("--set output.checkpoint=none/box.checkpoint", {"'none' does not exist"}, sound);
 }
 
@@ -186,7 +181,7 @@ TEST_CASE("if the disk is full, the last checkpoint stays, and the image is writ
   const Outcome outcome = run_pharos("render box.yaml", folder.path(), "ulimit -f 700;");
   CHECK(outcome.exit_code == 0);
   CHECK(outcome.err.find("warning: no checkpoint: cannot write") != std::string::npos);
-  CHECK(content(folder.path() / "box.checkpoint") == "old");
+  CHECK(test::bytes_of(folder.path() / "box.checkpoint") == "old");
   CHECK(folder.has("box.exr"));
   CHECK(folder.file_count() == 5);
 }

@@ -1,7 +1,5 @@
 // Comparison of images from the command line: exit codes, messages, files.
 
-#include <fstream>
-#include <iterator>
 #include <limits>
 
 #include <doctest/doctest.h>
@@ -42,11 +40,6 @@ bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-std::string text_of(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 TEST_CASE("compare prints a table and writes nothing unasked") {
   const ScratchFolder folder;
   write_images(folder);
@@ -71,7 +64,7 @@ TEST_CASE("compare --json: a file beside the table, or standard output instead o
       run_pharos("compare far.exr --reference ref.exr --json -", folder.path());
   CHECK(standard.exit_code == 0);
   CHECK(standard.out.front() == '{');
-  CHECK(standard.out == text_of(folder.path() / "out.json"));
+  CHECK(standard.out == test::bytes_of(folder.path() / "out.json"));
   CHECK(folder.file_count() == 6);  // nothing temporary is left
 }
 
@@ -98,7 +91,7 @@ TEST_CASE("compare --html: one page") {
       run_pharos("compare far.exr near.exr --reference ref.exr --html page.html", folder.path());
   CHECK(outcome.exit_code == 0);
   CHECK(contains(outcome.out, "relMSE"));
-  const std::string page = text_of(folder.path() / "page.html");
+  const std::string page = test::bytes_of(folder.path() / "page.html");
   for (const char* part : {"<html", "</html>", "far", "near", "relMSE", "HDR-FLIP"}) {
     CAPTURE(part);
     CHECK(contains(page, part));

@@ -1,94 +1,18 @@
-// `pharos experiment` from the command line: files, stopping and resuming.
+// `pharos experiment` from the command line: what it leaves and what it renders again.
 
-#include <chrono>
-#include <fstream>
+#include <filesystem>
 #include <future>
-#include <iterator>
 #include <sstream>
-#include <thread>
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
-#include <pharos/core/random.h>
-
-#include "process.h"
+#include "small_experiment.h"
 
 namespace pharos::testing {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string read_text(const fs::path& path) {
-  std::ifstream in(path);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-/// Writes an experiment with two scenes, two methods and `seeds` seeds. One run takes some 20 ms.
-void write_experiment(const ScratchFolder& folder, const std::string& budget, int seeds,
-                      int edge = 24) {
-  folder.write("render.yaml", fmt::format(R"(scene: '{}/cornell-box/scene.yaml'
-film: {{ width: {}, height: {}, filter: box }}
-integrator: {{ type: path }}
-budget: {{ spp: 1 }}
-)",
-                                          PHAROS_SCENES, edge, edge));
-  folder.write("test.yaml", fmt::format(R"(title: A small experiment
-scenes:
-  - {{ name: deep, config: render.yaml }}
-  - {{ name: flat, config: render.yaml, settings: {{ integrator: {{ max_depth: 2 }} }} }}
-methods:
-  - {{ name: independent, settings: {{ sampler: independent }} }}
-  - {{ name: sobol, settings: {{ sampler: sobol }} }}
-budget: {{ {} }}
-seeds: {}
-reference: {{ spp: 64, parts: 4 }}
-cache: cache
-)",
-                                        budget, seeds));
-}
-
-/// Returns runs.csv without the columns that depend on the clock and the machine. The remaining
-/// columns end with the samples, errors, counts and sizes of models.
-std::string table_of(const fs::path& folder) {
-  constexpr int kTimeless = 20;
-  std::istringstream in(read_text(folder / "test" / "runs.csv"));
-  std::string table;
-  for (std::string line; std::getline(in, line);) {
-    std::istringstream columns(line);
-    std::string column;
-    for (int i = 0; i < kTimeless && std::getline(columns, column, ','); ++i) table += column + ",";
-    table += "\n";
-  }
-  return table;
-}
-
-/// Returns the number of lines that report a finished run.
-std::size_t rendered_runs(const Outcome& outcome) {
-  std::size_t count = 0;
-  std::istringstream in(outcome.err);
-  for (std::string line; std::getline(in, line);) count += line.find(" s left") != line.npos;
-  return count;
-}
-
-/// Returns the table of an experiment that runs without interruption.
-std::string undisturbed_table(int seeds) {
-  const ScratchFolder folder;
-  write_experiment(folder, "spp: 16", seeds);
-  const Outcome outcome = run_pharos("experiment test.yaml", folder.path());
-  REQUIRE_MESSAGE(outcome.exit_code == 0, outcome.err);
-  return table_of(folder.path());
-}
-
-/// Starts an experiment and kills it after `seconds`. Repeats this with `more` additional seconds
-/// each time, until the experiment ends by itself. Returns the number of kills.
-int run_with_kills(const ScratchFolder& folder, double seconds, double more) {
-  for (int kills = 0;; ++kills) {
-    const Outcome outcome =
-        interrupt_pharos("experiment test.yaml", folder.path(), seconds + kills * more, "KILL");
-    if (outcome.exit_code == 0) return kills;
-  }
-}
 
 TEST_CASE("an experiment leaves tables, images, records and a report") {
   const ScratchFolder folder;
@@ -102,7 +26,7 @@ TEST_CASE("an experiment leaves tables, images, records and a report") {
     CHECK_MESSAGE(folder.has(file), file);
   }
   CHECK_FALSE(folder.has("test/runs/flat/sobol/seed-2.exr"));  // images: first
-  CHECK(read_text(folder.path() / "test/convergence.csv").find("deep,sobol,2,8,") !=
+  CHECK(test::bytes_of(folder.path() / "test/convergence.csv").find("deep,sobol,2,8,") !=
         std::string::npos);
 
   SUBCASE("again, it renders nothing and says the same") {
@@ -128,7 +52,7 @@ TEST_CASE("an experiment leaves tables, images, records and a report") {
         run_pharos("experiment test.yaml --set 'scenes.1.budget={ seconds: 0.05 }'", folder.path());
     CHECK(mixed.exit_code == 0);
     CHECK(rendered_runs(mixed) == 4);
-    CHECK(read_text(folder.path() / "test/report.html").find("0.05 s in flat") !=
+    CHECK(test::bytes_of(folder.path() / "test/report.html").find("0.05 s in flat") !=
           std::string::npos);
   }
   SUBCASE("a message names an optional scene that is left out") {
@@ -162,16 +86,6 @@ TEST_CASE("an experiment leaves tables, images, records and a report") {
     CHECK(rendered_runs(threads) == 8);
     CHECK(table_of(folder.path()) == table);
   }
-}
-
-/// Returns the number of rendered parts of references.
-std::size_t rendered_parts(const Outcome& outcome) {
-  std::size_t count = 0;
-  for (std::size_t at = 0; (at = outcome.err.find("reference, part", at)) != std::string::npos;
-       ++at) {
-    ++count;
-  }
-  return count;
 }
 
 TEST_CASE("what an experiment reads is known by its content, wherever it lies") {
@@ -229,75 +143,6 @@ TEST_CASE("nothing of an earlier config stays") {
                                  folder.path())) == 1);
 }
 
-TEST_CASE("damaged or edited files of an experiment are made again") {
-  const ScratchFolder folder;
-  write_experiment(folder, "spp: 8", 1);
-  REQUIRE(run_pharos("experiment test.yaml", folder.path()).exit_code == 0);
-  const std::string table = table_of(folder.path());
-  const fs::path runs = folder.path() / "test/runs/deep/sobol";
-  const auto again = [&](std::size_t expected, const std::string& says) {
-    const Outcome outcome = run_pharos("experiment test.yaml", folder.path());
-    CHECK_MESSAGE(outcome.exit_code == 0, outcome.err);
-    CHECK(rendered_runs(outcome) == expected);
-    CHECK_MESSAGE(outcome.err.find(says) != std::string::npos, outcome.err);
-    CHECK(table_of(folder.path()) == table);
-  };
-  const auto change = [&](const fs::path& file, const std::string& from, const std::string& to) {
-    std::string text = read_text(file);
-    text.replace(text.find(from), from.size(), to);
-    std::ofstream(file, std::ios::binary) << text;
-  };
-  SUBCASE("an edited number in a record") {
-    change(runs / "seed-1.json", "\"mse\": 0.", "\"mse\": 1.");
-    again(1, "seed-1.json: error: the record is damaged or was changed: moved to '");
-    CHECK(folder.has("test/runs/deep/sobol/seed-1.json.damaged"));
-  }
-  SUBCASE("a record that is cut off") {
-    fs::resize_file(runs / "seed-1.json", 100);
-    again(1, "the record is damaged");
-  }
-  SUBCASE("a folder in place of a record") {
-    fs::remove(runs / "seed-1.json");
-    fs::create_directory(runs / "seed-1.json");
-    again(1, "found a folder: moved to '");
-  }
-  SUBCASE("an image that is no image") {
-    std::ofstream(runs / "seed-1.exr") << "garbage";
-    again(1, "seed-1.exr: missing or changed");
-  }
-  SUBCASE("a reference that is cut off, or has other pixels") {
-    for (const auto& entry : fs::directory_iterator(folder.path() / "cache")) {
-      if (entry.path().extension() == ".exr") fs::resize_file(entry.path(), 1000);
-    }
-    again(0, "is rendered again");
-  }
-}
-
-TEST_CASE("a run that aborts or takes too long ends nothing but itself") {
-  const ScratchFolder folder;
-  write_experiment(folder, "spp: 8", 2);
-  const std::string module = fmt::format("PHAROS_MODULE_PATH={}/aborts", PHAROS_WRONG_MODULES);
-  const Outcome outcome =
-      run_pharos("experiment test.yaml --set 'methods.0.settings={ integrator: { type: abort } }'",
-                 folder.path(), module);
-  CHECK(outcome.exit_code == 3);
-  CHECK(rendered_runs(outcome) == 4);
-  CHECK_MESSAGE(
-      outcome.err.find("deep, independent, seed 1: failed: ended by signal 6") != std::string::npos,
-      outcome.err);
-  CHECK(outcome.err.find("4 runs failed: 'deep, independent, seed 1'") != std::string::npos);
-  CHECK(folder.has("test/report.html"));
-  CHECK(folder.has("test/runs/flat/sobol/seed-2.json"));
-  // The same experiment without the mistake makes the missing runs.
-  CHECK(rendered_runs(run_pharos("experiment test.yaml", folder.path())) == 4);
-
-  const Outcome late =
-      run_pharos("experiment test.yaml --set budget.spp=1000000 --set time_limit=0.5 --set seeds=1",
-                 folder.path());
-  CHECK(late.exit_code == 3);
-  CHECK(late.err.find("failed: took longer than 0.5 s") != std::string::npos);
-}
-
 TEST_CASE("an output folder belongs to one experiment, and to one process at a time") {
   const ScratchFolder folder;
   write_experiment(folder, "spp: 4", 1);
@@ -352,57 +197,14 @@ TEST_CASE("a method that learns: checkpoints after training, sizes, pictures of 
     CHECK_FALSE(folder.has(fmt::format("test/runs/deep/independent/seed-1.{}.exr", picture)));
   }
   // 16 samples of training, then 1, 2, 4, 8 and 16 further samples.
-  std::istringstream in(read_text(folder.path() / "test" / "convergence.csv"));
+  std::istringstream in(test::bytes_of(folder.path() / "test" / "convergence.csv"));
   std::string samples;
   for (std::string line; std::getline(in, line);) {
     if (line.rfind("deep,sobol,1,", 0) == 0) samples += line.substr(13, line.find(',', 13) - 12);
   }
   CHECK(samples == "17,18,20,24,32,");
-  CHECK(read_text(folder.path() / "test/report.html").find("model_bytes") != std::string::npos);
-}
-
-TEST_CASE("Ctrl-C keeps finished runs and reports them; the same command goes on") {
-  const ScratchFolder folder;
-  write_experiment(folder, "spp: 16", 200);
-  const Outcome outcome = interrupt_pharos_once("test/runs/deep/independent/seed-1.exr",
-                                                "experiment test.yaml", folder.path(), "INT");
-  CHECK(outcome.exit_code == 130);
-  REQUIRE(folder.has("test/results.json"));
-  CHECK(read_text(folder.path() / "test/results.json").find("\"complete\": false") !=
+  CHECK(test::bytes_of(folder.path() / "test/report.html").find("model_bytes") !=
         std::string::npos);
-  CHECK(folder.has("test/report.html"));
-  const Outcome rest = run_pharos("experiment test.yaml --set seeds=2", folder.path());
-  CHECK(rest.exit_code == 0);
-  CHECK(table_of(folder.path()) == undisturbed_table(2));
-
-  // Results of methods that did not change are kept, even if the next run is stopped early.
-  interrupt_pharos(
-      "experiment test.yaml --set seeds=2 --set methods.1.settings={} --set "
-      "budget.spp=16 --set scenes.1.reference.spp=1000000",
-      folder.path(), 1.5, "INT");
-  const std::string kept = table_of(folder.path());
-  CHECK(kept.find("deep,independent,1,") != std::string::npos);
-  CHECK(kept.find("deep,independent,2,") != std::string::npos);
-}
-
-TEST_CASE("an experiment that is killed and started again gives the same table") {
-  const std::string table = undisturbed_table(4);
-  const ScratchFolder folder;
-  write_experiment(folder, "spp: 16", 4);
-  CHECK(run_with_kills(folder, 0.1, 0.1) > 0);
-  CHECK(table_of(folder.path()) == table);
-}
-
-TEST_CASE("long: killed at random moments, an experiment gives the same table, 20 of 20") {
-  const std::string table = undisturbed_table(8);
-  RandomStream random(1);
-  for (int trial = 0; trial < 20; ++trial) {
-    const ScratchFolder folder;
-    write_experiment(folder, "spp: 16", 8);
-    const double first = 0.02 + 0.4 * static_cast<double>(random() >> 11) * 0x1p-53;
-    CHECK(run_with_kills(folder, first, 0.05) > 0);
-    CHECK_MESSAGE(table_of(folder.path()) == table, "trial ", trial);
-  }
 }
 
 TEST_CASE("long: runs of equal time end within 3 % of it") {
@@ -410,7 +212,7 @@ TEST_CASE("long: runs of equal time end within 3 % of it") {
   write_experiment(folder, "seconds: 10", 1, 128);
   Outcome outcome = interrupt_pharos("experiment test.yaml", folder.path(), 300, "KILL");
   REQUIRE_MESSAGE(outcome.exit_code == 0, outcome.err);
-  std::istringstream in(read_text(folder.path() / "test" / "convergence.csv"));
+  std::istringstream in(test::bytes_of(folder.path() / "test" / "convergence.csv"));
   std::string line;
   std::getline(in, line);
   int ends = 0;

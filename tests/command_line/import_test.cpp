@@ -1,8 +1,5 @@
 // Import of scenes of other programs from the command line.
 
-#include <fstream>
-#include <iterator>
-
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -15,11 +12,6 @@ namespace pharos::testing {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string read_text(const fs::path& path) {
-  std::ifstream in(path);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 std::string example() {
   return fmt::format("'{}/mitsuba-still-life/scene.xml'", PHAROS_SCENES);
@@ -95,7 +87,7 @@ TEST_CASE("import writes a scene with its meshes that renders the same bits") {
   REQUIRE_MESSAGE(outcome.exit_code == 0, outcome.err);
   CHECK(folder.has("imported/scene.yaml"));
   CHECK(folder.has("imported/meshes/leaf.obj"));
-  CHECK(read_text(folder.path() / "imported/scene.yaml").find(folder.path().string()) ==
+  CHECK(test::bytes_of(folder.path() / "imported/scene.yaml").find(folder.path().string()) ==
         std::string::npos);
   const fs::path moved = folder.path() / "elsewhere";
   fs::rename(folder.path() / "imported", moved);

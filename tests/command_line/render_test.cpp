@@ -116,6 +116,25 @@ TEST_CASE("a disk that is full is noticed before the render") {
   CHECK_MESSAGE(outcome.err.find("the image needs up to") != std::string::npos, outcome.err);
 }
 
+TEST_CASE("with too little memory, a render ends with a message instead of waiting for ever") {
+  const ScratchFolder folder;
+  folder.write("box.yaml", small_render());
+  if (run_pharos("validate box.yaml", folder.path(), "ulimit -v 8388608;").exit_code != 0) {
+    MESSAGE("skipped: this program needs more address space than can be limited (sanitizers)");
+    return;
+  }
+  // Where the memory ends depends on the libraries' sizes, so that the limits cover all of loading
+  // and building.
+  for (int kilobytes = 150'000; kilobytes <= 250'000; kilobytes += 2'500) {
+    CAPTURE(kilobytes);
+    const Outcome outcome =
+        run_pharos("render box.yaml", folder.path(),
+                   fmt::format("ulimit -v {}; timeout --signal=KILL 60", kilobytes));
+    CHECK(outcome.exit_code == 3);
+    CHECK_MESSAGE(outcome.err.find("pharos: error: ") != std::string::npos, outcome.err);
+  }
+}
+
 TEST_CASE("output that cannot be written is an error") {
   const ScratchFolder folder;
   folder.write("box.yaml", small_render());

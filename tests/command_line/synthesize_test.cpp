@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 
 #include <doctest/doctest.h>
@@ -27,11 +25,6 @@ Mistake file(const std::string& text) {
           .prepare = [=](const ScratchFolder& folder) { folder.write("bad.yaml", text); }};
 }
 
-std::string content_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 /// Returns the points that `synthesize ARGUMENTS -o points.txt` writes.
 std::string points_of(const std::string& arguments, const std::string& config = "") {
   const ScratchFolder folder;
@@ -40,7 +33,7 @@ std::string points_of(const std::string& arguments, const std::string& config = 
       run_pharos("synthesize " + arguments + " -o points.txt -q", folder.path());
   REQUIRE_MESSAGE(outcome.exit_code == 0, outcome.err);
   CHECK(outcome.err.empty());
-  return content_of(folder / "points.txt");
+  return test::bytes_of(folder / "points.txt");
 }
 
 TEST_CASE("synthesize: points as text, the same from options and from a file") {
@@ -63,7 +56,7 @@ TEST_CASE("synthesize: binary points and a picture") {
   REQUIRE_MESSAGE(outcome.exit_code == 0, outcome.err);
   CHECK(outcome.err.find("64 points") != std::string::npos);
   CHECK(folder.file_count() == 2);
-  CHECK(content_of(folder / "points.bin").size() > 64 * 4);
+  CHECK(test::bytes_of(folder / "points.bin").size() > 64 * 4);
   const Image picture = read_image(folder / "points.png");
   CHECK(picture.height() == 100);
   CHECK(picture.width() > 200);

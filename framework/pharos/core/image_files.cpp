@@ -34,6 +34,12 @@ void keep_to_one_thread() {
   throw InputError("cannot read the image '" + path.string() + "': " + one_line(why));
 }
 
+/// As above: `what` is wrong, and `words` is what the image library says of it, if anything.
+[[noreturn]] void fail_reading(const std::filesystem::path& path, const std::string& what,
+                               const std::string& words) {
+  fail_reading(path, words.empty() ? what : what + " (" + words + ")");
+}
+
 /// Returns the message of OpenImageIO, or `otherwise` if the message is empty.
 std::string reason(const std::string& message, const std::string& otherwise) {
   return message.empty() ? otherwise : message;
@@ -84,7 +90,7 @@ std::unique_ptr<OIIO::ImageInput> open_image(const std::filesystem::path& path) 
   OIIO::ImageSpec wishes;
   wishes.attribute("oiio:UnassociatedAlpha", 1);
   auto input = OIIO::ImageInput::open(path.string(), &wishes);
-  if (!input) fail_reading(path, reason(OIIO::geterror(), "unknown format"));
+  if (!input) fail_reading(path, "it is damaged or of an unknown format", OIIO::geterror());
   return input;
 }
 
@@ -171,7 +177,7 @@ Image read_image_file(const std::filesystem::path& path, ColorSpace integer_form
         input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.values().data());
     // Some readers fill in missing pixels, report success and only leave a message.
     if (!complete || input->has_error()) {
-      fail_reading(path, reason(input->geterror(), "it is cut off or damaged"));
+      fail_reading(path, "it is cut off or damaged", input->geterror());
     }
     const bool encoded = !spec.format.is_floating_point() && integer_formats == ColorSpace::srgb;
     if (encoded) decode_srgb(image, spec.alpha_channel);
@@ -242,7 +248,7 @@ ColorImage read_color_file(const std::filesystem::path& path, ColorSpace integer
     const bool complete = input->read_image(0, 0, first, end, format_of(depth), to);
     // Some readers fill in missing pixels, report success and only leave a message.
     if (!complete || input->has_error()) {
-      fail_reading(path, reason(input->geterror(), "it is cut off or damaged"));
+      fail_reading(path, "it is cut off or damaged", input->geterror());
     }
     if (!in_order) {
       pick_channels(others.data(), pixels, end - first, {red - first, green - first, blue - first},

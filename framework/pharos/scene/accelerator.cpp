@@ -195,6 +195,15 @@ Scene::Accelerator::Accelerator(const SceneParts& parts) : device_(rtcNewDevice(
     throw RunError("Embree does not start (error " + std::to_string(rtcGetDeviceError(nullptr)) +
                    ")");
   }
+  try {
+    build(parts);
+  } catch (...) {
+    abandon();
+    throw;
+  }
+}
+
+void Scene::Accelerator::build(const SceneParts& parts) {
   std::string error;
   rtcSetDeviceErrorFunction(device_.get(), note_error, &error);
   scene_ = scene_of(parts.objects);
@@ -203,6 +212,12 @@ Scene::Accelerator::Accelerator(const SceneParts& parts) : device_(rtcNewDevice(
   commit(scene_.get());
   rtcSetDeviceErrorFunction(device_.get(), nullptr, nullptr);
   if (!error.empty()) throw RunError("Embree cannot build the scene: " + error);
+}
+
+void Scene::Accelerator::abandon() noexcept {
+  for (EmbreeScene& group : groups_) static_cast<void>(group.release());
+  static_cast<void>(scene_.release());
+  static_cast<void>(device_.release());
 }
 
 Scene::Accelerator::EmbreeScene Scene::Accelerator::scene_of(

@@ -46,6 +46,10 @@ class Scene::Accelerator {
   };
   using EmbreeScene = std::unique_ptr<RTCSceneTy, Release>;
 
+  void build(const SceneParts& parts);
+  /// Gives the objects of a failed build up without releasing them: if memory ran out in a build,
+  /// Embree would wait for ever for its tasks. They stay until the process ends.
+  void abandon() noexcept;
   /// Returns an uncommitted Embree scene of these objects and appends them to `geometries_`.
   EmbreeScene scene_of(const std::vector<SceneObject>& objects);
   void add_instances(const SceneParts& parts);

@@ -1,8 +1,5 @@
 // SavedRender files: read back as they were written; all damage is reported.
 
-#include <fstream>
-#include <iterator>
-
 #include <doctest/doctest.h>
 
 #include <pharos/rendering/checkpoint.h>
@@ -15,11 +12,6 @@ namespace {
 const SavedRender kSaved{
     .config = "budget: { spp: 4 }", .build = "abc", .finished = true, .state = "a state"};
 
-std::string content(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 /// Returns the error message for a file of these bytes.
 std::string refusal(const TemporaryFolder& folder, const std::string& bytes) {
   const std::filesystem::path path = folder.write("changed", bytes);
@@ -28,7 +20,7 @@ std::string refusal(const TemporaryFolder& folder, const std::string& bytes) {
 
 std::string sound_file(const TemporaryFolder& folder) {
   write_checkpoint(kSaved, folder / "sound");
-  return content(folder / "sound");
+  return bytes_of(folder / "sound");
 }
 
 TEST_CASE("checkpoint files: what is read is what was written") {

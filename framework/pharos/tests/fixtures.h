@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <unistd.h>
@@ -36,6 +37,12 @@ class TemporaryFolder {
  private:
   std::filesystem::path path_;
 };
+
+/// Returns the content of a file; empty if it cannot be read.
+inline std::string bytes_of(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
 
 /// Returns the message of the InputError that `run` throws, or "no error" if it throws none.
 template <class Run>

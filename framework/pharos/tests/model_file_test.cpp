@@ -1,8 +1,6 @@
 // Files of learned models: a model is read back as it was written, and all damage is reported.
 
 #include <cstring>
-#include <fstream>
-#include <iterator>
 
 #include <doctest/doctest.h>
 
@@ -64,11 +62,6 @@ Ref<Learner> learner_from(const std::string& yaml) {
   return registry.build<Learner>(parse_yaml(yaml, "test"), context, resolved);
 }
 
-std::string content(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 /// Returns the error message for a file of these bytes.
 std::string refusal(const TemporaryFolder& folder, const std::string& bytes,
                     const std::string& learner = "counting") {
@@ -85,7 +78,7 @@ std::string sound_file(const TemporaryFolder& folder, std::uint32_t number = 7) 
                     .mixing_config = "fair: 1",
                     .mixing_state = "even"},
                    folder / "sound.model");
-  return content(folder / "sound.model");
+  return bytes_of(folder / "sound.model");
 }
 
 /// Returns a changed file with a checksum that fits.
@@ -185,7 +178,7 @@ TEST_CASE("model files: damaged heads") {
   write_model_file({.models = {{"counting", std::make_shared<NumberModel>(7)}},
                     .methods = std::vector<LearnedMethod>(9)},
                    folder / "many.model");
-  CHECK(refusal(folder, content(folder / "many.model")) ==
+  CHECK(refusal(folder, bytes_of(folder / "many.model")) ==
         "the model file 'changed.model' has a damaged head");
 }
 

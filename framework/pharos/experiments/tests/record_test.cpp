@@ -1,5 +1,3 @@
-#include <fstream>
-#include <iterator>
 #include <limits>
 
 #include <doctest/doctest.h>
@@ -76,8 +74,7 @@ TEST_CASE("records that are cut off or changed are input errors") {
   CHECK(refusal("[1, 2]") == damaged);
   CHECK(refusal("{\"format\": 5, \"key\": 3}") == damaged);
   save_record(full_record(), folder / "record.json");
-  std::ifstream in(folder / "record.json");
-  std::string text{std::istreambuf_iterator<char>(in), {}};
+  std::string text = test::bytes_of(folder / "record.json");
   CHECK(refusal(text) == "no error");
   text.replace(text.find("\"seed\": "), 9, "\"seed\": 2");
   CHECK(refusal(text) == damaged);

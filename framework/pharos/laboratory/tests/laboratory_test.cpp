@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <iterator>
 #include <mutex>
 #include <set>
 
@@ -282,8 +281,7 @@ TEST_CASE("the files hold everything") {
   const ReportTable table = laboratory_report(results).tables.at(1);
   CHECK_FALSE(table.rows[0].cells[0].ratio);
   CHECK(table.rows[0].cells[1].ratio);
-  std::ifstream page(folder / "report.html");
-  const std::string html{std::istreambuf_iterator<char>(page), {}};
+  const std::string html = test::bytes_of(folder / "report.html");
   for (const char* part : {"\"subject\":\"integrand\"", "\"axis\":\"points\"", "Power spectra"}) {
     CHECK(html.find(part) != std::string::npos);
   }
