@@ -125,6 +125,7 @@ TEST_CASE("with too little memory, a render ends with a message instead of waiti
   }
   // Where the memory ends depends on the libraries' sizes, so that the limits cover all of loading
   // and building.
+  int unloaded = 0;
   for (int kilobytes = 150'000; kilobytes <= 250'000; kilobytes += 2'500) {
     CAPTURE(kilobytes);
     const Outcome outcome =
@@ -132,7 +133,13 @@ TEST_CASE("with too little memory, a render ends with a message instead of waiti
                    fmt::format("ulimit -v {}; timeout --signal=KILL 60", kilobytes));
     CHECK(outcome.exit_code == 3);
     CHECK_MESSAGE(outcome.err.find("pharos: error: ") != std::string::npos, outcome.err);
+    const bool is_unloaded =
+        outcome.err.find("images cannot be read or written: ") != std::string::npos;
+    unloaded += is_unloaded ? 1 : 0;
+    // What cannot be written at the end is not rendered.
+    if (is_unloaded) CHECK(outcome.err.find("samples") == std::string::npos);
   }
+  CHECK(unloaded > 0);
 }
 
 TEST_CASE("output that cannot be written is an error") {
