@@ -100,12 +100,15 @@ TEST_CASE("opposite lobes of the same concentration leave a flat one") {
 
 TEST_CASE("where almost nothing is left, densities are finite or there is no distribution") {
   Arena arena;
-  for (float kappa = 20; kappa < 80; kappa += 0.25f) {
-    CAPTURE(kappa);
-    const std::vector<LobeGroup> groups = groups_of({{1, Direction::UnitZ(), kappa}});
-    const Factor opposite{{0, 0, -1}, kappa, 1};
-    const SeenLobes* seen = SeenLobes::make(groups, {}, {&opposite, 1}, arena);
-    if (seen != nullptr) CHECK(seen->density({1, 0, 0}) == doctest::Approx(warp::sphere_pdf()));
+  for (const float peak : {1.0f, 1e-2f, 1e-4f}) {
+    for (float kappa = 20; kappa < 80; kappa += 0.25f) {
+      CAPTURE(peak);
+      CAPTURE(kappa);
+      const std::vector<LobeGroup> groups = groups_of({{1, Direction::UnitZ(), kappa}});
+      const Factor opposite{{0, 0, -1}, kappa, peak};
+      const SeenLobes* seen = SeenLobes::make(groups, {}, {&opposite, 1}, arena);
+      if (seen != nullptr) CHECK(seen->density({1, 0, 0}) == doctest::Approx(warp::sphere_pdf()));
+    }
   }
 }
 
