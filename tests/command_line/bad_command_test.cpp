@@ -1,5 +1,6 @@
 // Wrong command lines: subcommands, options, overrides, configs and outputs.
 
+#include <array>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -44,6 +45,21 @@ TEST_CASE("replays of paths that are not there") {
   check_refused(typed("render good.yaml --replay 0,0,1"), {"no sample 1: iteration 0 has 1"});
 }
 
+/// A glTF mesh of one triangle in `file`.
+std::string gltf_of(const std::string& file) {
+  return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],
+"bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36,"uri":")" +
+         file + "\"}]}";
+}
+
+/// The buffer of this mesh.
+std::string triangle_bytes() {
+  constexpr std::array<float, 9> positions{0, 0, 0, 1, 0, 0, 0, 1, 0};
+  return {reinterpret_cast<const char*>(positions.data()), sizeof positions};
+}
+
 TEST_CASE("outputs that are inputs, or the same file twice") {
   const auto refused = [](const std::string& arguments, const std::vector<std::string>& says) {
     check_refused({.arguments = arguments,
@@ -54,6 +70,9 @@ TEST_CASE("outputs that are inputs, or the same file twice") {
                          f.write("over.yaml", "extends: base.yaml\n");
                          f.write("quad.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
                          f.write("mesh.yaml", config_with_shape("{ type: mesh, file: quad.obj }"));
+                         f.write("a buffer.bin", triangle_bytes());
+                         f.write("tri.gltf", gltf_of("a%20buffer.bin"));
+                         f.write("gltf.yaml", config_with_shape("{ type: mesh, file: tri.gltf }"));
                          std::filesystem::create_symlink("quad.obj", f.path() / "link.exr");
                        }},
                   says);
@@ -65,31 +84,59 @@ TEST_CASE("outputs that are inputs, or the same file twice") {
   refused("render mesh.yaml -o link.exr", {"link.exr: error: ", "an input"});
   refused("render mesh.yaml -o a.exr --set output.model=./a.exr",
           {"'output.image' and 'output.model' name the same file"});
+  refused("render gltf.yaml --set output.model='a buffer.bin'", {"a buffer.bin: error: "});
+  refused("render gltf.yaml --set output.checkpoint='a buffer.bin'", {"an input"});
   refused("render mesh.yaml -o a.exr --set output.checkpoint=a.png",
           {"'output.png' and 'output.checkpoint' name the same file"});
 }
 
 TEST_CASE("input outside of the folder that --confine names") {
   const auto refused = [](const std::string& arguments, const std::vector<std::string>& says) {
-    check_refused({.arguments = arguments,
-                   .prepare =
-                       [](const ScratchFolder& f) {
-                         std::filesystem::create_directory(f.path() / "in");
-                         f.write("out.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-                         f.write("in/mesh.yaml",
-                                 config_with_shape("{ type: mesh, file: ../out.obj }"));
-                         f.write("in/scene.xml",
-                                 "<scene version=\"3.0.0\"><shape type=\"obj\"><string "
-                                 "name=\"filename\" value=\"../out.obj\"/></shape></scene>");
-                         f.write("out.yaml", config_with(""));
-                         f.write("in/over.yaml", "extends: ../out.yaml\n");
-                       }},
-                  says);
+    check_refused(
+        {.arguments = arguments,
+         .prepare =
+             [](const ScratchFolder& f) {
+               std::filesystem::create_directory(f.path() / "in");
+               f.write("out.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+               f.write("in/mesh.yaml", config_with_shape("{ type: mesh, file: ../out.obj }"));
+               f.write("in/scene.xml",
+                       "<scene version=\"3.0.0\"><shape type=\"obj\"><string "
+                       "name=\"filename\" value=\"../out.obj\"/></shape></scene>");
+               f.write("out.yaml", config_with(""));
+               f.write("in/over.yaml", "extends: ../out.yaml\n");
+               std::filesystem::create_symlink("../out.obj", f.path() / "in/link.obj");
+               f.write("in/link.yaml", config_with_shape("{ type: mesh, file: link.obj }"));
+               f.write("out.exr", "");
+               f.write("in/image.yaml",
+                       "scene:\n  sensor: perspective\n  emitters: [{ type: "
+                       "environment_map, file: ../out.exr }]\nbudget: { spp: 1 }\n");
+               f.write("out.bin", triangle_bytes());
+               f.write("in/buffer.gltf", gltf_of("../out.bin"));
+               f.write("in/buffer.yaml", config_with_shape("{ type: mesh, file: buffer.gltf }"));
+             }},
+        says);
   };
-  for (const char* file : {"mesh.yaml", "scene.xml", "over.yaml"}) {
+  for (const char* file :
+       {"mesh.yaml", "scene.xml", "over.yaml", "link.yaml", "image.yaml", "buffer.yaml"}) {
     refused(std::string("render --confine in in/") + file, {"lies outside of '", "--confine"});
   }
   refused("validate --confine in out.yaml", {"lies outside of '"});
+  // Without a folder, nothing would be confined.
+  for (const char* none : {"''", "nowhere", "out.yaml"}) {
+    refused(std::string("validate out.yaml --confine ") + none,
+            {"--confine: error: expected a folder"});
+  }
+}
+
+TEST_CASE("with --confine, a render leaves checkpoints, and goes on") {
+  const ScratchFolder folder;
+  std::filesystem::create_directory(folder.path() / "in");
+  folder.write("in/a.yaml", config_with("film: { width: 8, height: 8 }\n"));
+  const std::string render =
+      "render --confine in in/a.yaml -o a.exr --set output.checkpoint=a.checkpoint";
+  CHECK(run_pharos(render + " --resume", folder.path()).exit_code == 0);
+  CHECK(run_pharos(render + " --resume", folder.path()).exit_code == 0);
+  CHECK(run_pharos(render + " --continue a.exr --set budget.spp=2", folder.path()).exit_code == 0);
 }
 
 TEST_CASE("overrides") {

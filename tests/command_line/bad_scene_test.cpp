@@ -8,9 +8,23 @@ namespace pharos::testing {
 namespace {
 
 TEST_CASE("geometry, lights and sensors that are too far away") {
-  const std::vector<std::string> says{"at most 1e+09 scene units"};
-  check_refused(config_with_shape("{ type: quad, to_world: [{ scale: 1e10 }] }"), says);
-  check_refused(config_with_shape("{ type: sphere, center: [0, -1e19, 0] }"), says);
+  const std::string limit = "at most 1e+09 scene units";
+  const std::vector<std::string> says{"bad.yaml:2:", limit};
+  for (const char* shape :
+       {"{ type: quad, to_world: [{ scale: 1e10 }] }", "{ type: sphere, center: [0, -1e19, 0] }"}) {
+    check_refused(config_with_shape(shape), {"bad.yaml:4:7: error: ", limit});
+    check_refused(
+        {.arguments = "validate bad.yaml",
+         .prepare = [&](const ScratchFolder& f) { f.write("bad.yaml", config_with_shape(shape)); }},
+        {"bad.yaml:4:7: error: ", limit});
+  }
+  for (const char* place : {"{ scale: 9e9 }", "{ translate: [1e30, 0, 0] }"}) {
+    check_refused(
+        "scene:\n  sensor: perspective\n  groups: { ball: [sphere] }\n  shapes:\n    - { "
+        "type: instance, group: ball, to_world: [" +
+            std::string(place) + "] }\nbudget: { spp: 1 }\n",
+        {"bad.yaml:5:32: error: ", "the instance reaches", limit});
+  }
   const auto with_sensor = [](const std::string& sensor) {
     return "scene:\n  sensor: " + sensor + "\n  shapes: [sphere]\nbudget: { spp: 1 }\n";
   };
@@ -20,7 +34,14 @@ TEST_CASE("geometry, lights and sensors that are too far away") {
   check_refused(with_sensor("{ type: perspective, " + from("[0, 0, 1e19]") + " }"), says);
   check_refused(
       with_sensor("perspective") + "sensor: { type: perspective, " + from("[0, 0, 1e12]") + " }\n",
-      says);
+      {"bad.yaml:5:", limit});
+  // Scaled by `to_world`, or by the shape of the film.
+  check_refused(with_sensor("{ type: orthographic, width: 1, to_world: [{ scale: 1e19 }] }"), says);
+  check_refused(with_sensor("{ type: thin_lens, aperture_radius: 1, to_world: [{ scale: 1e19 }] }"),
+                says);
+  check_refused(
+      with_sensor("{ type: orthographic, width: 1e9 }") + "film: { width: 1, height: 1000 }\n",
+      {"bad.yaml:5:", limit});
   check_refused(with_sensor("{ type: orthographic, width: 1e19 }"),
                 {"width must be <= 1000000000"});
   check_refused(with_sensor("{ type: thin_lens, aperture_radius: 1e19 }"),
@@ -30,7 +51,7 @@ TEST_CASE("geometry, lights and sensors that are too far away") {
                             "{ type: spot, to_world: [{ translate: [0, 1e19, 0] }] }"}) {
     check_refused("scene:\n  sensor: perspective\n  emitters: [" + std::string(light) +
                       "]\nbudget: { spp: 1 }\n",
-                  says);
+                  {"bad.yaml:3:14: error: ", limit});
   }
 }
 

@@ -68,7 +68,8 @@ TEST_CASE("a killed render goes on to the same bits") {
   const ScratchFolder folder;
   write_config(folder, kGuided, 128, 0.02);
   const Outputs whole = undisturbed(folder);
-  for (int kills = 0; kills < 3; ++kills) {
+  interrupt_pharos_once("box.checkpoint", "render box.yaml -q", folder.path(), "KILL");
+  for (int kills = 0; kills < 2; ++kills) {
     interrupt_pharos("render box.yaml -q --resume", folder.path(), 0.4, "KILL");
   }
   CHECK(folder.has("box.checkpoint"));
@@ -168,22 +169,75 @@ TEST_CASE("checkpoints that do not fit are refused") {
           {"box.exr: error: this is not the image of the checkpoint"},
           test::bytes_of(folder.path() / "box.checkpoint"));
   interrupt_pharos("render box.yaml -q --set budget.spp=100000", folder.path(), 0.5, "INT");
-  refused("--continue box.exr --set budget.spp=200000", {"not finished", "--resume"},
+  refused("--continue box.exr --set budget.spp=200000",
+          {"not finished", "--resume -o box.exr --set budget.spp=100000"},
           test::bytes_of(folder.path() / "box.checkpoint"));
   refused("--set output.checkpoint=none/box.checkpoint", {"'none' does not exist"}, sound);
+}
+
+/// Returns a checkpoint with another number in the form, or another version of Pharos.
+std::string with_form(std::string checkpoint, char form) {
+  checkpoint[8] = form;
+  return checkpoint;
+}
+
+TEST_CASE("checkpoints of other forms, files and renders are refused or replaced with a warning") {
+  const ScratchFolder folder;
+  write_config(folder, "path", 4, 1e9);
+  folder.write("notes.txt", "Some text");
+  folder.write("quad.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const std::string mesh =
+      "render box.yaml --set 'scene={ sensor: perspective, shapes: [{ type: "
+      "mesh, file: quad.obj }] }' --resume";
+  REQUIRE(run_pharos(mesh, folder.path()).exit_code == 0);
+  const std::string sound = test::bytes_of(folder.path() / "box.checkpoint");
+  const auto refusal = [&](const std::string& arguments) {
+    const Outcome outcome = run_pharos(arguments, folder.path());
+    CHECK(outcome.exit_code == 2);
+    CHECK_FALSE(folder.has("box.checkpoint.lock"));
+    return outcome.err;
+  };
+  folder.write("quad.obj", "v 0 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\n");
+  CHECK(refusal(mesh).find("the file at 'scene.shapes.0.file' has another content there") !=
+        std::string::npos);
+  CHECK(refusal("render box.yaml --set output.checkpoint=notes.txt").find("is another file") !=
+        std::string::npos);
+  CHECK(test::bytes_of(folder.path() / "notes.txt") == "Some text");
+  write_content(folder.path() / "box.checkpoint", with_form(sound, 2));
+  CHECK(refusal("render box.yaml --resume").find("is of form 2; this Pharos reads form 1") !=
+        std::string::npos);
+  const Outcome replaced = run_pharos("render box.yaml", folder.path());
+  CHECK(replaced.exit_code == 0);
+  CHECK(replaced.err.find("warning: box.checkpoint: will be replaced") != std::string::npos);
+  CHECK(replaced.err.find("box.model: not written") != std::string::npos);
+}
+
+TEST_CASE("two renders never write the same checkpoint") {
+  const ScratchFolder folder;
+  write_config(folder, "path", 1000000, 0.02);
+  const std::string other =
+      std::string(PHAROS_PROGRAM) + " render box.yaml -o other.exr 2>refusal; [ $? = 2 ]";
+  CHECK(interrupt_pharos_when("[ -e box.checkpoint ] && " + other, "render box.yaml -q",
+                              folder.path(), "INT")
+            .exit_code == 130);
+  CHECK(test::bytes_of(folder.path() / "refusal").find("is being written by another render") !=
+        std::string::npos);
+  CHECK_FALSE(folder.has("box.checkpoint.lock"));
 }
 
 TEST_CASE("if the disk is full, the last checkpoint stays, and the image is written") {
   const ScratchFolder folder;
   write_config(folder, kGuided, 64, 0.02);
-  write_content(folder.path() / "box.checkpoint", "old");
+  REQUIRE(run_pharos("render box.yaml -q --set budget.spp=1", folder.path()).exit_code == 0);
+  const std::string old = test::bytes_of(folder.path() / "box.checkpoint");
   // Files end after 350 kB: the image is smaller, a checkpoint is larger.
   const Outcome outcome = run_pharos("render box.yaml", folder.path(), "ulimit -f 700;");
   CHECK(outcome.exit_code == 0);
   CHECK(outcome.err.find("warning: no checkpoint: cannot write") != std::string::npos);
-  CHECK(test::bytes_of(folder.path() / "box.checkpoint") == "old");
+  const bool is_old = test::bytes_of(folder.path() / "box.checkpoint") == old;
+  CHECK(is_old);
   CHECK(folder.has("box.exr"));
-  CHECK(folder.file_count() == 5);
+  CHECK(folder.file_count() == 5);  // without the lock
 }
 
 /// Renders of the soak test. One takes about two seconds.
@@ -232,7 +286,7 @@ TEST_CASE("soak: killed while a checkpoint is written, a render goes on to the s
     // The first checkpoint is there, and another one is being written.
     interrupt_pharos_when("[ -e box.checkpoint ] && ls box.checkpoint.*.tmp", "render box.yaml -q",
                           folder.path(), "KILL");
-    kills_in_writing += folder.file_count() > 5 ? 1 : 0;
+    kills_in_writing += folder.file_count() > 6 ? 1 : 0;  // the lock and the temporary file
     check_ends_like(folder, whole);
   }
   CHECK(kills_in_writing >= 15);

@@ -2,10 +2,12 @@
 
 #include <filesystem>
 #include <fstream>
+#include <vector>
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include <pharos/core/image.h>
 #include <pharos/core/random.h>
 
 #include "small_experiment.h"
@@ -33,6 +35,13 @@ TEST_CASE("damaged or edited files of an experiment are made again") {
     text.replace(text.find(from), from.size(), to);
     std::ofstream(file, std::ios::binary) << text;
   };
+  const auto references = [&] {
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(folder.path() / "cache")) {
+      if (entry.path().extension() == ".exr") files.push_back(entry.path());
+    }
+    return files;
+  };
   SUBCASE("an edited number in a record") {
     change(runs / "seed-1.json", "\"mse\": 0.", "\"mse\": 1.");
     again(1, "seed-1.json: error: the record is damaged or was changed: moved to '");
@@ -51,11 +60,17 @@ TEST_CASE("damaged or edited files of an experiment are made again") {
     std::ofstream(runs / "seed-1.exr") << "garbage";
     again(1, "seed-1.exr: missing or changed");
   }
-  SUBCASE("a reference that is cut off, or has other pixels") {
-    for (const auto& entry : fs::directory_iterator(folder.path() / "cache")) {
-      if (entry.path().extension() == ".exr") fs::resize_file(entry.path(), 1000);
+  SUBCASE("references that are cut off") {
+    for (const fs::path& file : references()) fs::resize_file(file, 1000);
+    again(0, ".exr.damaged', and is rendered again");
+  }
+  SUBCASE("references with one other pixel") {
+    for (const fs::path& file : references()) {
+      Image image = read_image(file);
+      image.values()[7] *= 2;
+      write_exr(image, file, read_metadata(file));
     }
-    again(0, "is rendered again");
+    again(0, ".exr: its pixels were changed; moved to '");
   }
 }
 
@@ -71,7 +86,7 @@ TEST_CASE("a run that aborts or takes too long ends nothing but itself") {
   CHECK_MESSAGE(
       outcome.err.find("deep, independent, seed 1: failed: ended by signal 6") != std::string::npos,
       outcome.err);
-  CHECK(outcome.err.find("4 runs failed: 'deep, independent, seed 1'") != std::string::npos);
+  CHECK(outcome.err.find("4 failed: 'deep, independent, seed 1'") != std::string::npos);
   CHECK(folder.has("test/report.html"));
   CHECK(folder.has("test/runs/flat/sobol/seed-2.json"));
   // The same experiment without the mistake makes the missing runs.
@@ -82,6 +97,25 @@ TEST_CASE("a run that aborts or takes too long ends nothing but itself") {
                  folder.path());
   CHECK(late.exit_code == 3);
   CHECK(late.err.find("failed: took longer than 0.5 s") != std::string::npos);
+}
+
+TEST_CASE("a reference that aborts ends nothing but the runs of its scene") {
+  const ScratchFolder folder;
+  write_experiment(folder, "spp: 8", 2);
+  const std::string module = fmt::format("PHAROS_MODULE_PATH={}/aborts", PHAROS_WRONG_MODULES);
+  const Outcome outcome = run_pharos(
+      "experiment test.yaml --set 'scenes.0.reference={ spp: 4, parts: 2, settings: { "
+      "integrator: { type: abort } } }'",
+      folder.path(), module);
+  CHECK(outcome.exit_code == 3);
+  CHECK_MESSAGE(outcome.err.find("deep: the reference failed, so the scene has no runs: ended by "
+                                 "signal 6") != std::string::npos,
+                outcome.err);
+  CHECK(outcome.err.find("'deep, reference'") != std::string::npos);
+  CHECK(rendered_runs(outcome) == 4);
+  CHECK(folder.has("test/report.html"));
+  CHECK_FALSE(folder.has("test/reference.order"));
+  CHECK(rendered_runs(run_pharos("experiment test.yaml", folder.path())) == 4);
 }
 
 TEST_CASE("Ctrl-C keeps finished runs and reports them; the same command goes on") {
@@ -115,6 +149,19 @@ int run_with_kills(const ScratchFolder& folder, double seconds, double more) {
     const Outcome outcome =
         interrupt_pharos("experiment test.yaml", folder.path(), seconds + kills * more, "KILL");
     if (outcome.exit_code == 0) return kills;
+  }
+}
+
+TEST_CASE("all signals that end a job stop an experiment, which goes on later") {
+  for (const char* signal : {"TERM", "HUP", "USR1", "USR2", "XCPU"}) {
+    CAPTURE(signal);
+    const ScratchFolder folder;
+    write_experiment(folder, "spp: 16", 500);
+    const Outcome outcome = interrupt_pharos_once("test/runs/deep/independent/seed-1.exr",
+                                                  "experiment test.yaml", folder.path(), signal);
+    CHECK(outcome.exit_code == 130);
+    CHECK(outcome.err.find(" failed: ") == std::string::npos);
+    CHECK(folder.has("test/report.html"));
   }
 }
 

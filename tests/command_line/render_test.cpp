@@ -124,20 +124,19 @@ TEST_CASE("with too little memory, a render ends with a message instead of waiti
     return;
   }
   // Where the memory ends depends on the libraries' sizes, so that the limits cover all of loading
-  // and building.
+  // and building. A render would last until it is killed, so an image that cannot be written is
+  // noticed before.
   int unloaded = 0;
   for (int kilobytes = 150'000; kilobytes <= 250'000; kilobytes += 2'500) {
     CAPTURE(kilobytes);
     const Outcome outcome =
-        run_pharos("render box.yaml", folder.path(),
+        run_pharos("render box.yaml --set budget.spp=100000000", folder.path(),
                    fmt::format("ulimit -v {}; timeout --signal=KILL 60", kilobytes));
     CHECK(outcome.exit_code == 3);
     CHECK_MESSAGE(outcome.err.find("pharos: error: ") != std::string::npos, outcome.err);
     const bool is_unloaded =
         outcome.err.find("images cannot be read or written: ") != std::string::npos;
     unloaded += is_unloaded ? 1 : 0;
-    // What cannot be written at the end is not rendered.
-    if (is_unloaded) CHECK(outcome.err.find("samples") == std::string::npos);
   }
   CHECK(unloaded > 0);
 }

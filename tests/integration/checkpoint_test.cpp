@@ -5,6 +5,8 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include <pharos/core/stopwatch.h>
+
 #include "renders.h"
 
 namespace pharos::testing {
@@ -48,10 +50,16 @@ void check_goes_on(const std::string& config) {
   const States whole = states_of(config, 19);
   CHECK(whole.finished == 1);
   CHECK(whole.states.size() >= 3);
-  CHECK(whole.bits == bits_of(render(config)));
+  const RenderResult undisturbed = render(config);
+  CHECK(whole.bits == bits_of(undisturbed));
   for (std::size_t i = 0; i < whole.states.size(); ++i) {
-    const bool same = bits_after(config, whole.states[i]) == whole.bits;
-    CHECK_MESSAGE(same, "state " << i << " of " << whole.states.size());
+    CAPTURE(i);
+    const RenderResult result = RenderJob(config_from(config).config).run({}, whole.states[i]);
+    const bool same = bits_of(result) == whole.bits;
+    CHECK(same);
+    CHECK(result.counters.paths == undisturbed.counters.paths);
+    CHECK(result.counters.rays == undisturbed.counters.rays);
+    CHECK(result.samples_per_pixel == undisturbed.samples_per_pixel);
   }
 }
 
@@ -138,7 +146,19 @@ TEST_CASE("checkpoints: a finished image gets more samples") {
     return bits_of(result).substr(result.image.values().size() * sizeof(float));
   };
   CHECK(model_bits(more) == model_bits(same));
+  CHECK(same.counters.paths > 0);
   CHECK(more.counters.paths > 3 * same.counters.paths);
+}
+
+TEST_CASE("checkpoints: the samples of a finished image are part of the longer one") {
+  const auto config = [](int spp) { return config_in("cornell-box", "", spp); };
+  const States first = states_of(config(16), 1000);
+  REQUIRE(first.states.size() == 1);
+  const Image more = RenderJob(config_from(config(64)).config).run({}, first.states[0]).image;
+  const Image whole = render(config(64)).image;
+  for (std::size_t i = 0; i < whole.values().size(); ++i) {
+    CHECK(more.values()[i] == doctest::Approx(whole.values()[i]).epsilon(1e-4));
+  }
 }
 
 TEST_CASE("checkpoints: the time that was used counts") {
@@ -155,7 +175,10 @@ TEST_CASE("checkpoints: the time that was used counts") {
   control.on_progress = [&](const Progress& p) { stop = p.seconds > 0.5; };
   control.checkpoint.take = [&](std::string taken, bool) { state = std::move(taken); };
   RenderJob(config_from(config(1)).config).run(control);
-  const RenderResult rest = RenderJob(config_from(config(1)).config).run({}, state);
+  RenderJob job(config_from(config(1)).config);
+  const Stopwatch watch;
+  const RenderResult rest = job.run({}, state);
+  CHECK(watch.seconds() < 0.75);  // half a second was left
   CHECK(rest.times.budgeted() > 0.9);
   CHECK(rest.times.budgeted() < 1.4);
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,18 +31,17 @@ struct ConfigOptions {
 
 /// The option that restricts what configs and scenes of others may read.
 struct ConfineOption {
-  std::string folder;  ///< below which all input must lie; empty: anywhere
+  std::optional<std::string> folder;  ///< below which all input must lie; none: anywhere
 
   void add_to(CLI::App& command) {
     command.add_option("--confine", folder, "Read input only from files below this folder");
   }
   /// Restricts reading to the folder, the presets and the user's cache.
   void apply(const Registry& registry) const {
-    if (folder.empty()) return;
-    std::vector<std::filesystem::path> folders{folder};
-    for (const std::string& each : registry.searched_folders()) folders.emplace_back(each);
-    folders.push_back(user_cache_folder());
-    confine_reading(folders);
+    if (!folder) return;
+    confine_reading(*folder);
+    for (const std::string& each : registry.searched_folders()) allow_reading(each);
+    allow_reading(user_cache_folder());
   }
 };
 

@@ -20,6 +20,13 @@ std::string value_text(const ConfigNode* node) {
   return node == nullptr ? "nothing" : node->describe();
 }
 
+/// Whether a value stands for the content of a file, see content_of().
+bool is_content(const ConfigNode* node) {
+  constexpr std::size_t kDigits = 32;
+  return node != nullptr && node->is_scalar() && node->text().size() == kDigits &&
+         node->text().find_first_not_of("0123456789abcdef") == std::string::npos;
+}
+
 /// Returns where two configs first differ: "budget.spp: the scalar '64' there, the scalar '128'
 /// here"; nothing if they are equal.
 std::optional<std::string> difference(const ConfigNode* there, const ConfigNode* here,
@@ -44,6 +51,9 @@ std::optional<std::string> difference(const ConfigNode* there, const ConfigNode*
       if (auto found = difference(item(there), item(here), below(std::to_string(i)))) return found;
     }
     if (there->text() == here->text()) return std::nullopt;
+  }
+  if (is_content(there) && is_content(here)) {
+    return fmt::format("the file at '{}' has another content there", path);
   }
   return fmt::format("'{}' is {} there and {} here", path, value_text(there), value_text(here));
 }
@@ -116,9 +126,13 @@ std::string state_to_continue(const LoadedConfig& loaded, const SavedRender& own
   const Metadata metadata = read_metadata(image);
   SavedRender checkpoint = matching_checkpoint(loaded, own, false);
   if (!checkpoint.finished) {
-    throw InputError(fmt::format(
-        "--continue: error: the render of the checkpoint '{}' is not finished: expected --resume",
-        output.checkpoint));
+    const ConfigNode config = parse_yaml(checkpoint.config, output.checkpoint);
+    const ConfigNode* budget = config.find("budget");
+    const char* key = budget->find("spp") != nullptr ? "spp" : "seconds";
+    throw InputError(
+        fmt::format("--continue: error: the render of the checkpoint '{}' is not finished: "
+                    "expected --resume -o {} --set budget.{}={}",
+                    output.checkpoint, image.string(), key, budget->find(key)->text()));
   }
   const auto entry = metadata.find(kStateEntry);
   if (entry == metadata.end() || entry->second != state_name(checkpoint.state)) {

@@ -44,8 +44,7 @@ void report(const ExperimentResults& results) {
                     invalid));
   }
   if (!results.failed.empty()) {
-    log_warning(
-        fmt::format("{} runs failed: {}", results.failed.size(), quoted_list(results.failed)));
+    log_warning(fmt::format("{} failed: {}", results.failed.size(), quoted_list(results.failed)));
   }
   log_info(fmt::format("{}: {} of {} runs{}", (results.folder() / "report.html").string(),
                        results.records.size(), results.run_count,

@@ -26,7 +26,7 @@ int run(const RunOptions& options) {
   RenderControl control;
   control.stop = &interrupt.flag();
   if (!options.quiet) control.on_progress = [&bar](const Progress& p) { bar.show(p); };
-  return make_run(load_order(options.order), registry, control) ? kDone : kInterrupted;
+  return carry_out(load_order(options.order), registry, control) ? kDone : kInterrupted;
 }
 
 }  // namespace

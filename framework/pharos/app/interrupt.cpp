@@ -8,7 +8,8 @@ namespace pharos {
 namespace {
 
 std::atomic<bool> interrupted{false};
-std::atomic<bool> requested{false};  ///< SIGUSR1 came
+std::atomic<bool> requested{false};     ///< SIGUSR1 came
+std::atomic<bool> has_requests{false};  ///< SIGUSR1 sets `requested`
 /// When the first signal came [s]; 0: there was none. Two signals may arrive on two threads at the
 /// same time.
 std::atomic<std::int64_t> first_signal_at{0};
@@ -41,6 +42,10 @@ void handle_request(int) {
   requested = true;
 }
 
+void handle_end_of_time(int) {
+  interrupted = true;
+}
+
 constexpr int kEnding[] = {SIGINT, SIGTERM, SIGHUP, SIGUSR2};
 
 /// Sets the handler of a signal. SIGHUP stays ignored if it is, because nohup ignores it.
@@ -52,6 +57,7 @@ void set_handler(int signal, void (*handler)(int)) {
 }  // namespace
 
 void InterruptGuard::expect_requests() {
+  has_requests = true;
   set_handler(SIGUSR1, handle_request);
 }
 
@@ -59,13 +65,15 @@ InterruptGuard::InterruptGuard() {
   interrupted = false;
   first_signal_at = 0;
   for (const int signal : kEnding) set_handler(signal, handle);
-  set_handler(SIGUSR1, handle_request);
+  set_handler(SIGUSR1, has_requests ? handle_request : handle);
+  set_handler(SIGXCPU, handle_end_of_time);
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
 InterruptGuard::~InterruptGuard() {
   for (const int signal : kEnding) set_handler(signal, SIG_DFL);
   set_handler(SIGUSR1, SIG_DFL);
+  set_handler(SIGXCPU, SIG_DFL);
 }
 
 const std::atomic<bool>& InterruptGuard::flag() const {

@@ -79,7 +79,7 @@ void report(const RenderResult& result, const RenderConfig& config) {
   }
   if (result.invalid_pixels > 0) {
     log_warning(
-        fmt::format("{}: {} pixels are NaN or infinite, because the light is beyond the "
+        fmt::format("{}: {} pixels are NaN or infinite, which happens if light is beyond the "
                     "range of a float",
                     config.output.image, result.invalid_pixels));
   }
@@ -93,8 +93,6 @@ class Render {
     find_checkpoint(registry);
     job_.emplace(loaded.config);
   }
-
-  RenderJob& job() { return *job_; }
 
   /// Renders the image and writes it, with a preview in `viewer` if one is given.
   RenderResult run(const std::optional<HostPort>& viewer) {
@@ -114,8 +112,11 @@ class Render {
         if (finished) state_name_ = state_name(state);
         checkpoints_->write(std::move(state), finished);
       };
+      control.checkpoint.on_failure = [this](const std::string& reason) {
+        warn("no checkpoint: " + reason);
+      };
     }
-    RenderResult result = job_->run(control, state_);
+    RenderResult result = run_job(control);
     bar_.clear();
     if (preview) preview->show_last(result.image);
     space.release();
@@ -134,12 +135,22 @@ class Render {
     const SavedRender head = saved_render_head(loaded_, registry);
     if (options_.resume) state_ = state_to_resume(loaded_, head);
     if (!options_.continued.empty()) state_ = state_to_continue(loaded_, head, options_.continued);
-    if (state_.empty() && std::filesystem::exists(output.checkpoint)) {
-      log_info(
-          fmt::format("{}: will be replaced; --resume would go on from it", output.checkpoint));
-    }
     checkpoints_.emplace(output.checkpoint, head, output.every,
                          [this](const std::string& message) { warn(message); });
+    if (state_.empty() && std::filesystem::exists(output.checkpoint)) {
+      log_warning(
+          fmt::format("{}: will be replaced; --resume would go on from it", output.checkpoint));
+    }
+  }
+
+  RenderResult run_job(const RenderControl& control) {
+    try {
+      return job_->run(control, state_);
+    } catch (const InputError& error) {
+      if (state_.empty()) throw;
+      throw InputError(
+          fmt::format("the checkpoint '{}': {}", loaded_.config.output.checkpoint, error.what()));
+    }
   }
 
   void warn(const std::string& message) {
@@ -167,23 +178,25 @@ class Render {
 };
 
 int render(const RenderOptions& options) {
-  InterruptGuard::expect_requests();
+  if (options.replay.empty()) InterruptGuard::expect_requests();
   set_log_quiet(options.quiet);
   std::optional<HostPort> viewer;
   if (options.preview) viewer = parse_host_port(*options.preview, kTevPort, {"--preview"});
   const Registry registry = load_default_modules();
   options.confine.apply(registry);
+  if (!options.continued.empty()) allow_reading(options.continued);
   LoadedConfig loaded = load_render_config(options.config.path, options.config.overrides, registry);
   if (!options.continued.empty()) loaded.config.output.image = options.continued;
   if (!options.output.empty()) loaded.config.output.image = options.output;
   check_outputs(loaded);
   tell_notes(loaded.notes, options.config.strict);
 
-  Render render(loaded, registry, options);
   if (!options.replay.empty()) {
-    replay_path(render.job(), loaded.config, options.replay);
+    RenderJob job(loaded.config);
+    replay_path(job, loaded.config, options.replay);
     return kDone;
   }
+  Render render(loaded, registry, options);
   const RenderResult result = render.run(viewer);
   report(result, loaded.config);
   return result.stopped ? kInterrupted : kDone;

@@ -14,6 +14,7 @@
 
 #include <pharos/core/error.h>
 #include <pharos/core/writable.h>
+#include <pharos/experiments/runner/content_key.h>
 
 namespace pharos {
 namespace {
@@ -62,16 +63,15 @@ bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b
 /// Checks that no output is an input or another output.
 void check_distinct(const LoadedConfig& loaded) {
   const auto outputs = outputs_of(loaded.config.output);
+  const std::vector<std::filesystem::path> inputs = inputs_of(loaded);
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     const auto& [name, file] = outputs[i];
-    for (const auto* inputs : {&loaded.files, &loaded.sources}) {
-      for (const std::filesystem::path& input : *inputs) {
-        if (!is_same_file(file, input)) continue;
-        throw InputError(
-            fmt::format("{}: error: 'output.{}' would overwrite an input of this "
-                        "render: expected another name",
-                        file.string(), name));
-      }
+    for (const std::filesystem::path& input : inputs) {
+      if (!is_same_file(file, input)) continue;
+      throw InputError(
+          fmt::format("{}: error: 'output.{}' would overwrite an input of this "
+                      "render: expected another name",
+                      file.string(), name));
     }
     for (std::size_t k = 0; k < i; ++k) {
       if (!is_same_file(file, outputs[k].second)) continue;
@@ -108,7 +108,7 @@ OutputSpace::OutputSpace(const RenderConfig& config) {
   const int error = posix_fallocate(file_, 0, static_cast<off_t>(bytes));
   if (error == 0) return;
   release();
-  if (error == ENOSPC || error == EFBIG) {
+  if (error == ENOSPC || error == EDQUOT || error == EFBIG) {
     throw RunError(fmt::format("{}: error: the image needs up to {} bytes: {}", image.string(),
                                bytes, std::strerror(error)));
   }

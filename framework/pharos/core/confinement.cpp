@@ -1,17 +1,19 @@
 #include <algorithm>
 #include <system_error>
+#include <vector>
 
 #include <pharos/core/confinement.h>
+#include <pharos/core/error.h>
 
 namespace pharos {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// The folders below which input may lie, without links. Empty: anywhere.
-std::vector<fs::path>& allowed_folders() {
-  static std::vector<fs::path> folders;
-  return folders;
+/// The folders below which input may lie, and single files, without links. Empty: anywhere.
+std::vector<fs::path>& allowed_paths() {
+  static std::vector<fs::path> paths;
+  return paths;
 }
 
 bool lies_below(const fs::path& file, const fs::path& folder) {
@@ -21,24 +23,30 @@ bool lies_below(const fs::path& file, const fs::path& folder) {
 
 }  // namespace
 
-void confine_reading(const std::vector<fs::path>& folders) {
+void confine_reading(const fs::path& folder) {
   std::error_code failed;
-  for (const fs::path& folder : folders) {
-    // Without a slash at the end, which would count as one more part of the path.
-    const fs::path whole = fs::weakly_canonical(folder, failed);
-    allowed_folders().push_back(whole.has_filename() ? whole : whole.parent_path());
+  const fs::path whole = fs::canonical(folder, failed);
+  if (failed || !fs::is_directory(whole, failed)) {
+    throw InputError("--confine: error: expected a folder, found '" + folder.string() + "'");
   }
+  allowed_paths().push_back(whole);
+}
+
+void allow_reading(const fs::path& path) {
+  std::error_code failed;
+  const fs::path whole = fs::canonical(path, failed);
+  if (!failed && !allowed_paths().empty()) allowed_paths().push_back(whole);
 }
 
 std::string confinement_problem(const fs::path& file) {
-  const std::vector<fs::path>& folders = allowed_folders();
-  if (folders.empty()) return "";
+  const std::vector<fs::path>& allowed = allowed_paths();
+  if (allowed.empty()) return "";
   std::error_code failed;
   const fs::path whole = fs::weakly_canonical(file, failed);
-  const bool is_allowed = std::any_of(folders.begin(), folders.end(), [&](const fs::path& folder) {
-    return lies_below(whole, folder);
+  const bool is_allowed = std::any_of(allowed.begin(), allowed.end(), [&](const fs::path& path) {
+    return lies_below(whole, path);
   });
-  return is_allowed ? "" : "it lies outside of '" + folders.front().string() + "' (--confine)";
+  return is_allowed ? "" : "it lies outside of '" + allowed.front().string() + "' (--confine)";
 }
 
 }  // namespace pharos

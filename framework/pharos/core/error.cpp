@@ -73,14 +73,13 @@ std::string file_suggestion(const std::filesystem::path& missing) {
   return suggestion(missing.filename().string(), names);
 }
 
-std::string file_problem(const std::filesystem::path& path) {
+std::string access_problem(const std::filesystem::path& path) {
   using std::filesystem::file_type;
   if (path.empty()) return "expected the name of a file, found an empty one";
   std::error_code failed;
   switch (std::filesystem::status(path, failed).type()) {
     case file_type::regular:
-      if (access(path.c_str(), R_OK) != 0) return "the file may not be read";
-      return confinement_problem(path);
+      return access(path.c_str(), R_OK) == 0 ? "" : "the file may not be read";
     case file_type::not_found:
       return "no such file" + file_suggestion(path);
     case file_type::directory:
@@ -90,6 +89,11 @@ std::string file_problem(const std::filesystem::path& path) {
     default:
       return "expected a file, found a pipe or device";
   }
+}
+
+std::string file_problem(const std::filesystem::path& path) {
+  const std::string problem = access_problem(path);
+  return problem.empty() ? confinement_problem(path) : problem;
 }
 
 std::string one_line(std::string_view text, std::size_t max_length) {

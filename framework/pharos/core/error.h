@@ -61,9 +61,12 @@ std::string suggestion(std::string_view wrong, std::span<const std::string> know
 std::string file_suggestion(const std::filesystem::path& missing);
 
 /// Returns why `path` cannot be read as a file: it does not exist (with the nearest name), is a
-/// folder, a pipe or a device, may not be read, or lies outside of the folders of
-/// confine_reading(). Returns "" if it can be read. Code calls this before it opens a file, because
-/// opening a pipe could wait forever.
+/// folder, a pipe or a device, or may not be read. Returns "" if it can be read. Code calls this
+/// before it opens a file, because opening a pipe could wait forever.
+std::string access_problem(const std::filesystem::path& path);
+
+/// As access_problem(), for files that configs and scenes name: these must also lie below the
+/// folder of confine_reading().
 std::string file_problem(const std::filesystem::path& path);
 
 /// Returns `text` on one line. Line breaks become spaces and other control characters become '?'.

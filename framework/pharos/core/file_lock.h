@@ -3,11 +3,13 @@
 #include <atomic>
 #include <filesystem>
 #include <optional>
+#include <utility>
 
 namespace pharos {
 
 /// A lock between processes, held as long as the object lives. The lock is on a file, which is
-/// created if it does not exist and stays afterwards. Threads of one process need one object each.
+/// created if it does not exist and stays afterwards, unless it is removed. Threads of one process
+/// need one object each.
 class FileLock {
  public:
   /// Returns the lock, or nothing if another process or object holds it. Throws RunError if the
@@ -18,6 +20,9 @@ class FileLock {
   static std::optional<FileLock> wait(const std::filesystem::path& file,
                                       const std::atomic<bool>* stop);
 
+  /// Removes the file of this lock, which stays locked.
+  void remove_file() const;
+
   ~FileLock();
   FileLock(FileLock&& other) noexcept;
   FileLock& operator=(FileLock&& other) noexcept;
@@ -25,9 +30,13 @@ class FileLock {
   FileLock& operator=(const FileLock&) = delete;
 
  private:
-  explicit FileLock(int descriptor) : descriptor_(descriptor) {}
+  FileLock(int descriptor, std::filesystem::path file)
+      : descriptor_(descriptor), file_(std::move(file)) {}
+  /// Whether the locked file still has its name.
+  bool has_name() const;
 
   int descriptor_ = -1;
+  std::filesystem::path file_;
 };
 
 }  // namespace pharos

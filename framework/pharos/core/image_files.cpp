@@ -22,6 +22,8 @@ namespace {
 constexpr int kLargestEdge = 65536;
 /// More than any image format of textures and renders needs.
 constexpr int kMostChannels = 1024;
+/// Values of all channels together, 4 GiB as floats.
+constexpr std::size_t kMostValues = std::size_t{1} << 30;
 
 /// Makes the image libraries work on the caller's thread. Their own thread pools would compete with
 /// the renderer's.
@@ -111,6 +113,11 @@ void check_extent(const std::filesystem::path& path, const OIIO::ImageSpec& spec
     fail_reading(path, "it has " + std::to_string(spec.nchannels) + " channels, more than " +
                            std::to_string(kMostChannels));
   }
+  if (static_cast<std::size_t>(spec.width) * spec.height * spec.nchannels > kMostValues) {
+    fail_reading(path, "it has " + size + " pixels of " + std::to_string(spec.nchannels) +
+                           " channels, more than the " + std::to_string(kMostValues) +
+                           " values that Pharos reads");
+  }
   if (spec.deep || spec.depth > 1) fail_reading(path, "deep and volume images are not supported");
   const bool whole = spec.x == spec.full_x && spec.y == spec.full_y &&
                      spec.width == spec.full_width && spec.height == spec.full_height;
@@ -118,6 +125,15 @@ void check_extent(const std::filesystem::path& path, const OIIO::ImageSpec& spec
     fail_reading(path, "its data window (" + size + ") is not its display window (" +
                            std::to_string(spec.full_width) + " x " +
                            std::to_string(spec.full_height) + "); save it uncropped");
+  }
+}
+
+/// Takes what the reader returned. Some readers fill in missing pixels, report success and only
+/// leave a message.
+void check_complete(const std::filesystem::path& path, const OIIO::ImageInput& input,
+                    bool success) {
+  if (!success || input.has_error()) {
+    fail_reading(path, "it is cut off or damaged", input.geterror());
   }
 }
 
@@ -175,10 +191,7 @@ Image read_image_file(const std::filesystem::path& path, ColorSpace integer_form
     Image image(spec.width, spec.height, spec.channelnames);
     const bool complete =
         input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.values().data());
-    // Some readers fill in missing pixels, report success and only leave a message.
-    if (!complete || input->has_error()) {
-      fail_reading(path, "it is cut off or damaged", input->geterror());
-    }
+    check_complete(path, *input, complete);
     const bool encoded = !spec.format.is_floating_point() && integer_formats == ColorSpace::srgb;
     if (encoded) decode_srgb(image, spec.alpha_channel);
     return image;
@@ -246,10 +259,7 @@ ColorImage read_color_file(const std::filesystem::path& path, ColorSpace integer
     std::vector<std::byte> others(in_order ? 0 : pixels * (end - first) * size);
     std::byte* to = in_order ? image.data() : others.data();
     const bool complete = input->read_image(0, 0, first, end, format_of(depth), to);
-    // Some readers fill in missing pixels, report success and only leave a message.
-    if (!complete || input->has_error()) {
-      fail_reading(path, "it is cut off or damaged", input->geterror());
-    }
+    check_complete(path, *input, complete);
     if (!in_order) {
       pick_channels(others.data(), pixels, end - first, {red - first, green - first, blue - first},
                     size, image.data());

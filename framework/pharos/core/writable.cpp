@@ -9,9 +9,13 @@ namespace pharos {
 
 void check_writable(const std::filesystem::path& file) {
   if (file.empty()) return;
-  const std::filesystem::path folder =
-      file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
   std::error_code failed;
+  // A link stays; what it points to is replaced.
+  const std::filesystem::path target = std::filesystem::is_symlink(file, failed)
+                                           ? std::filesystem::weakly_canonical(file, failed)
+                                           : file;
+  const std::filesystem::path folder =
+      target.has_parent_path() ? target.parent_path() : std::filesystem::path(".");
   if (!std::filesystem::is_directory(folder, failed)) {
     throw InputError(
         fmt::format("{}: error: the folder '{}' does not exist", file.string(), folder.string()));

@@ -1,4 +1,6 @@
 #include <array>
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <sstream>
 #include <utility>
@@ -75,17 +77,7 @@ Head parse_head(const std::string& bytes, const fs::path& path) {
   return head;
 }
 
-/// Whether a process runs on this machine. One that has ended but was not waited for does not.
-bool is_running(const std::string& process) {
-  std::ifstream stat("/proc/" + process + "/stat");
-  std::string text;
-  std::getline(stat, text);
-  // The state follows the name, which is in parentheses.
-  const std::size_t end = text.rfind(')');
-  return end != text.npos && end + 2 < text.size() && text[end + 2] != 'Z';
-}
-
-/// Returns the temporary files of write_atomically() for `path` whose process is gone.
+/// Returns the temporary files of write_atomically() for `path`.
 std::vector<fs::path> left_overs(const fs::path& path) {
   std::vector<fs::path> found;
   const std::string begin = path.filename().string() + ".", end = ".tmp";
@@ -97,12 +89,29 @@ std::vector<fs::path> left_overs(const fs::path& path) {
     const std::string process = name.substr(begin.size(), name.size() - begin.size() - end.size());
     const bool is_number =
         !process.empty() && process.find_first_not_of("0123456789") == process.npos;
-    if (is_number && !is_running(process)) found.push_back(entry.path());
+    if (is_number) found.push_back(entry.path());
   }
   return found;
 }
 
+/// Returns the lock of a render that writes the checkpoint `path`, which may replace no other file.
+FileLock locked(const fs::path& path) {
+  if (fs::exists(path) && !is_checkpoint(path)) {
+    fail(path, "is another file, which is not overwritten: expected another name");
+  }
+  auto lock = FileLock::try_lock(path.string() + ".lock");
+  if (!lock) fail(path, "is being written by another render: expected another name");
+  return std::move(*lock);
+}
+
 }  // namespace
+
+bool is_checkpoint(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::array<char, kMagic.size()> magic{};
+  in.read(magic.data(), magic.size());
+  return in && magic == kMagic;
+}
 
 void write_checkpoint(const SavedRender& checkpoint, const fs::path& path) {
   std::ostringstream head_out;
@@ -122,12 +131,14 @@ void write_checkpoint(const SavedRender& checkpoint, const fs::path& path) {
     out << bytes;
     start(head_checksum);
     out << checkpoint.state << std::flush;
-    if (!out) throw RunError(fmt::format("cannot write '{}'", path.string()));
+    if (!out) {
+      throw RunError(fmt::format("cannot write '{}': {}", path.string(), std::strerror(errno)));
+    }
   });
 }
 
 SavedRender read_checkpoint(const fs::path& path) {
-  if (const std::string problem = file_problem(path); !problem.empty()) {
+  if (const std::string problem = access_problem(path); !problem.empty()) {
     throw InputError(fmt::format("the checkpoint '{}': {}", path.string(), problem));
   }
   std::ifstream in(path, std::ios::binary);
@@ -151,6 +162,7 @@ SavedRender read_checkpoint(const fs::path& path) {
 
 CheckpointWriter::CheckpointWriter(fs::path path, SavedRender head, double every, Warn warn)
     : path_(std::move(path)),
+      lock_(locked(path_)),
       head_(std::move(head)),
       every_(std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(every))),
       warn_(std::move(warn)),
@@ -161,12 +173,14 @@ CheckpointWriter::CheckpointWriter(fs::path path, SavedRender head, double every
 
 CheckpointWriter::~CheckpointWriter() {
   finish();
+  lock_.remove_file();
 }
 
-bool CheckpointWriter::is_due() const {
+bool CheckpointWriter::is_due() {
   using std::chrono::seconds;
   const bool is_busy =
       writing_.valid() && writing_.wait_for(seconds(0)) != std::future_status::ready;
+  if (!is_busy) finish();
   return Clock::now() >= next_ && !is_busy;
 }
 
@@ -174,9 +188,14 @@ void CheckpointWriter::write(std::string state, bool finished) {
   finish();
   next_ = Clock::now() + every_;
   SavedRender checkpoint{head_.config, head_.build, finished, std::move(state)};
-  writing_ = std::async(std::launch::async, [path = path_, checkpoint = std::move(checkpoint)] {
-    write_checkpoint(checkpoint, path);
-  });
+  try {
+    writing_ = std::async(std::launch::async, [path = path_, checkpoint = std::move(checkpoint)] {
+      write_checkpoint(checkpoint, path);
+    });
+  } catch (const std::exception& error) {  // there is no thread or no memory for it
+    is_written_ = false;
+    warn_(fmt::format("no checkpoint: {}", error.what()));
+  }
 }
 
 bool CheckpointWriter::finish() {

@@ -6,6 +6,8 @@
 #include <future>
 #include <string>
 
+#include <pharos/core/file_lock.h>
+
 /// Checkpoints: files from which a render goes on after it was killed. Numbers are little-endian.
 ///
 ///     8 bytes   "pharoscp"
@@ -34,8 +36,12 @@ void write_checkpoint(const SavedRender& checkpoint, const std::filesystem::path
 /// is of another form or version of Pharos, and if it is cut off or damaged.
 SavedRender read_checkpoint(const std::filesystem::path& path);
 
+/// Whether a file is a checkpoint of any version of Pharos, be it damaged or not.
+bool is_checkpoint(const std::filesystem::path& path);
+
 /// Writes the checkpoints of one render in the background: while one is written, the render goes
-/// on.
+/// on. No other render can write the same file in the meantime: the file `path`.lock says so, which
+/// the destructor removes.
 class CheckpointWriter {
  public:
   using Warn = std::function<void(const std::string&)>;
@@ -43,13 +49,14 @@ class CheckpointWriter {
   /// Every checkpoint has the config and the build of `head`. One is due `every` seconds after the
   /// last one or after the start. `warn` receives the reasons why one could not be written, in the
   /// thread that calls a member function. Removes what writers that were killed have left beside
-  /// `path`.
+  /// `path`. Throws InputError if another render writes this checkpoint, or if `path` is a file
+  /// that is no checkpoint.
   CheckpointWriter(std::filesystem::path path, SavedRender head, double every, Warn warn);
   /// Waits for the last checkpoint.
   ~CheckpointWriter();
 
   /// Whether a checkpoint is due. None is due while the last one is still being written.
-  bool is_due() const;
+  bool is_due();
   /// Makes one due at once.
   void request() { next_ = Clock::now(); }
   /// Writes a checkpoint in the background. If one is still being written, waits for it first.
@@ -61,6 +68,7 @@ class CheckpointWriter {
   using Clock = std::chrono::steady_clock;
 
   std::filesystem::path path_;
+  FileLock lock_;
   SavedRender head_;
   Clock::duration every_;
   Warn warn_;

@@ -1,3 +1,4 @@
+#include <exception>
 #include <filesystem>
 #include <unistd.h>
 
@@ -41,7 +42,7 @@ class Writer {
   void write(const std::filesystem::path& file, Write&& write) {
     try {
       write(file);
-    } catch (const RunError& error) {
+    } catch (const std::exception& error) {  // also a lack of memory
       keep(file, error.what(), write);
     }
   }
@@ -62,7 +63,7 @@ class Writer {
     try {
       write(kept);
       problems_ += fmt::format("; it is kept as '{}'", kept.string());
-    } catch (const RunError& error) {
+    } catch (const std::exception& error) {
       problems_ += fmt::format("; {}", error.what());
     }
   }

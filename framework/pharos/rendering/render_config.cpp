@@ -60,14 +60,14 @@ void check_together(const RenderConfig& config, const ConfigNode& node) {
   if (config.budget.spp.has_value() == config.budget.seconds.has_value()) {
     nearest_node(node, {"budget"}).fail("expected either 'spp' or 'seconds'");
   }
-  if (config.sensor != nullptr) check_sensor_reach(*config.sensor, *node.find("sensor"));
   if (config.sensor == nullptr && config.scene.sensor == nullptr) {
     node.fail("there is no sensor: neither the scene nor the config has one");
   }
+  const Sensor& sensor = config.sensor != nullptr ? *config.sensor : *config.scene.sensor;
+  check_sensor_reach(sensor, config.film.width, config.film.height,
+                     nearest_node(node, {config.sensor != nullptr ? "sensor" : "film"}));
   try {
-    check_compatible(*config.integrator,
-                     config.sensor != nullptr ? *config.sensor : *config.scene.sensor,
-                     config.film.jitter);
+    check_compatible(*config.integrator, sensor, config.film.jitter);
   } catch (const InputError& error) {
     nearest_node(node, {"integrator", "guiding"}).fail(error.what());
   }
@@ -124,7 +124,10 @@ void OutputSettings::describe(Schema<OutputSettings>& s) {
           "File for what was learned: the models of all methods, and their mixing");
   s.field("checkpoint", &OutputSettings::checkpoint,
           "File from which `pharos render --resume` goes on after the render was killed");
-  s.field("every", &OutputSettings::every, "Time between two checkpoints").unit("s").above(0);
+  s.field("every", &OutputSettings::every, "Time between two checkpoints")
+      .unit("s")
+      .above(0)
+      .at_most(1e9);
   s.field("png", &OutputSettings::png, "Whether to write a tone-mapped PNG beside the EXR file");
   s.field("exposure", &OutputSettings::exposure, "Exposure of the PNG").unit("stops");
   s.field("filmic", &OutputSettings::filmic,

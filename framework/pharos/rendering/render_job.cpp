@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <new>
 #include <optional>
 #include <sstream>
 #include <utility>
@@ -154,7 +155,7 @@ class RenderJob::Implementation {
     }
     const bool is_stopped = stopped();
     if (is_stopped) save_when_stopped();
-    if (!is_stopped && !iteration_.training) save_state(true);
+    if (!is_stopped && !iteration_.training) save_finished();
     const IterationState done = std::move(*current_);
     current_.reset();
     end_iteration(done, is_stopped);
@@ -317,12 +318,26 @@ class RenderJob::Implementation {
     is_saved_ = true;
   }
 
+  /// A render that is stopped afterwards has nothing to hand out any more.
+  void save_finished() {
+    save_state(true);
+    is_saved_ = true;
+  }
+
   void save_state(bool finished) {
     if (!control_.checkpoint.take) return;
     std::ostringstream out;
-    Archive archive(out);
-    archive_state(archive);
-    control_.checkpoint.take(std::move(out).str(), finished);
+    try {
+      Archive archive(out);
+      archive_state(archive);
+    } catch (const std::bad_alloc&) {
+      out.setstate(std::ios::badbit);
+    }
+    if (out) {
+      control_.checkpoint.take(std::move(out).str(), finished);
+    } else if (control_.checkpoint.on_failure) {
+      control_.checkpoint.on_failure("the state of the render does not fit into memory");
+    }
   }
 
   void load_state(const std::string& state) {

@@ -42,6 +42,8 @@ struct CheckpointControl {
   /// Receives a state that RenderJob::run() takes: when one is due, when the render was stopped,
   /// and when it has `finished` its budget. May be empty. The time of the call counts.
   std::function<void(std::string state, bool finished)> take;
+  /// Receives the reason why there is no state although one was due. May be empty.
+  std::function<void(const std::string& reason)> on_failure;
 };
 
 /// Callbacks to watch a render and a flag to stop it.

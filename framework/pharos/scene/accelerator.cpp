@@ -215,6 +215,7 @@ void Scene::Accelerator::build(const SceneParts& parts) {
 }
 
 void Scene::Accelerator::abandon() noexcept {
+  rtcSetDeviceErrorFunction(device_.get(), nullptr, nullptr);
   for (EmbreeScene& group : groups_) static_cast<void>(group.release());
   static_cast<void>(scene_.release());
   static_cast<void>(device_.release());

@@ -5,6 +5,7 @@
 
 #include <pharos/scene/group_table.h>
 #include <pharos/scene/placement.h>
+#include <pharos/scene/reach.h>
 
 namespace pharos {
 namespace {
@@ -28,7 +29,7 @@ Transform composed(const Transform& outer, const InstanceEntry& entry) {
 
 void check_extent(const Bounds3& group, const Transform& to_world, const Location& where) {
   try {
-    placed_bounds(group, to_world);
+    check_reach(placed_bounds(group, to_world), "the instance");
   } catch (const InputError& e) {
     throw InputError(where, e.what());
   }

@@ -82,7 +82,7 @@ class SceneReader {
                 check_emitter_place(*parts.emitters.back(), entry, false);
               });
     parts.sensor = read_part<Sensor>("sensor", given("sensor"), resolved_);
-    if (parts.sensor != nullptr) check_sensor_reach(*parts.sensor, given("sensor"));
+    if (parts.sensor != nullptr) check_sensor_reach(*parts.sensor, 1, 1, given("sensor"));
     parts.medium = read_part<Medium>("medium", given("medium"), resolved_);
     return parts;
   }
@@ -235,8 +235,17 @@ SceneParts read_mapping(const ConfigNode& scene, BuildContext& context, ConfigNo
 
 }  // namespace
 
-void check_sensor_reach(const Sensor& sensor, const ConfigNode& node) {
-  check_at(node, [&] { check_reach(sensor.position(), "the sensor"); });
+void check_sensor_reach(const Sensor& sensor, int width, int height, const ConfigNode& node) {
+  check_at(node, [&] {
+    check_reach(sensor.position(), "the sensor");
+    const auto prepared = sensor.prepare(width, height);
+    // The corners of the lens and of the film.
+    for (int i = 0; i < 16; ++i) {
+      const auto bit = [&](int k) { return static_cast<float>(i >> k & 1); };
+      const LensPoint lens = prepared->sample_lens({bit(0), bit(1)});
+      check_reach(prepared->ray(lens, {bit(2), bit(3)}).origin, "the sensor");
+    }
+  });
 }
 
 SceneParts Value<SceneParts>::read(const ConfigNode& node, BuildContext& context,

@@ -28,7 +28,8 @@ struct Value<SceneParts> : PlainValue {
   static SceneParts read(const ConfigNode& node, BuildContext& context, ConfigNode& resolved);
 };
 
-/// Throws InputError at `node` if the sensor is too far from the origin.
-void check_sensor_reach(const Sensor& sensor, const ConfigNode& node);
+/// Throws InputError at `node` if rays from the sensor to a film of `width` x `height` pixels start
+/// too far from the origin.
+void check_sensor_reach(const Sensor& sensor, int width, int height, const ConfigNode& node);
 
 }  // namespace pharos

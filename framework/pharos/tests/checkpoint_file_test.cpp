@@ -1,4 +1,6 @@
-// SavedRender files: read back as they were written; all damage is reported.
+// Checkpoint files: read back as they were written; all damage is reported.
+
+#include <memory>
 
 #include <doctest/doctest.h>
 
@@ -38,11 +40,11 @@ TEST_CASE("checkpoint files: every flipped bit and every shorter file is refused
   const std::string sound = sound_file(folder);
   for (std::size_t i = 0; i < sound.size(); ++i) {
     CAPTURE(i);
-    CHECK_FALSE(refusal(folder, sound.substr(0, i)).empty());
+    CHECK(refusal(folder, sound.substr(0, i)) != "no error");
     for (int bit = 0; bit < 8; ++bit) {
       std::string damaged = sound;
       damaged[i] = static_cast<char>(damaged[i] ^ (1 << bit));
-      CHECK_FALSE(refusal(folder, damaged).empty());
+      CHECK(refusal(folder, damaged) != "no error");
     }
   }
   CHECK(refusal(folder, sound + "x").find("goes on after its end") != std::string::npos);
@@ -72,11 +74,30 @@ TEST_CASE("a writer writes what is due, and removes what dead writers have left"
   CHECK(read_checkpoint(folder / "a").state == "new");
   CHECK(warning.empty());
 
-  CheckpointWriter lost(folder / "none" / "a", kSaved, 1e9,
+  std::filesystem::create_directory(folder / "b");
+  CheckpointWriter lost(folder / "b" / "a", kSaved, 1e9,
                         [&](const std::string& message) { warning += message; });
+  std::filesystem::remove_all(folder / "b");
   lost.write("new", false);
   CHECK_FALSE(lost.finish());
   CHECK(warning.find("no checkpoint: cannot write") != std::string::npos);
+}
+
+TEST_CASE("a checkpoint has one writer at a time, which replaces no other file") {
+  const TemporaryFolder folder;
+  const auto writer = [&](const char* name) {
+    return std::make_unique<CheckpointWriter>(folder / name, kSaved, 1e9,
+                                              [](const std::string&) {});
+  };
+  auto first = writer("a");
+  CHECK(input_error_in(folder, [&] { writer("a"); }) ==
+        "the checkpoint 'a' is being written by another render: expected another name");
+  first.reset();
+  CHECK_FALSE(std::filesystem::exists(folder / "a.lock"));
+  writer("a");
+  folder.write("notes", "text");
+  CHECK(input_error_in(folder, [&] { writer("notes"); }) ==
+        "the checkpoint 'notes' is another file, which is not overwritten: expected another name");
 }
 
 }  // namespace

@@ -78,10 +78,26 @@ class PlacedEmitter : public Emitter {
   bool on_shape_;
 };
 
+/// A camera without a view: all rays run along +z.
+class PreparedPoint : public PreparedSensor {
+ public:
+  explicit PreparedPoint(Point3 at) : at_(at) {}
+  LensPoint sample_lens(Vec2) const override { return {at_, {0, 0, 1}}; }
+  Ray ray(const LensPoint& lens, Vec2) const override { return {lens.position, lens.normal}; }
+  std::optional<SensorResponse> response(const LensPoint&, Vec3) const override {
+    return std::nullopt;
+  }
+
+ private:
+  Point3 at_;
+};
+
 class PointSensor : public Sensor {
  public:
   explicit PointSensor(Point3 at) : at_(at) {}
-  std::unique_ptr<const PreparedSensor> prepare(int, int) const override { return nullptr; }
+  std::unique_ptr<const PreparedSensor> prepare(int, int) const override {
+    return std::make_unique<const PreparedPoint>(at_);
+  }
   Point3 position() const override { return at_; }
 
  private:

@@ -3,6 +3,7 @@
 #include <map>
 #include <set>
 
+#include <pharos/core/error.h>
 #include <pharos/experiments/runner/build_key.h>
 #include <pharos/experiments/runner/content_key.h>
 
@@ -55,6 +56,12 @@ std::string build_key(const ConfigNode& resolved, const Registry& registry) {
     keys += library + (file == files.end() ? "" : content_key_of_file(file->second));
   }
   return content_key(keys);
+}
+
+void check_build(const ConfigNode& resolved, const std::string& expected,
+                 const Registry& registry) {
+  if (build_key(resolved, registry) == expected) return;
+  throw RunError("Pharos was built anew while the experiment ran: start the experiment again");
 }
 
 }  // namespace pharos

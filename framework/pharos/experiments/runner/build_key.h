@@ -11,4 +11,8 @@ namespace pharos {
 /// the name of one of its plugins.
 std::string build_key(const ConfigNode& resolved, const Registry& registry);
 
+/// Throws RunError if `expected`, the build_key() of the process that ordered a render, is not the
+/// one of this process.
+void check_build(const ConfigNode& resolved, const std::string& expected, const Registry& registry);
+
 }  // namespace pharos

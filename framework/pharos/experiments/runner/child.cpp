@@ -18,8 +18,6 @@ namespace pharos {
 namespace {
 
 constexpr int kNotStarted = 127;
-/// The exit code of a program that was interrupted.
-constexpr int kInterruptedCode = 130;
 
 /// Blocks all signals of the thread while it exists.
 class HeldSignals {
@@ -51,10 +49,12 @@ void forget_handlers() {
 /// Replaces the forked process by the program. Only calls functions that are safe after fork() in a
 /// process with threads. No signal handler of the parent may run here, because the signal would
 /// then be lost, or the handler could wait forever for a lock that another thread held.
-[[noreturn]] void become(char* const* arguments, rlim_t bytes, const HeldSignals& held) {
+[[noreturn]] void become(char* const* arguments, rlim_t bytes, pid_t parent,
+                         const HeldSignals& held) {
   forget_handlers();
   held.release();
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // ends with its parent
+  if (getppid() != parent) _exit(kNotStarted);
   const rlimit space{bytes, bytes};
   if (bytes != RLIM_INFINITY) setrlimit(RLIMIT_AS, &space);
   execv(arguments[0], arguments);
@@ -67,22 +67,19 @@ pid_t start(const std::vector<std::string>& command, const ChildLimits& limits) 
   arguments.push_back(nullptr);
   const rlim_t bytes = limits.bytes ? static_cast<rlim_t>(*limits.bytes) : RLIM_INFINITY;
   const HeldSignals held;
-  const pid_t child = fork();
-  if (child == 0) become(arguments.data(), bytes, held);
+  const pid_t parent = getpid(), child = fork();
+  if (child == 0) become(arguments.data(), bytes, parent, held);
   if (child < 0) throw RunError(fmt::format("no process can be started: {}", std::strerror(errno)));
   return child;
 }
 
-ChildEnd end_of(int status) {
+/// Returns what is wrong with the end of a program; empty: nothing.
+std::string problem_of(int status) {
   if (WIFSIGNALED(status)) {
-    return {.is_stopped = false,
-            .problem = fmt::format("ended by signal {} ({})", WTERMSIG(status),
-                                   strsignal(WTERMSIG(status)))};
+    return fmt::format("ended by signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)));
   }
   const int code = WEXITSTATUS(status);
-  if (code == 0) return {};
-  if (code == kInterruptedCode) return {.is_stopped = true, .problem = {}};
-  return {.is_stopped = false, .problem = fmt::format("ended with exit code {}", code)};
+  return code == 0 ? "" : fmt::format("ended with exit code {}", code);
 }
 
 }  // namespace
@@ -109,10 +106,10 @@ ChildEnd run_child(const std::vector<std::string>& command, const ChildLimits& l
     }
     std::this_thread::sleep_for(milliseconds(seconds < 0.1 ? 1 : 20));
   }
-  ChildEnd end = end_of(status);
-  // Before it watches for signals, a program ends at once.
-  if (is_asked && !end.problem.empty()) end = {.is_stopped = true, .problem = {}};
-  return end;
+  const std::string problem = problem_of(status);
+  // Ctrl-C in a terminal goes to the child, too, so that the child may end before it is asked.
+  if (!problem.empty() && stop != nullptr && *stop) return {.is_stopped = true, .problem = {}};
+  return {.is_stopped = false, .problem = problem};
 }
 
 }  // namespace pharos

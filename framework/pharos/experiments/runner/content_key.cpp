@@ -1,3 +1,4 @@
+#include <cctype>
 #include <fstream>
 #include <set>
 #include <sstream>
@@ -7,30 +8,35 @@
 #include <nlohmann/json.hpp>
 
 #include <pharos/core/error.h>
+#include <pharos/core/uri.h>
 #include <pharos/experiments/runner/content_key.h>
 
 namespace pharos {
 namespace {
 
-/// Returns the files that hold the buffers of a glTF file.
-std::vector<std::filesystem::path> buffers_of(const std::filesystem::path& gltf) {
+/// Returns the files that hold the buffers of a mesh file; none unless it is a glTF file.
+std::vector<std::filesystem::path> buffers_of(const std::filesystem::path& mesh) {
   std::vector<std::filesystem::path> files;
-  std::ifstream in(gltf);
+  std::string extension = mesh.extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (extension != ".gltf") return files;
+  std::ifstream in(mesh);
   const auto document = nlohmann::json::parse(in, nullptr, false);
   if (!document.is_object() || !document.contains("buffers")) return files;
   for (const auto& buffer : document["buffers"]) {
     if (!buffer.is_object() || !buffer.contains("uri") || !buffer["uri"].is_string()) continue;
     const std::string uri = buffer["uri"];
-    if (!uri.starts_with("data:")) files.push_back(gltf.parent_path() / uri);
+    if (!uri.starts_with("data:")) files.push_back(mesh.parent_path() / percent_decoded(uri));
   }
   return files;
 }
 
 /// Returns the key of a file and of the files that it refers to.
 std::string key_of_input(const std::filesystem::path& path) {
+  const std::vector<std::filesystem::path> buffers = buffers_of(path);
   std::string keys = content_key_of_file(path);
-  if (path.extension() != ".gltf") return keys;
-  for (const std::filesystem::path& buffer : buffers_of(path)) keys += content_key_of_file(buffer);
+  if (buffers.empty()) return keys;
+  for (const std::filesystem::path& buffer : buffers) keys += content_key_of_file(buffer);
   return content_key(keys);
 }
 
@@ -51,7 +57,7 @@ std::string content_key(std::string_view text) {
 }
 
 std::string content_key_of_file(const std::filesystem::path& path) {
-  const std::string problem = file_problem(path);
+  const std::string problem = access_problem(path);
   std::ifstream in(path, std::ios::binary);
   std::ostringstream content;
   content << in.rdbuf();
@@ -60,6 +66,15 @@ std::string content_key_of_file(const std::filesystem::path& path) {
                                problem.empty() ? "" : ": " + problem));
   }
   return content_key(content.str());
+}
+
+std::vector<std::filesystem::path> inputs_of(const LoadedConfig& loaded) {
+  std::vector<std::filesystem::path> inputs = loaded.sources;
+  for (const std::filesystem::path& file : loaded.files) {
+    inputs.push_back(file);
+    for (std::filesystem::path& buffer : buffers_of(file)) inputs.push_back(std::move(buffer));
+  }
+  return inputs;
 }
 
 ConfigNode content_of(const LoadedConfig& loaded) {

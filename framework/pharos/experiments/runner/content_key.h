@@ -1,7 +1,9 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <pharos/rendering/render_config.h>
 
@@ -12,6 +14,10 @@ std::string content_key(std::string_view text);
 
 /// Returns the hash of a file's content. Throws RunError if the file cannot be read.
 std::string content_key_of_file(const std::filesystem::path& path);
+
+/// Returns the files that a render reads: the files of its config, those that it names, and the
+/// buffers of glTF files.
+std::vector<std::filesystem::path> inputs_of(const LoadedConfig& loaded);
 
 /// Returns everything that determines a render: the resolved config without its output, in which
 /// the paths of files are replaced by hashes of their contents. Throws RunError if a file cannot be

@@ -98,37 +98,81 @@ class Runner {
       for (const PlannedCell& cell : results_.plan.cells) {
         const bool has_seed =
             seed < first + results_.config.seeds_of(results_.config.methods[cell.method]);
-        if (has_seed && cell.scene < results_.references.size()) runs.push_back({&cell, seed, {}});
+        if (has_seed && has_reference(cell.scene)) runs.push_back({&cell, seed, {}});
       }
     }
     return runs;
+  }
+
+  bool has_reference(std::size_t scene) const {
+    return scene < results_.references.size() && results_.references[scene];
   }
 
   void tell(const std::string& message) const {
     if (control_.on_message) control_.on_message(message);
   }
 
+  /// Returns false if the work was stopped.
   bool find_references() {
-    const fs::path cache =
-        results_.config.cache.empty() ? default_reference_cache() : results_.config.cache;
     for (std::size_t s = 0; s < results_.config.scenes.size(); ++s) {
       const std::string& scene = results_.config.scenes[s].name;
-      const PlannedReference& planned = results_.plan.references[s];
-      const auto report = [&](std::uint32_t part, std::uint32_t parts) {
-        tell(fmt::format("{}: reference, part {} of {}", scene, part + 1, parts));
-      };
-      auto reference = find_or_render(planned, cache, registry_, control_.render, report,
-                                      [this](const std::string& message) { tell(message); });
-      if (!reference) return false;
-      if (planned.parts > 0 && reference->build != build_of(planned)) {
-        tell(
-            fmt::format("{}: the reference was rendered by another build of Pharos; remove '{}' to "
-                        "have it made anew",
-                        scene, reference->file.string()));
+      try {
+        std::optional<Reference> reference = find_reference(scene, results_.plan.references[s]);
+        if (!reference) return false;
+        results_.references.push_back(std::move(reference));
+      } catch (const Error& error) {
+        tell(fmt::format("{}: the reference failed, so the scene has no runs: {}", scene,
+                         error.what()));
+        results_.failed.push_back(scene + ", reference");
+        results_.references.emplace_back();
       }
-      results_.references.push_back(std::move(*reference));
     }
     return true;
+  }
+
+  /// Returns empty if the work was stopped.
+  std::optional<Reference> find_reference(const std::string& scene,
+                                          const PlannedReference& planned) const {
+    const fs::path cache =
+        results_.config.cache.empty() ? default_reference_cache() : results_.config.cache;
+    const PartControl control{
+        .make = [this](const PartOrder& order) { return make(order); },
+        .report =
+            [&](std::uint32_t part, std::uint32_t parts) {
+              tell(fmt::format("{}: reference, part {} of {}", scene, part + 1, parts));
+            },
+        .tell = [this](const std::string& message) { tell(message); },
+        .stop = control_.render.stop};
+    std::optional<Reference> reference = find_or_render(planned, cache, registry_, control);
+    if (reference && planned.parts > 0 && reference->build != build_of(planned)) {
+      tell(
+          fmt::format("{}: the reference was rendered by another build of Pharos; remove '{}' to "
+                      "have it made anew",
+                      scene, reference->file.string()));
+    }
+    return reference;
+  }
+
+  /// Makes a part of a reference. Returns false if it was stopped.
+  bool make(const PartOrder& order) const {
+    if (control_.run_program.empty()) return make_part(order, registry_, control_.render);
+    ChildLimits limits = results_.config.limits();
+    limits.seconds.reset();  // the limit on the time is meant for runs
+    const ChildEnd end = make_in_child(order, results_.folder() / "reference.order", limits);
+    if (!end.problem.empty()) throw RunError(end.problem);
+    return !end.is_stopped;
+  }
+
+  /// Has an order carried out by a process of its own, which reads it from `file`.
+  ChildEnd make_in_child(const Order& order, const fs::path& file,
+                         const ChildLimits& limits) const {
+    fs::create_directories(file.parent_path());
+    save_order(order, file);
+    std::vector<std::string> command = control_.run_program;
+    command.push_back(file.string());
+    const ChildEnd end = run_child(command, limits, control_.render.stop);
+    fs::remove(file);
+    return end;
   }
 
   std::string build_of(const PlannedReference& planned) const {
@@ -151,7 +195,7 @@ class Runner {
   /// Returns the key of a run. The result of a run with a time budget also depends on the machine.
   std::string key_of(const Run& run) const {
     std::string key =
-        fmt::format("{} {} {}", run.cell->key, results_.references[run.cell->scene].key, run.seed);
+        fmt::format("{} {} {}", run.cell->key, results_.references[run.cell->scene]->key, run.seed);
     const ExperimentScene& scene = results_.config.scenes[run.cell->scene];
     if (results_.config.budget_of(scene).seconds) {
       key += fmt::format(" {} {}", thread_count(), processor_name());
@@ -174,7 +218,7 @@ class Runner {
     if (keeps_image(run) && !record->files.contains(".exr")) return std::nullopt;
     for (const auto& [extension, key] : record->files) {
       const fs::path kept = file_of(run, extension);
-      if (fs::is_regular_file(kept) && content_key_of_file(kept) == key) continue;
+      if (access_problem(kept).empty() && content_key_of_file(kept) == key) continue;
       tell(fmt::format("{}: missing or changed, so the run is made again", kept.string()));
       return std::nullopt;
     }
@@ -188,8 +232,9 @@ class Runner {
             .method = method_of(run),
             .seed = run.seed,
             .config = run.cell->text,
+            .build = run.cell->build,
             .exposure = run.cell->exposure,
-            .reference = fs::absolute(results_.references[run.cell->scene].file),
+            .reference = fs::absolute(results_.references[run.cell->scene]->file),
             .stem = fs::absolute(file_of(run, "")),
             .keeps_image = keeps_image(run),
             .keeps_pictures = run.seed == results_.config.first_seed};
@@ -201,13 +246,7 @@ class Runner {
     remove_run(file_of(run, ""));
     const RunOrder order = order_of(run);
     if (control_.run_program.empty()) return make_run(order, registry_, control_.render);
-    const fs::path file = file_of(run, ".order");
-    fs::create_directories(file.parent_path());
-    save_order(order, file);
-    std::vector<std::string> command = control_.run_program;
-    command.push_back(file.string());
-    const ChildEnd end = run_child(command, results_.config.limits(), control_.render.stop);
-    fs::remove(file);
+    const ChildEnd end = make_in_child(order, file_of(run, ".order"), results_.config.limits());
     if (end.is_stopped) return std::nullopt;
     std::optional<RunRecord> record = end.problem.empty() ? load(run) : std::nullopt;
     if (!record) {

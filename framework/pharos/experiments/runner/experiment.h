@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,8 +30,8 @@ namespace pharos {
 struct ExperimentControl {
   RenderControl render;  ///< control of each render; `on_pass` is not used
   std::function<void(const std::string&)> on_message;  ///< progress messages
-  /// The program and arguments that make a run, see make_run(). The path of a file by save_order()
-  /// is added. Empty: runs are made in this process.
+  /// The program and arguments that make a run or a part of a reference, see carry_out(). The path
+  /// of a file by save_order() is added. Empty: they are made in this process.
   std::vector<std::string> run_program;
 };
 
@@ -38,11 +39,13 @@ struct ExperimentControl {
 struct ExperimentResults {
   ExperimentConfig config;
   ExperimentPlan plan;
-  std::vector<Reference> references;  ///< one per scene; fewer if the experiment was stopped before
-  std::vector<RunRecord> records;     ///< all known records, in the order of the runs
-  std::size_t run_count = 0;          ///< number of runs of the whole experiment
+  /// One per scene, fewer if the experiment was stopped before. None for a scene whose reference
+  /// failed; it has no runs.
+  std::vector<std::optional<Reference>> references;
+  std::vector<RunRecord> records;  ///< all known records, in the order of the runs
+  std::size_t run_count = 0;       ///< number of runs of the whole experiment
   bool stopped = false;
-  std::vector<std::string> failed;  ///< runs that failed, by scene, method and seed
+  std::vector<std::string> failed;  ///< runs and references that failed, by name
 
   std::filesystem::path folder() const { return config.output; }
   /// Returns the path of a file of a run, such as "output/runs/cornell-box/sobol/seed-1" +

@@ -130,9 +130,10 @@ void ExperimentConfig::describe(Schema<ExperimentConfig>& s) {
       .unit("s")
       .above(0);
   s.field("memory_limit", &ExperimentConfig::memory_limit,
-          "Address space of a run; one that needs more fails")
+          "Address space of a run or a reference; one that needs more fails")
       .unit("GiB")
-      .above(0);
+      .above(0)
+      .at_most(1e9);
   s.field("output", &ExperimentConfig::output,
           "Folder, relative to the current one; by default the file's name");
   s.field("cache", &ExperimentConfig::cache,

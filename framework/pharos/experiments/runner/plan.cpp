@@ -60,9 +60,9 @@ PlannedCell plan_cell(const ExperimentConfig& experiment, const ConfigNode& scen
   loaded.resolved.take("output");
   cell.text = to_yaml(loaded.resolved);
   cell.exposure = loaded.config.output.exposure;
-  cell.key =
-      content_key(fmt::format("{} {} {}", content_key(loaded), build_key(loaded.resolved, registry),
-                              loaded.config.output.exposure));
+  cell.build = build_key(loaded.resolved, registry);
+  cell.key = content_key(
+      fmt::format("{} {} {}", content_key(loaded), cell.build, loaded.config.output.exposure));
   return cell;
 }
 

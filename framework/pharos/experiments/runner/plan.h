@@ -15,7 +15,8 @@ struct PlannedCell {
   ConfigNode config;                  ///< config of the render, budget included
   std::string text;                   ///< YAML with every value in force, without seed and output
   float exposure = 0;                 ///< OutputSettings::exposure [stops]
-  std::string key;  ///< key of the config's content and of the code that renders it
+  std::string build;                  ///< build_key() of the code that renders it
+  std::string key;                    ///< key of the config's content and of `build`
 };
 
 /// The reference of a scene: a file or a render.

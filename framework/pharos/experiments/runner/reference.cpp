@@ -70,8 +70,9 @@ std::string pixels_key(const Image& image) {
 /// to them.
 class Cache {
  public:
-  Cache(fs::path folder, std::string key, const PlannedReference& planned, const Tell& tell)
-      : folder_(std::move(folder)), key_(std::move(key)), planned_(planned), tell_(tell) {}
+  Cache(fs::path folder, std::string key, const PlannedReference& planned,
+        const PartControl& control)
+      : folder_(std::move(folder)), key_(std::move(key)), planned_(planned), control_(control) {}
 
   std::optional<Reference> find() const {
     const fs::path file = path();
@@ -89,15 +90,6 @@ class Cache {
   }
 
   bool has_part(std::uint32_t part) const { return sound_image(part_path(part)).has_value(); }
-
-  void keep_part(std::uint32_t part, const RenderResult& result) const {
-    const Image image = select_layers(result.image, {});
-    write_exr(image, part_path(part),
-              {{"pharos:version", version()},
-               {kPixelsEntry, pixels_key(image)},
-               {"pharos:samples_per_pixel", fmt::format("{}", result.samples_per_pixel)},
-               {"pharos:seconds", fmt::format("{}", result.times.budgeted())}});
-  }
 
   /// Averages all parts to the finished reference and removes the parts.
   void finish(const std::string& config, const std::string& build) const {
@@ -134,6 +126,9 @@ class Cache {
     for (std::uint32_t part = 0; part < planned_.parts; ++part) fs::remove(part_path(part));
   }
 
+  fs::path part_path(std::uint32_t part) const {
+    return folder_ / fmt::format("{}.part-{}.exr", key_, part);
+  }
   /// Returns the file that the process which renders this reference holds locked.
   fs::path lock_path() const { return folder_ / (key_ + ".lock"); }
 
@@ -151,20 +146,17 @@ class Cache {
     } catch (const InputError& error) {
       problem = error.what();
     }
-    tell_(fmt::format("{}: {}; {}, and is rendered again", file.string(), problem,
-                      moved_aside(file)));
+    control_.tell(fmt::format("{}: {}; {}, and is rendered again", file.string(), problem,
+                              moved_aside(file)));
     return std::nullopt;
   }
 
   fs::path path() const { return folder_ / (key_ + ".exr"); }
-  fs::path part_path(std::uint32_t part) const {
-    return folder_ / fmt::format("{}.part-{}.exr", key_, part);
-  }
 
   fs::path folder_;
   std::string key_;
   const PlannedReference& planned_;
-  const Tell& tell_;
+  const PartControl& control_;
 };
 
 }  // namespace
@@ -173,10 +165,23 @@ fs::path default_reference_cache() {
   return user_cache_folder() / "references";
 }
 
+bool make_part(const PartOrder& order, const Registry& registry, const RenderControl& control) {
+  const LoadedConfig loaded = build_render_config(parse_yaml(order.config, "reference"), registry);
+  check_build(loaded.resolved, order.build, registry);
+  const RenderResult result = RenderJob(loaded.config).run(control);
+  if (result.stopped) return false;
+  const Image image = select_layers(result.image, {});
+  write_exr(image, order.file,
+            {{"pharos:version", version()},
+             {kPixelsEntry, pixels_key(image)},
+             {"pharos:samples_per_pixel", fmt::format("{}", result.samples_per_pixel)},
+             {"pharos:seconds", fmt::format("{}", result.times.budgeted())}});
+  return true;
+}
+
 std::optional<Reference> find_or_render(const PlannedReference& planned,
                                         const fs::path& cache_folder, const Registry& registry,
-                                        const RenderControl& control, const PartReport& report,
-                                        const Tell& tell) {
+                                        const PartControl& control) {
   if (planned.parts == 0) {
     Reference given{.image = read_reference(planned.file, planned.width, planned.height),
                     .file = planned.file};
@@ -186,7 +191,7 @@ std::optional<Reference> find_or_render(const PlannedReference& planned,
   const LoadedConfig whole = build_run(planned.config, kReferenceSeed, registry);
   const Cache cache(cache_folder,
                     content_key(content_key(whole) + fmt::format(" in {}", planned.parts)), planned,
-                    tell);
+                    control);
   fs::create_directories(cache_folder);
   // Another process may be rendering the same reference. In this case, its result is used.
   const auto lock = FileLock::wait(cache.lock_path(), control.stop);
@@ -195,15 +200,16 @@ std::optional<Reference> find_or_render(const PlannedReference& planned,
     cache.remove_parts();  // parts of a process that ended before it could remove them
     return known;
   }
+  const std::string build = build_key(whole.resolved, registry);
   for (std::uint32_t part = 0; part < planned.parts; ++part) {
     if (cache.has_part(part)) continue;
-    report(part, planned.parts);
-    const LoadedConfig loaded = build_run(planned.config, kReferenceSeed + part, registry);
-    const RenderResult result = RenderJob(loaded.config).run(control);
-    if (result.stopped) return std::nullopt;
-    cache.keep_part(part, result);
+    control.report(part, planned.parts);
+    LoadedConfig loaded = build_run(planned.config, kReferenceSeed + part, registry);
+    loaded.resolved.take("output");
+    const PartOrder order{to_yaml(loaded.resolved), build, fs::absolute(cache.part_path(part))};
+    if (!control.make(order)) return std::nullopt;
   }
-  cache.finish(to_yaml(whole.resolved), build_key(whole.resolved, registry));
+  cache.finish(to_yaml(whole.resolved), build);
   return cache.find();
 }
 

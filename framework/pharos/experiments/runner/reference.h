@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -29,17 +30,35 @@ struct Reference {
 /// Returns the folder "references" in user_cache_folder().
 std::filesystem::path default_reference_cache();
 
-/// Called before each part of a reference is rendered.
-using PartReport = std::function<void(std::uint32_t part, std::uint32_t parts)>;
-/// Receives messages on files that were damaged.
-using Tell = std::function<void(const std::string&)>;
+/// Everything that one part of a reference needs. A process of its own can render it.
+struct PartOrder {
+  std::string config;  ///< resolved config with its seed, as YAML
+  std::string build;   ///< build_key() of the code that shall render it
+  std::filesystem::path file;
+};
+
+/// Renders a part of a reference into its file. Returns false if it was stopped. Throws RunError if
+/// this program has other code than the order asks for.
+bool make_part(const PartOrder& order, const Registry& registry, const RenderControl& control);
+
+/// How the parts of a reference are made, and who is told of it.
+struct PartControl {
+  /// Makes a part as make_part() does.
+  std::function<bool(const PartOrder&)> make;
+  /// Called before each part is made.
+  std::function<void(std::uint32_t part, std::uint32_t parts)> report;
+  /// Receives messages on files that were damaged.
+  std::function<void(const std::string&)> tell;
+  /// Ends the wait for another process that makes the same reference. May be null.
+  const std::atomic<bool>* stop = nullptr;
+};
 
 /// Returns the reference of a plan. It is read from its file or from `cache`, or those parts are
-/// rendered that are missing. If the work is stopped, finished parts stay in the cache and the
-/// result is empty. Damaged files of the cache are moved aside and rendered again.
+/// made that are missing. If the work is stopped, finished parts stay in the cache and the result
+/// is empty. Damaged files of the cache are moved aside and made again. Throws what
+/// PartControl::make() throws.
 std::optional<Reference> find_or_render(const PlannedReference& planned,
                                         const std::filesystem::path& cache,
-                                        const Registry& registry, const RenderControl& control,
-                                        const PartReport& report, const Tell& tell);
+                                        const Registry& registry, const PartControl& control);
 
 }  // namespace pharos

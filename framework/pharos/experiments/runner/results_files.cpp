@@ -81,7 +81,8 @@ json results_json(const ExperimentResults& results, const Report& report) {
             {"complete", results.records.size() == results.run_count}};
   for (const auto& [name, value] : report.facts) node["facts"][name] = value;
   for (std::size_t s = 0; s < results.references.size(); ++s) {
-    node["references"][results.config.scenes[s].name] = reference_json(results.references[s]);
+    if (!results.references[s]) continue;
+    node["references"][results.config.scenes[s].name] = reference_json(*results.references[s]);
   }
   for (const PlannedCell& cell : results.plan.cells) {
     node["configs"][results.config.scenes[cell.scene].name]

@@ -7,6 +7,7 @@
 #include <pharos/core/error.h>
 #include <pharos/core/version.h>
 #include <pharos/experiments/pictures/density_pictures.h>
+#include <pharos/experiments/runner/build_key.h>
 #include <pharos/experiments/runner/content_key.h>
 #include <pharos/experiments/runner/machine.h>
 #include <pharos/experiments/runner/peak_memory.h>
@@ -112,36 +113,51 @@ std::map<std::string, std::string> keep_images(const RunOrder& order, const Rend
   return files;
 }
 
+json node_of(const PartOrder& order) {
+  return {{"config", order.config}, {"build", order.build}, {"part", order.file.string()}};
+}
+
+json node_of(const RunOrder& order) {
+  return {{"key", order.key},
+          {"scene", order.scene},
+          {"method", order.method},
+          {"seed", order.seed},
+          {"config", order.config},
+          {"build", order.build},
+          {"exposure", order.exposure},
+          {"reference", order.reference.string()},
+          {"stem", order.stem.string()},
+          {"keeps_image", order.keeps_image},
+          {"keeps_pictures", order.keeps_pictures}};
+}
+
 }  // namespace
 
-void save_order(const RunOrder& order, const fs::path& path) {
-  const json node{{"key", order.key},
-                  {"scene", order.scene},
-                  {"method", order.method},
-                  {"seed", order.seed},
-                  {"config", order.config},
-                  {"exposure", order.exposure},
-                  {"reference", order.reference.string()},
-                  {"stem", order.stem.string()},
-                  {"keeps_image", order.keeps_image},
-                  {"keeps_pictures", order.keeps_pictures}};
+void save_order(const Order& order, const fs::path& path) {
+  const json node = std::visit([](const auto& each) { return node_of(each); }, order);
   write_text_atomically(path, node.dump(1) + "\n");
 }
 
-RunOrder load_order(const fs::path& path) {
+Order load_order(const fs::path& path) {
   std::ifstream in(path);
   try {
     const json node = json::parse(in);
-    return {.key = node.at("key"),
-            .scene = node.at("scene"),
-            .method = node.at("method"),
-            .seed = node.at("seed"),
-            .config = node.at("config"),
-            .exposure = node.at("exposure"),
-            .reference = std::string(node.at("reference")),
-            .stem = std::string(node.at("stem")),
-            .keeps_image = node.at("keeps_image"),
-            .keeps_pictures = node.at("keeps_pictures")};
+    if (node.contains("part")) {
+      return PartOrder{.config = node.at("config"),
+                       .build = node.at("build"),
+                       .file = std::string(node.at("part"))};
+    }
+    return RunOrder{.key = node.at("key"),
+                    .scene = node.at("scene"),
+                    .method = node.at("method"),
+                    .seed = node.at("seed"),
+                    .config = node.at("config"),
+                    .build = node.at("build"),
+                    .exposure = node.at("exposure"),
+                    .reference = std::string(node.at("reference")),
+                    .stem = std::string(node.at("stem")),
+                    .keeps_image = node.at("keeps_image"),
+                    .keeps_pictures = node.at("keeps_pictures")};
   } catch (const json::exception& error) {
     throw RunError(fmt::format("{}: no order of an experiment: {}", path.string(), error.what()));
   }
@@ -151,6 +167,7 @@ std::optional<RunRecord> make_run(const RunOrder& order, const Registry& registr
                                   const RenderControl& control) {
   PeakMemory peak;
   const LoadedConfig loaded = config_of(order, registry);
+  check_build(loaded.resolved, order.build, registry);
   const PixelRect window = loaded.config.film.window();
   const Image reference = read_reference(order.reference, window.width(), window.height());
   RenderJob job(loaded.config);
@@ -169,6 +186,11 @@ std::optional<RunRecord> make_run(const RunOrder& order, const Registry& registr
   record.files = keep_images(order, result, job.scene());
   save_record(record, file_of(order, ".json"));
   return record;
+}
+
+bool carry_out(const Order& order, const Registry& registry, const RenderControl& control) {
+  if (const auto* part = std::get_if<PartOrder>(&order)) return make_part(*part, registry, control);
+  return make_run(std::get<RunOrder>(order), registry, control).has_value();
 }
 
 }  // namespace pharos

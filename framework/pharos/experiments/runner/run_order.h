@@ -4,7 +4,9 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <variant>
 
+#include <pharos/experiments/runner/reference.h>
 #include <pharos/experiments/runner/run_record.h>
 
 namespace pharos {
@@ -16,6 +18,7 @@ struct RunOrder {
   std::string scene, method;
   std::uint64_t seed = 0;
   std::string config;               ///< resolved config without seed and output, as YAML
+  std::string build;                ///< build_key() of the code that shall make the run
   float exposure = 0;               ///< at which metrics of displayed images look [stops]
   std::filesystem::path reference;  ///< image that errors are measured against
   std::filesystem::path stem;       ///< the run's files without their extensions
@@ -23,12 +26,19 @@ struct RunOrder {
   bool keeps_pictures = false;      ///< writes pictures of what was learned
 };
 
-/// Writes an order, or reads it. Both throw RunError.
-void save_order(const RunOrder& order, const std::filesystem::path& path);
-RunOrder load_order(const std::filesystem::path& path);
+/// What a process of its own can do for an experiment.
+using Order = std::variant<RunOrder, PartOrder>;
 
-/// Makes a run and writes its files. Returns empty if it was stopped.
+/// Writes an order, or reads it. Both throw RunError.
+void save_order(const Order& order, const std::filesystem::path& path);
+Order load_order(const std::filesystem::path& path);
+
+/// Makes a run and writes its files. Returns empty if it was stopped. Throws RunError if this
+/// program has other code than the order asks for.
 std::optional<RunRecord> make_run(const RunOrder& order, const Registry& registry,
                                   const RenderControl& control);
+
+/// Does what an order asks for, see make_run() and make_part(). Returns false if it was stopped.
+bool carry_out(const Order& order, const Registry& registry, const RenderControl& control);
 
 }  // namespace pharos

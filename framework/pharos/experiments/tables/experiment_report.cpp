@@ -102,7 +102,7 @@ std::vector<ReportPicture> pictures_of(const fs::path& run, const std::string& m
 
 ReportScene scene_of(const ExperimentResults& results, std::size_t index) {
   const std::string& name = results.config.scenes[index].name;
-  const Reference& reference = results.references[index];
+  const Reference& reference = *results.references[index];
   ReportScene scene{.name = name, .note = reference_note(reference), .images = {}, .pictures = {}};
   for (const ExperimentMethod& method : results.config.methods) {
     if (results.find(name, method.name, results.config.first_seed) == nullptr) continue;
@@ -134,7 +134,7 @@ Report experiment_report(const ExperimentResults& results) {
   }
   report.tables.push_back(equal_error_table(results));
   for (std::size_t s = 0; s < results.references.size(); ++s) {
-    report.scenes.push_back(scene_of(results, s));
+    if (results.references[s]) report.scenes.push_back(scene_of(results, s));
   }
   report.texts.push_back({"runs.csv", runs_csv(results)});
   report.texts.push_back({"convergence.csv", convergence_csv(results)});
