@@ -90,6 +90,12 @@ TEST_CASE("signals that ask a render to end leave a checkpoint") {
     CHECK(outcome.err.find("box.checkpoint: --resume goes on") != std::string::npos);
     check_ends_like(folder, whole);
   }
+  // What a limit on the processor time sends.
+  fs::remove(folder.path() / "box.checkpoint");
+  const Outcome outcome =
+      run_pharos("render box.yaml --set budget.spp=1000000", folder.path(), "ulimit -S -t 2;");
+  CHECK(outcome.exit_code == 130);
+  CHECK(outcome.err.find("box.checkpoint: --resume goes on") != std::string::npos);
 }
 
 TEST_CASE("SIGUSR1 asks for a checkpoint, and ends a render that has none") {
@@ -129,6 +135,18 @@ TEST_CASE("a finished image gets more samples") {
             .exit_code == 0);
 }
 
+TEST_CASE("a render that adds samples and was killed goes on with --resume") {
+  const ScratchFolder folder;
+  write_config(folder, kGuided, 8, 1e9);
+  REQUIRE(run_pharos("render box.yaml -q", folder.path()).exit_code == 0);
+  fs::copy_file(folder.path() / "box.checkpoint", folder.path() / "finished");
+  const std::string more = "render box.yaml -q -o box.exr --set budget.spp=512 ";
+  interrupt_pharos_when("! cmp -s box.checkpoint finished", more + "--continue box.exr",
+                        folder.path(), "KILL");
+  CHECK(run_pharos(more + "--resume", folder.path()).exit_code == 0);
+  CHECK(read_metadata(folder.path() / "box.exr").at("pharos:samples_per_pixel") == "512");
+}
+
 TEST_CASE("checkpoints that do not fit are refused") {
   const ScratchFolder folder;
   write_config(folder, kGuided, 8, 1e9);
@@ -152,7 +170,7 @@ TEST_CASE("checkpoints that do not fit are refused") {
           {"'box.checkpoint' belongs to another config", "'budget.spp'", "'8'", "'16'"}, sound);
   refused("--resume --set film.tile=8", {"another config", "'film.tile'"}, sound);
   refused("--resume --set 'output.checkpoint=\"\"'", {"--resume", "output.checkpoint"}, sound);
-  refused("--resume", {"'box.checkpoint' is no checkpoint"}, "Some text");
+  refused("--resume", {"'box.checkpoint' exists and is no checkpoint"}, "Some text");
   refused("--resume", {"'box.checkpoint' is cut off"}, sound.substr(0, sound.size() / 2));
   std::string damaged = sound;
   damaged[damaged.size() / 2] ^= 4;
@@ -194,14 +212,14 @@ TEST_CASE("checkpoints of other forms, files and renders are refused or replaced
   const auto refusal = [&](const std::string& arguments) {
     const Outcome outcome = run_pharos(arguments, folder.path());
     CHECK(outcome.exit_code == 2);
-    CHECK_FALSE(folder.has("box.checkpoint.lock"));
+    CHECK_FALSE(folder.has("box.checkpoint.pharos-lock"));
     return outcome.err;
   };
   folder.write("quad.obj", "v 0 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\n");
-  CHECK(refusal(mesh).find("the file at 'scene.shapes.0.file' has another content there") !=
+  CHECK(refusal(mesh).find("the file that 'scene.shapes.0.file' names has changed since then") !=
         std::string::npos);
-  CHECK(refusal("render box.yaml --set output.checkpoint=notes.txt").find("is another file") !=
-        std::string::npos);
+  CHECK(refusal("render box.yaml --set output.checkpoint=notes.txt")
+            .find("is no checkpoint of Pharos, so it is not") != std::string::npos);
   CHECK(test::bytes_of(folder.path() / "notes.txt") == "Some text");
   write_content(folder.path() / "box.checkpoint", with_form(sound, 2));
   CHECK(refusal("render box.yaml --resume").find("is of form 2; this Pharos reads form 1") !=
@@ -215,14 +233,14 @@ TEST_CASE("checkpoints of other forms, files and renders are refused or replaced
 TEST_CASE("two renders never write the same checkpoint") {
   const ScratchFolder folder;
   write_config(folder, "path", 1000000, 0.02);
-  const std::string other =
-      std::string(PHAROS_PROGRAM) + " render box.yaml -o other.exr 2>refusal; [ $? = 2 ]";
+  const std::string other = fmt::format(
+      "timeout 60 {} render box.yaml -o other.exr 2>refusal; [ $? = 2 ]", PHAROS_PROGRAM);
   CHECK(interrupt_pharos_when("[ -e box.checkpoint ] && " + other, "render box.yaml -q",
                               folder.path(), "INT")
             .exit_code == 130);
   CHECK(test::bytes_of(folder.path() / "refusal").find("is being written by another render") !=
         std::string::npos);
-  CHECK_FALSE(folder.has("box.checkpoint.lock"));
+  CHECK_FALSE(folder.has("box.checkpoint.pharos-lock"));
 }
 
 TEST_CASE("if the disk is full, the last checkpoint stays, and the image is written") {

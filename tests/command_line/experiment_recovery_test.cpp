@@ -153,7 +153,7 @@ int run_with_kills(const ScratchFolder& folder, double seconds, double more) {
 }
 
 TEST_CASE("all signals that end a job stop an experiment, which goes on later") {
-  for (const char* signal : {"TERM", "HUP", "USR1", "USR2", "XCPU"}) {
+  for (const char* signal : {"TERM", "HUP", "USR1", "USR2"}) {
     CAPTURE(signal);
     const ScratchFolder folder;
     write_experiment(folder, "spp: 16", 500);

@@ -53,7 +53,7 @@ std::optional<std::string> difference(const ConfigNode* there, const ConfigNode*
     if (there->text() == here->text()) return std::nullopt;
   }
   if (is_content(there) && is_content(here)) {
-    return fmt::format("the file at '{}' has another content there", path);
+    return fmt::format("the file that '{}' names has changed since then", path);
   }
   return fmt::format("'{}' is {} there and {} here", path, value_text(there), value_text(here));
 }
@@ -79,12 +79,6 @@ SavedRender matching_checkpoint(const LoadedConfig& loaded, const SavedRender& o
   return checkpoint;
 }
 
-void check_named(const OutputSettings& output, const char* option) {
-  if (!output.checkpoint.empty()) return;
-  throw InputError(fmt::format(
-      "{}: error: the config names no checkpoint: expected --set output.checkpoint=FILE", option));
-}
-
 void check_budget_grows(const SavedRender& checkpoint, const Budget& now) {
   const ConfigNode config = parse_yaml(checkpoint.config, "checkpoint");
   const ConfigNode* before = config.find("budget");
@@ -104,13 +98,18 @@ void check_budget_grows(const SavedRender& checkpoint, const Budget& now) {
 
 }  // namespace
 
+void check_named(const OutputSettings& output, const char* option) {
+  if (!output.checkpoint.empty()) return;
+  throw InputError(fmt::format(
+      "{}: error: the config names no checkpoint: expected --set output.checkpoint=FILE", option));
+}
+
 SavedRender saved_render_head(const LoadedConfig& loaded, const Registry& registry) {
   return {.config = to_yaml(content_of(loaded)), .build = build_key(loaded.resolved, registry)};
 }
 
 std::string state_to_resume(const LoadedConfig& loaded, const SavedRender& own) {
   const OutputSettings& output = loaded.config.output;
-  check_named(output, "--resume");
   if (!std::filesystem::exists(output.checkpoint)) {
     log_info(fmt::format("{}: there is no such checkpoint yet, so the render starts anew",
                          output.checkpoint));
@@ -122,7 +121,6 @@ std::string state_to_resume(const LoadedConfig& loaded, const SavedRender& own) 
 std::string state_to_continue(const LoadedConfig& loaded, const SavedRender& own,
                               const std::filesystem::path& image) {
   const OutputSettings& output = loaded.config.output;
-  check_named(output, "--continue");
   const Metadata metadata = read_metadata(image);
   SavedRender checkpoint = matching_checkpoint(loaded, own, false);
   if (!checkpoint.finished) {

@@ -9,12 +9,15 @@
 
 namespace pharos {
 
+/// Throws InputError if the config names no checkpoint, which `option` needs.
+void check_named(const OutputSettings& output, const char* option);
+
 /// Returns a checkpoint of the render of `loaded`, without a state.
 SavedRender saved_render_head(const LoadedConfig& loaded, const Registry& registry);
 
 /// Returns the state from which `pharos render --resume` goes on; empty if there is no checkpoint
-/// yet. Throws InputError if the config names no checkpoint, or if the checkpoint cannot be read or
-/// belongs to another config. Warns if it was written by another build of Pharos.
+/// yet. Throws InputError if the checkpoint cannot be read or belongs to another config. Warns if
+/// it was written by another build of Pharos.
 std::string state_to_resume(const LoadedConfig& loaded, const SavedRender& own);
 
 /// Returns the state from which `pharos render --continue IMAGE` adds samples to a finished image.

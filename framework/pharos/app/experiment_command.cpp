@@ -78,10 +78,14 @@ int run(const ExperimentOptions& options) {
       bar.clear();
       log_info(message);
     };
+    control.on_warning = [&bar](const std::string& message) {
+      bar.clear();
+      log_warning(message);
+    };
     control.run_program = run_program(options);
     return run_experiment(config, std::move(plan), registry, control);
   }();
-  // An unfinished reference measures nothing, so there are no records. Earlier results are then
+  // Without references, nothing is measured and there are no records. Earlier results are then
   // kept.
   if (!results.records.empty()) write_results(results);
   report(results);

@@ -32,10 +32,10 @@ int run(const RunOptions& options) {
 }  // namespace
 
 void add_experiment_run_command(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand("experiment-run", "Make one run of an experiment");
+  CLI::App* command = app.add_subcommand("experiment-run", "Make a run or a part of a reference");
   command->group("");  // only `pharos experiment` calls it
   const auto options = std::make_shared<RunOptions>();
-  command->add_option("order", options->order, "File that describes the run")->required();
+  command->add_option("order", options->order, "File that describes the work")->required();
   command->add_option("--threads", options->threads, "Number of threads; 0: all cores");
   command->add_flag("-q,--quiet", options->quiet, "Only warnings and errors");
   command->callback([options, &exit_code] {

@@ -6,9 +6,9 @@ namespace pharos {
 
 /// While it exists, the first signal that asks the program to end (SIGINT, SIGTERM, SIGHUP,
 /// SIGUSR1, SIGUSR2) sets a flag. Another one, more than a second later, ends the program at once.
-/// SIGXCPU, which comes every second once the processor time of a job is used up, sets the flag,
-/// too. SIGXFSZ is ignored, so that writing beyond the limit of file sizes is an error like any
-/// other. SIGHUP stays ignored under nohup.
+/// SIGXCPU, which comes every second once the process has used up its processor time (`ulimit -t`),
+/// sets the flag, too. SIGXFSZ is ignored, so that writing beyond the limit of file sizes is an
+/// error like any other. SIGHUP stays ignored under nohup.
 class InterruptGuard {
  public:
   /// From now on, SIGUSR1 sets a flag of its own, also before there is a guard.

@@ -113,7 +113,7 @@ class Render {
         checkpoints_->write(std::move(state), finished);
       };
       control.checkpoint.on_failure = [this](const std::string& reason) {
-        warn("no checkpoint: " + reason);
+        checkpoints_->skip(reason);
       };
     }
     RenderResult result = run_job(control);
@@ -133,13 +133,19 @@ class Render {
     const OutputSettings& output = loaded_.config.output;
     if (output.checkpoint.empty() && !options_.resume && options_.continued.empty()) return;
     const SavedRender head = saved_render_head(loaded_, registry);
-    if (options_.resume) state_ = state_to_resume(loaded_, head);
-    if (!options_.continued.empty()) state_ = state_to_continue(loaded_, head, options_.continued);
+    check_named(output, options_.resume ? "--resume" : "--continue");
+    // Locked before it is read: a render that still ends may write a newer one.
     checkpoints_.emplace(output.checkpoint, head, output.every,
                          [this](const std::string& message) { warn(message); });
+    if (options_.resume) state_ = state_to_resume(loaded_, head);
+    if (!options_.continued.empty()) {
+      state_ = state_to_continue(loaded_, head, options_.continued);
+      checkpoints_->request();  // with the new budget, so that --resume can go on from it
+    }
     if (state_.empty() && std::filesystem::exists(output.checkpoint)) {
       log_warning(
-          fmt::format("{}: will be replaced; --resume would go on from it", output.checkpoint));
+          fmt::format("{}: will be replaced; to go on from it, use --resume with the same config",
+                      output.checkpoint));
     }
   }
 

@@ -20,6 +20,12 @@ void flush_to_disk(const std::filesystem::path& path) {
   }
 }
 
+std::filesystem::path link_target(const std::filesystem::path& path) {
+  std::error_code failed;
+  const bool is_link = std::filesystem::is_symlink(path, failed);
+  return is_link ? std::filesystem::weakly_canonical(path, failed) : path;
+}
+
 void write_text_atomically(const std::filesystem::path& path, std::string_view text) {
   write_atomically(path, [&](const std::filesystem::path& temporary) {
     std::ofstream out(temporary, std::ios::binary);

@@ -15,6 +15,10 @@ namespace pharos {
 /// cannot be opened or written.
 void flush_to_disk(const std::filesystem::path& path);
 
+/// Returns the file that a symbolic link points to, whether it exists or not; `path` itself if it
+/// is no link.
+std::filesystem::path link_target(const std::filesystem::path& path);
+
 /// Writes the file `path` as a whole or not at all. `write(temporary)` writes a temporary file
 /// beside it, which is then renamed. If write() throws or the renaming fails, the temporary file is
 /// removed, an existing `path` stays as it was, and the error propagates. If `path` is a symbolic
@@ -29,7 +33,7 @@ void write_atomically(const std::filesystem::path& path, Write&& write) {
     throw RunError("cannot write '" + path.string() + "': " + why);
   };
   std::error_code failed;
-  const fs::path target = fs::is_symlink(path, failed) ? fs::weakly_canonical(path, failed) : path;
+  const fs::path target = link_target(path);
   if (fs::exists(target, failed) && !fs::is_regular_file(target, failed)) {
     fail("it is not a regular file");
   }

@@ -34,8 +34,10 @@ void confine_reading(const fs::path& folder) {
 
 void allow_reading(const fs::path& path) {
   std::error_code failed;
-  const fs::path whole = fs::canonical(path, failed);
-  if (!failed && !allowed_paths().empty()) allowed_paths().push_back(whole);
+  const fs::path whole = fs::weakly_canonical(path, failed);
+  if (failed || whole.empty() || allowed_paths().empty()) return;
+  // Without a slash at the end, which would count as one more part of the path.
+  allowed_paths().push_back(whole.has_filename() ? whole : whole.parent_path());
 }
 
 std::string confinement_problem(const fs::path& file) {

@@ -10,8 +10,8 @@ namespace pharos {
 /// anything is read. Throws InputError if it is no folder.
 void confine_reading(const std::filesystem::path& folder);
 
-/// Makes an exception from confine_reading() for a file, or for the files below a folder. A path
-/// that does not exist changes nothing.
+/// Makes an exception from confine_reading() for a file, or for the files below a folder. Call it
+/// after confine_reading(); before, it does nothing.
 void allow_reading(const std::filesystem::path& path);
 
 /// Returns why a file may not be read, or "" if it may. file_problem() includes it.

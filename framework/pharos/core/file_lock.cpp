@@ -1,4 +1,6 @@
+#include <cerrno>
 #include <chrono>
+#include <cstring>
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
@@ -21,7 +23,10 @@ std::optional<FileLock> FileLock::try_lock(const std::filesystem::path& file) {
     const int descriptor = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     if (descriptor < 0) throw RunError("cannot write '" + file.string() + "'");
     FileLock lock(descriptor, file);
-    if (flock(descriptor, LOCK_EX | LOCK_NB) != 0) return std::nullopt;
+    if (flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
+      if (errno == EWOULDBLOCK) return std::nullopt;
+      throw RunError("cannot lock '" + file.string() + "': " + std::strerror(errno));
+    }
     // Between opening and locking, the last owner may have removed the file.
     if (lock.has_name()) return lock;
   }
@@ -37,7 +42,7 @@ std::optional<FileLock> FileLock::wait(const std::filesystem::path& file,
 }
 
 void FileLock::remove_file() const {
-  unlink(file_.c_str());
+  if (has_name()) unlink(file_.c_str());
 }
 
 bool FileLock::has_name() const {

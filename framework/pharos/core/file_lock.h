@@ -13,14 +13,14 @@ namespace pharos {
 class FileLock {
  public:
   /// Returns the lock, or nothing if another process or object holds it. Throws RunError if the
-  /// file cannot be created.
+  /// file cannot be created, or if its file system has no locks.
   static std::optional<FileLock> try_lock(const std::filesystem::path& file);
   /// Waits for the lock. Returns nothing if `stop` is set in the meantime; `stop` may be null.
   /// Throws RunError like try_lock().
   static std::optional<FileLock> wait(const std::filesystem::path& file,
                                       const std::atomic<bool>* stop);
 
-  /// Removes the file of this lock, which stays locked.
+  /// Removes the file of this lock, which stays locked. A file that has taken its place stays.
   void remove_file() const;
 
   ~FileLock();

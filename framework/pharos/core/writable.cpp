@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <pharos/core/atomic_file.h>
 #include <pharos/core/error.h>
 #include <pharos/core/writable.h>
 
@@ -11,9 +12,7 @@ void check_writable(const std::filesystem::path& file) {
   if (file.empty()) return;
   std::error_code failed;
   // A link stays; what it points to is replaced.
-  const std::filesystem::path target = std::filesystem::is_symlink(file, failed)
-                                           ? std::filesystem::weakly_canonical(file, failed)
-                                           : file;
+  const std::filesystem::path target = link_target(file);
   const std::filesystem::path folder =
       target.has_parent_path() ? target.parent_path() : std::filesystem::path(".");
   if (!std::filesystem::is_directory(folder, failed)) {

@@ -45,11 +45,16 @@ std::string read_bytes(std::ifstream& in, const fs::path& path, std::uint64_t co
   return bytes;
 }
 
-/// Reads what comes before the head. Returns the length of the head [bytes].
-std::uint64_t read_start(std::ifstream& in, const fs::path& path) {
+/// Reads the first bytes of a file. Returns whether they are those of a checkpoint.
+bool has_magic(std::ifstream& in) {
   std::array<char, kMagic.size()> magic{};
   in.read(magic.data(), magic.size());
-  if (!in || magic != kMagic) fail(path, "is no checkpoint of Pharos");
+  return in && magic == kMagic;
+}
+
+/// Reads what comes before the head. Returns the length of the head [bytes].
+std::uint64_t read_start(std::ifstream& in, const fs::path& path) {
+  if (!has_magic(in)) fail(path, "is no checkpoint of Pharos");
   std::uint32_t form = 0;
   std::uint64_t length = 0;
   try {
@@ -94,24 +99,33 @@ std::vector<fs::path> left_overs(const fs::path& path) {
   return found;
 }
 
-/// Returns the lock of a render that writes the checkpoint `path`, which may replace no other file.
-FileLock locked(const fs::path& path) {
-  if (fs::exists(path) && !is_checkpoint(path)) {
-    fail(path, "is another file, which is not overwritten: expected another name");
+/// Throws InputError if `path` is a file with content that is no checkpoint.
+void check_replaceable(const fs::path& path) {
+  std::error_code failed;
+  if (!fs::exists(path) || fs::file_size(path, failed) == 0) return;
+  std::ifstream in(path, std::ios::binary);
+  if (has_magic(in)) return;
+  fail(path,
+       "exists and is no checkpoint of Pharos, so it is not overwritten: choose another name");
+}
+
+/// Returns the lock of a render that writes the checkpoint `path`; none where files cannot be
+/// locked.
+std::optional<FileLock> locked(const fs::path& path, const CheckpointWriter::Warn& warn) {
+  std::optional<FileLock> lock;
+  try {
+    lock = FileLock::try_lock(path.string() + ".pharos-lock");
+  } catch (const RunError& error) {
+    warn(fmt::format("another render could write the same checkpoint: {}", error.what()));
+    return std::nullopt;
   }
-  auto lock = FileLock::try_lock(path.string() + ".lock");
-  if (!lock) fail(path, "is being written by another render: expected another name");
-  return std::move(*lock);
+  if (!lock) {
+    fail(path, "is being written by another render: choose another name, or wait until it ends");
+  }
+  return lock;
 }
 
 }  // namespace
-
-bool is_checkpoint(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::array<char, kMagic.size()> magic{};
-  in.read(magic.data(), magic.size());
-  return in && magic == kMagic;
-}
 
 void write_checkpoint(const SavedRender& checkpoint, const fs::path& path) {
   std::ostringstream head_out;
@@ -160,20 +174,21 @@ SavedRender read_checkpoint(const fs::path& path) {
   return checkpoint;
 }
 
-CheckpointWriter::CheckpointWriter(fs::path path, SavedRender head, double every, Warn warn)
-    : path_(std::move(path)),
-      lock_(locked(path_)),
+CheckpointWriter::CheckpointWriter(const fs::path& path, SavedRender head, double every, Warn warn)
+    : path_(link_target(path)),
       head_(std::move(head)),
       every_(std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(every))),
       warn_(std::move(warn)),
       next_(Clock::now() + every_) {
+  check_replaceable(path_);
+  lock_ = locked(path_, warn_);
   std::error_code failed;
   for (const fs::path& file : left_overs(path_)) fs::remove(file, failed);
 }
 
 CheckpointWriter::~CheckpointWriter() {
   finish();
-  lock_.remove_file();
+  if (lock_) lock_->remove_file();
 }
 
 bool CheckpointWriter::is_due() {
@@ -193,9 +208,15 @@ void CheckpointWriter::write(std::string state, bool finished) {
       write_checkpoint(checkpoint, path);
     });
   } catch (const std::exception& error) {  // there is no thread or no memory for it
-    is_written_ = false;
-    warn_(fmt::format("no checkpoint: {}", error.what()));
+    skip(error.what());
   }
+}
+
+void CheckpointWriter::skip(const std::string& reason) {
+  finish();
+  next_ = Clock::now() + every_;
+  is_written_ = false;
+  warn_(fmt::format("no checkpoint: {}", reason));
 }
 
 bool CheckpointWriter::finish() {

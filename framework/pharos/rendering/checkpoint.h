@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <future>
+#include <optional>
 #include <string>
 
 #include <pharos/core/file_lock.h>
@@ -36,12 +37,9 @@ void write_checkpoint(const SavedRender& checkpoint, const std::filesystem::path
 /// is of another form or version of Pharos, and if it is cut off or damaged.
 SavedRender read_checkpoint(const std::filesystem::path& path);
 
-/// Whether a file is a checkpoint of any version of Pharos, be it damaged or not.
-bool is_checkpoint(const std::filesystem::path& path);
-
 /// Writes the checkpoints of one render in the background: while one is written, the render goes
-/// on. No other render can write the same file in the meantime: the file `path`.lock says so, which
-/// the destructor removes.
+/// on. No other render can write the same file in the meantime: the lock of the file
+/// `path`.pharos-lock prevents it, which the destructor removes.
 class CheckpointWriter {
  public:
   using Warn = std::function<void(const std::string&)>;
@@ -50,8 +48,8 @@ class CheckpointWriter {
   /// last one or after the start. `warn` receives the reasons why one could not be written, in the
   /// thread that calls a member function. Removes what writers that were killed have left beside
   /// `path`. Throws InputError if another render writes this checkpoint, or if `path` is a file
-  /// that is no checkpoint.
-  CheckpointWriter(std::filesystem::path path, SavedRender head, double every, Warn warn);
+  /// with content that is no checkpoint. Warns if the file system has no locks.
+  CheckpointWriter(const std::filesystem::path& path, SavedRender head, double every, Warn warn);
   /// Waits for the last checkpoint.
   ~CheckpointWriter();
 
@@ -61,6 +59,8 @@ class CheckpointWriter {
   void request() { next_ = Clock::now(); }
   /// Writes a checkpoint in the background. If one is still being written, waits for it first.
   void write(std::string state, bool finished);
+  /// Reports that there is no checkpoint this time, and why.
+  void skip(const std::string& reason);
   /// Waits for the last checkpoint. Returns whether it was written.
   bool finish();
 
@@ -68,10 +68,10 @@ class CheckpointWriter {
   using Clock = std::chrono::steady_clock;
 
   std::filesystem::path path_;
-  FileLock lock_;
   SavedRender head_;
   Clock::duration every_;
   Warn warn_;
+  std::optional<FileLock> lock_;  ///< none where files cannot be locked
   Clock::time_point next_;
   std::future<void> writing_;
   bool is_written_ = true;

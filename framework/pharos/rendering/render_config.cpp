@@ -65,7 +65,8 @@ void check_together(const RenderConfig& config, const ConfigNode& node) {
   }
   const Sensor& sensor = config.sensor != nullptr ? *config.sensor : *config.scene.sensor;
   check_sensor_reach(sensor, config.film.width, config.film.height,
-                     nearest_node(node, {config.sensor != nullptr ? "sensor" : "film"}));
+                     config.sensor != nullptr ? nearest_node(node, {"sensor"})
+                                              : nearest_node(node, {"scene", "sensor"}));
   try {
     check_compatible(*config.integrator, sensor, config.film.jitter);
   } catch (const InputError& error) {

@@ -406,7 +406,7 @@ class RenderJob::Implementation {
   ImageCombiner combiner_{1};
   Image last_image_;
   bool has_image_ = false;  ///< `last_image_` shows at least one whole pass
-  bool is_saved_ = false;   ///< the render was stopped and has handed out its state
+  bool is_saved_ = false;  ///< the render was stopped or has finished, and has handed out its state
   std::unique_ptr<GuidingState> guiding_;
   /// Empty logs whose memory is used again until training ends. Fresh memory would cost page
   /// faults.

@@ -1,4 +1,5 @@
 #include <array>
+#include <cmath>
 #include <span>
 #include <string>
 #include <utility>
@@ -82,7 +83,9 @@ class SceneReader {
                 check_emitter_place(*parts.emitters.back(), entry, false);
               });
     parts.sensor = read_part<Sensor>("sensor", given("sensor"), resolved_);
-    if (parts.sensor != nullptr) check_sensor_reach(*parts.sensor, 1, 1, given("sensor"));
+    if (parts.sensor != nullptr) {
+      check_at(given("sensor"), [&] { check_reach(parts.sensor->position(), "the sensor"); });
+    }
     parts.medium = read_part<Medium>("medium", given("medium"), resolved_);
     return parts;
   }
@@ -239,9 +242,9 @@ void check_sensor_reach(const Sensor& sensor, int width, int height, const Confi
   check_at(node, [&] {
     check_reach(sensor.position(), "the sensor");
     const auto prepared = sensor.prepare(width, height);
-    // The corners of the lens and of the film.
+    // The corners of the lens and of the film. Positions are less than 1.
     for (int i = 0; i < 16; ++i) {
-      const auto bit = [&](int k) { return static_cast<float>(i >> k & 1); };
+      const auto bit = [&](int k) { return (i >> k & 1) != 0 ? std::nextafter(1.0f, 0.0f) : 0.0f; };
       const LensPoint lens = prepared->sample_lens({bit(0), bit(1)});
       check_reach(prepared->ray(lens, {bit(2), bit(3)}).origin, "the sensor");
     }

@@ -91,13 +91,25 @@ TEST_CASE("a checkpoint has one writer at a time, which replaces no other file")
   };
   auto first = writer("a");
   CHECK(input_error_in(folder, [&] { writer("a"); }) ==
-        "the checkpoint 'a' is being written by another render: expected another name");
+        "the checkpoint 'a' is being written by another render: choose another name, or wait until "
+        "it ends");
   first.reset();
-  CHECK_FALSE(std::filesystem::exists(folder / "a.lock"));
+  CHECK_FALSE(std::filesystem::exists(folder / "a.pharos-lock"));
   writer("a");
+  folder.write("empty", "");
+  writer("empty");
+  // A link and what it points to are the same checkpoint.
+  write_checkpoint(kSaved, folder / "b");
+  std::filesystem::create_symlink(folder / "b", folder / "link");
+  first = writer("link");
+  CHECK(input_error_in(folder, [&] { writer("b"); }).find("another render") != std::string::npos);
+  first->skip("no memory");
+  CHECK_FALSE(first->is_due());
+  CHECK_FALSE(first->finish());
   folder.write("notes", "text");
   CHECK(input_error_in(folder, [&] { writer("notes"); }) ==
-        "the checkpoint 'notes' is another file, which is not overwritten: expected another name");
+        "the checkpoint 'notes' exists and is no checkpoint of Pharos, so it is not overwritten: "
+        "choose another name");
 }
 
 }  // namespace

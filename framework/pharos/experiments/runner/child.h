@@ -15,7 +15,7 @@ struct ChildLimits {
 
 /// How a child process ended.
 struct ChildEnd {
-  bool is_stopped = false;  ///< it was asked to end
+  bool is_stopped = false;  ///< it ended or failed after it was asked to end
   std::string problem;      ///< why it failed; empty: it did not
 };
 

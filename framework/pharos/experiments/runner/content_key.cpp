@@ -14,7 +14,8 @@
 namespace pharos {
 namespace {
 
-/// Returns the files that hold the buffers of a mesh file; none unless it is a glTF file.
+/// Returns the files that hold the buffers of a mesh file in the text form of glTF; none for other
+/// forms.
 std::vector<std::filesystem::path> buffers_of(const std::filesystem::path& mesh) {
   std::vector<std::filesystem::path> files;
   std::string extension = mesh.extension().string();

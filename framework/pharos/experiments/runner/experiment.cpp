@@ -111,6 +111,9 @@ class Runner {
   void tell(const std::string& message) const {
     if (control_.on_message) control_.on_message(message);
   }
+  void warn(const std::string& message) const {
+    if (control_.on_warning) control_.on_warning(message);
+  }
 
   /// Returns false if the work was stopped.
   bool find_references() {
@@ -121,7 +124,7 @@ class Runner {
         if (!reference) return false;
         results_.references.push_back(std::move(reference));
       } catch (const Error& error) {
-        tell(fmt::format("{}: the reference failed, so the scene has no runs: {}", scene,
+        warn(fmt::format("{}: the reference failed, so the scene has no runs: {}", scene,
                          error.what()));
         results_.failed.push_back(scene + ", reference");
         results_.references.emplace_back();
@@ -136,15 +139,15 @@ class Runner {
     const fs::path cache =
         results_.config.cache.empty() ? default_reference_cache() : results_.config.cache;
     const PartControl control{
-        .make = [this](const PartOrder& order) { return make(order); },
+        .make = [this](const PartOrder& order) { return render_part(order); },
         .report =
             [&](std::uint32_t part, std::uint32_t parts) {
               tell(fmt::format("{}: reference, part {} of {}", scene, part + 1, parts));
             },
-        .tell = [this](const std::string& message) { tell(message); },
+        .warn = [this](const std::string& message) { warn(message); },
         .stop = control_.render.stop};
     std::optional<Reference> reference = find_or_render(planned, cache, registry_, control);
-    if (reference && planned.parts > 0 && reference->build != build_of(planned)) {
+    if (reference && planned.parts > 0 && reference->build != planned.build) {
       tell(
           fmt::format("{}: the reference was rendered by another build of Pharos; remove '{}' to "
                       "have it made anew",
@@ -154,18 +157,18 @@ class Runner {
   }
 
   /// Makes a part of a reference. Returns false if it was stopped.
-  bool make(const PartOrder& order) const {
+  bool render_part(const PartOrder& order) const {
     if (control_.run_program.empty()) return make_part(order, registry_, control_.render);
     ChildLimits limits = results_.config.limits();
     limits.seconds.reset();  // the limit on the time is meant for runs
-    const ChildEnd end = make_in_child(order, results_.folder() / "reference.order", limits);
+    const ChildEnd end = carry_out_in_child(order, results_.folder() / "reference.order", limits);
     if (!end.problem.empty()) throw RunError(end.problem);
     return !end.is_stopped;
   }
 
   /// Has an order carried out by a process of its own, which reads it from `file`.
-  ChildEnd make_in_child(const Order& order, const fs::path& file,
-                         const ChildLimits& limits) const {
+  ChildEnd carry_out_in_child(const Order& order, const fs::path& file,
+                              const ChildLimits& limits) const {
     fs::create_directories(file.parent_path());
     save_order(order, file);
     std::vector<std::string> command = control_.run_program;
@@ -173,10 +176,6 @@ class Runner {
     const ChildEnd end = run_child(command, limits, control_.render.stop);
     fs::remove(file);
     return end;
-  }
-
-  std::string build_of(const PlannedReference& planned) const {
-    return build_key(build_run(planned.config, 0, registry_).resolved, registry_);
   }
 
   const std::string& scene_of(const Run& run) const {
@@ -211,7 +210,7 @@ class Runner {
     try {
       record = load_record(file);
     } catch (const InputError& error) {
-      tell(fmt::format("{}: {}", error.what(), moved_aside(file)));
+      warn(fmt::format("{}: {}", error.what(), moved_aside(file)));
       return std::nullopt;
     }
     if (!record || record->key != key_of(run)) return std::nullopt;
@@ -219,7 +218,7 @@ class Runner {
     for (const auto& [extension, key] : record->files) {
       const fs::path kept = file_of(run, extension);
       if (access_problem(kept).empty() && content_key_of_file(kept) == key) continue;
-      tell(fmt::format("{}: missing or changed, so the run is made again", kept.string()));
+      warn(fmt::format("{}: missing or changed, so the run is made again", kept.string()));
       return std::nullopt;
     }
     return record;
@@ -246,12 +245,13 @@ class Runner {
     remove_run(file_of(run, ""));
     const RunOrder order = order_of(run);
     if (control_.run_program.empty()) return make_run(order, registry_, control_.render);
-    const ChildEnd end = make_in_child(order, file_of(run, ".order"), results_.config.limits());
+    const ChildEnd end =
+        carry_out_in_child(order, file_of(run, ".order"), results_.config.limits());
     if (end.is_stopped) return std::nullopt;
     std::optional<RunRecord> record = end.problem.empty() ? load(run) : std::nullopt;
     if (!record) {
       const std::string name = fmt::format("{}, {}, seed {}", order.scene, order.method, run.seed);
-      tell(fmt::format("{}: failed: {}", name,
+      warn(fmt::format("{}: failed: {}", name,
                        end.problem.empty() ? "it left no record" : end.problem));
       results_.failed.push_back(name);
     }

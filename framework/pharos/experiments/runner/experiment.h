@@ -30,6 +30,7 @@ namespace pharos {
 struct ExperimentControl {
   RenderControl render;  ///< control of each render; `on_pass` is not used
   std::function<void(const std::string&)> on_message;  ///< progress messages
+  std::function<void(const std::string&)> on_warning;  ///< what failed or was damaged
   /// The program and arguments that make a run or a part of a reference, see carry_out(). The path
   /// of a file by save_order() is added. Empty: they are made in this process.
   std::vector<std::string> run_program;

@@ -73,7 +73,10 @@ PlannedReference plan_reference(const ReferenceSettings& settings, const ConfigN
   // A reference file must have the size of the scene's images. Any budget is enough to determine
   // this size.
   reference.config.set("budget", budget_node({.spp = std::max(settings.spp / settings.parts, 1u)}));
-  const PixelRect window = build_run(reference.config, 0, registry).config.film.window();
+  LoadedConfig loaded = build_run(reference.config, 0, registry);
+  loaded.resolved.take("output");
+  reference.build = build_key(loaded.resolved, registry);
+  const PixelRect window = loaded.config.film.window();
   reference.width = window.width(), reference.height = window.height();
   if (!settings.image.empty()) read_reference(settings.image, reference.width, reference.height);
   return reference;

@@ -23,6 +23,7 @@ struct PlannedCell {
 struct PlannedReference {
   std::filesystem::path file;  ///< empty if the reference is to be rendered
   ConfigNode config;           ///< config of one part of a render
+  std::string build;           ///< build_key() of the code that renders it
   std::uint32_t parts = 0;     ///< number of parts of a render; 0: the reference is a file
   int width = 0, height = 0;   ///< size of the scene's images [pixels]
 };

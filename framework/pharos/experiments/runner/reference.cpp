@@ -61,6 +61,9 @@ std::optional<double> number_at(const Metadata& metadata, const std::string& key
 /// The name under which the header of an image file holds pixels_key().
 constexpr const char* kPixelsEntry = "pharos:pixels";
 
+/// The name under which it holds the key of the code that rendered it, see build_key().
+constexpr const char* kBuildEntry = "pharos:build";
+
 std::string pixels_key(const Image& image) {
   const std::vector<float>& values = image.values();
   return content_key({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float)});
@@ -85,14 +88,18 @@ class Cache {
     reference.mse = number_at(metadata, "pharos:own_mse");
     reference.relative_mse = number_at(metadata, "pharos:own_relmse");
     reference.version = text_at(metadata, "pharos:version");
-    reference.build = text_at(metadata, "pharos:build");
+    reference.build = text_at(metadata, kBuildEntry);
     return reference;
   }
 
-  bool has_part(std::uint32_t part) const { return sound_image(part_path(part)).has_value(); }
+  /// Whether there is a sound part that the same code has rendered.
+  bool has_part(std::uint32_t part) const {
+    return sound_image(part_path(part)) &&
+           text_at(read_metadata(part_path(part)), kBuildEntry) == planned_.build;
+  }
 
   /// Averages all parts to the finished reference and removes the parts.
-  void finish(const std::string& config, const std::string& build) const {
+  void finish(const std::string& config) const {
     MeanImage whole;
     std::array<MeanImage, 2> halves;
     double samples = 0, seconds = 0;
@@ -112,7 +119,7 @@ class Cache {
     write_exr(image, path(),
               {{"pharos:version", version()},
                {kPixelsEntry, pixels_key(image)},
-               {"pharos:build", build},
+               {kBuildEntry, planned_.build},
                {"pharos:config", config},
                {"pharos:parts", std::to_string(planned_.parts)},
                {"pharos:samples_per_pixel", fmt::format("{}", samples)},
@@ -146,7 +153,7 @@ class Cache {
     } catch (const InputError& error) {
       problem = error.what();
     }
-    control_.tell(fmt::format("{}: {}; {}, and is rendered again", file.string(), problem,
+    control_.warn(fmt::format("{}: {}; {}, and is rendered again", file.string(), problem,
                               moved_aside(file)));
     return std::nullopt;
   }
@@ -174,6 +181,7 @@ bool make_part(const PartOrder& order, const Registry& registry, const RenderCon
   write_exr(image, order.file,
             {{"pharos:version", version()},
              {kPixelsEntry, pixels_key(image)},
+             {kBuildEntry, order.build},
              {"pharos:samples_per_pixel", fmt::format("{}", result.samples_per_pixel)},
              {"pharos:seconds", fmt::format("{}", result.times.budgeted())}});
   return true;
@@ -200,16 +208,16 @@ std::optional<Reference> find_or_render(const PlannedReference& planned,
     cache.remove_parts();  // parts of a process that ended before it could remove them
     return known;
   }
-  const std::string build = build_key(whole.resolved, registry);
   for (std::uint32_t part = 0; part < planned.parts; ++part) {
     if (cache.has_part(part)) continue;
     control.report(part, planned.parts);
-    LoadedConfig loaded = build_run(planned.config, kReferenceSeed + part, registry);
-    loaded.resolved.take("output");
-    const PartOrder order{to_yaml(loaded.resolved), build, fs::absolute(cache.part_path(part))};
+    ConfigNode config = whole.resolved;
+    config.take("output");
+    config.set("seed", ConfigNode::scalar(std::to_string(kReferenceSeed + part)));
+    const PartOrder order{to_yaml(config), planned.build, fs::absolute(cache.part_path(part))};
     if (!control.make(order)) return std::nullopt;
   }
-  cache.finish(to_yaml(whole.resolved), build);
+  cache.finish(to_yaml(whole.resolved));
   return cache.find();
 }
 

@@ -48,7 +48,7 @@ struct PartControl {
   /// Called before each part is made.
   std::function<void(std::uint32_t part, std::uint32_t parts)> report;
   /// Receives messages on files that were damaged.
-  std::function<void(const std::string&)> tell;
+  std::function<void(const std::string&)> warn;
   /// Ends the wait for another process that makes the same reference. May be null.
   const std::atomic<bool>* stop = nullptr;
 };
