@@ -55,9 +55,9 @@ Outcome run_shell(const std::string& command, const std::filesystem::path& folde
 
 Outcome run_pharos(const std::string& arguments, const std::filesystem::path& folder,
                    const std::string& environment) {
-  return run_shell(
-      fmt::format("{} timeout {} {} {}", environment, kTimeoutSeconds, PHAROS_PROGRAM, arguments),
-      folder);
+  return run_shell(fmt::format("{} timeout --kill-after=10 {} {} {}", environment, kTimeoutSeconds,
+                               PHAROS_PROGRAM, arguments),
+                   folder);
 }
 
 Outcome interrupt_pharos(const std::string& arguments, const std::filesystem::path& folder,

@@ -45,7 +45,7 @@ std::string read_bytes(std::ifstream& in, const fs::path& path, std::uint64_t co
   return bytes;
 }
 
-/// Reads the first bytes of a file. Returns whether they are those of a checkpoint.
+/// Reads the first bytes of a file. Returns whether it is a checkpoint.
 bool has_magic(std::ifstream& in) {
   std::array<char, kMagic.size()> magic{};
   in.read(magic.data(), magic.size());

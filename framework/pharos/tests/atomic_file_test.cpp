@@ -17,7 +17,7 @@
 
 namespace {
 
-/// What was flushed, and what the file of a test held at that time.
+/// A call of fsync(): the path that was flushed, and the content of `watched` at that time.
 struct Flush {
   std::filesystem::path what;
   std::string content;

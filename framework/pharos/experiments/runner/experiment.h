@@ -32,7 +32,7 @@ struct ExperimentControl {
   std::function<void(const std::string&)> on_message;  ///< progress messages
   std::function<void(const std::string&)> on_warning;  ///< what failed or was damaged
   /// The program and arguments that make a run or a part of a reference, see carry_out(). The path
-  /// of a file by save_order() is added. Empty: they are made in this process.
+  /// of a file by save_order() is added. If empty, this process makes both.
   std::vector<std::string> run_program;
 };
 

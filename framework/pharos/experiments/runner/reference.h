@@ -32,16 +32,16 @@ std::filesystem::path default_reference_cache();
 
 /// Everything that one part of a reference needs. A process of its own can render it.
 struct PartOrder {
-  std::string config;  ///< resolved config with its seed, as YAML
-  std::string build;   ///< build_key() of the code that shall render it
-  std::filesystem::path file;
+  std::string config;          ///< resolved config with its seed, as YAML
+  std::string build;           ///< build_key() of the code that shall render it
+  std::filesystem::path file;  ///< where the image is written
 };
 
 /// Renders a part of a reference into its file. Returns false if it was stopped. Throws RunError if
 /// this program has other code than the order asks for.
 bool make_part(const PartOrder& order, const Registry& registry, const RenderControl& control);
 
-/// How the parts of a reference are made, and who is told of it.
+/// Callbacks that make the parts of a reference and receive messages.
 struct PartControl {
   /// Makes a part as make_part() does.
   std::function<bool(const PartOrder&)> make;

@@ -26,7 +26,7 @@ struct RunOrder {
   bool keeps_pictures = false;      ///< writes pictures of what was learned
 };
 
-/// What a process of its own can do for an experiment.
+/// A piece of work that an experiment gives to a child process: a run or a part of a reference.
 using Order = std::variant<RunOrder, PartOrder>;
 
 /// Writes an order, or reads it. Both throw RunError.
