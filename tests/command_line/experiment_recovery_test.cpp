@@ -121,7 +121,7 @@ TEST_CASE("a reference that aborts ends nothing but the runs of its scene") {
 TEST_CASE("Ctrl-C keeps finished runs and reports them; the same command goes on") {
   const ScratchFolder folder;
   write_experiment(folder, "spp: 16", 200);
-  const Outcome outcome = interrupt_pharos_once("test/runs/deep/independent/seed-1.exr",
+  const Outcome outcome = interrupt_pharos_once("test/runs/deep/independent/seed-1.json",
                                                 "experiment test.yaml", folder.path(), "INT");
   CHECK(outcome.exit_code == 130);
   REQUIRE(folder.has("test/results.json"));
@@ -153,16 +153,29 @@ int run_with_kills(const ScratchFolder& folder, double seconds, double more) {
 }
 
 TEST_CASE("all signals that end a job stop an experiment, which goes on later") {
-  for (const char* signal : {"TERM", "HUP", "USR1", "USR2"}) {
+  for (const std::string signal : {"TERM", "HUP", "USR1", "USR2"}) {
     CAPTURE(signal);
     const ScratchFolder folder;
     write_experiment(folder, "spp: 16", 500);
-    const Outcome outcome = interrupt_pharos_once("test/runs/deep/independent/seed-1.exr",
-                                                  "experiment test.yaml", folder.path(), signal);
+    const Outcome outcome =
+        interrupt_pharos_once("test/runs/deep/independent/seed-1.json", "experiment test.yaml",
+                              folder.path(), signal.c_str());
     CHECK(outcome.exit_code == 130);
     CHECK(outcome.err.find(" failed: ") == std::string::npos);
     CHECK(folder.has("test/report.html"));
   }
+}
+
+TEST_CASE("a run that a signal ends after its record was written counts") {
+  const ScratchFolder folder;
+  write_experiment(folder, "spp: 16", 500);
+  const std::string module = fmt::format("PHAROS_MODULE_PATH={}/lingers", PHAROS_WRONG_MODULES);
+  const Outcome outcome =
+      interrupt_pharos_once("test/runs/deep/independent/seed-1.json", "experiment test.yaml",
+                            folder.path(), "TERM", module);
+  CHECK(outcome.exit_code == 130);
+  CHECK(rendered_runs(outcome) == 1);
+  CHECK(folder.has("test/report.html"));
 }
 
 TEST_CASE("an experiment that is killed and started again gives the same table") {

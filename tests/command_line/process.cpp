@@ -68,18 +68,21 @@ Outcome interrupt_pharos(const std::string& arguments, const std::filesystem::pa
 }
 
 Outcome interrupt_pharos_when(const std::string& condition, const std::string& arguments,
-                              const std::filesystem::path& folder, const char* signal) {
-  return run_shell(fmt::format("{{ '{}' {} & until {}; do kill -0 $! || break; done; kill -{} $!; "
-                               "wait $!; }}",
-                               PHAROS_PROGRAM, arguments, condition, signal),
-                   folder);
+                              const std::filesystem::path& folder, const char* signal,
+                              const std::string& environment) {
+  return run_shell(
+      fmt::format(
+          "{{ {} '{}' {} & until {}; do kill -0 $! || break; done; kill -{} $!; wait $!; }}",
+          environment, PHAROS_PROGRAM, arguments, condition, signal),
+      folder);
 }
 
 Outcome interrupt_pharos_once(const std::string& file, const std::string& arguments,
-                              const std::filesystem::path& folder, const char* signal) {
+                              const std::filesystem::path& folder, const char* signal,
+                              const std::string& environment) {
   const std::string appears =
       fmt::format("{{ sleep 0.05; n=$((n+1)); [ -e '{}' ] || [ $n -ge 2400 ]; }}", file);
-  return interrupt_pharos_when(appears, arguments, folder, signal);
+  return interrupt_pharos_when(appears, arguments, folder, signal, environment);
 }
 
 bool appears(const std::filesystem::path& file) {

@@ -31,11 +31,13 @@ Outcome interrupt_pharos(const std::string& arguments, const std::filesystem::pa
 /// Runs the program as above and sends `signal` as soon as `file` is in `folder`. On a busy machine
 /// this may take long; the limit is two minutes.
 Outcome interrupt_pharos_once(const std::string& file, const std::string& arguments,
-                              const std::filesystem::path& folder, const char* signal);
+                              const std::filesystem::path& folder, const char* signal,
+                              const std::string& environment = "");
 /// Runs the program as above and sends `signal` as soon as the shell command `condition` succeeds,
 /// which is tried again and again until the program ends.
 Outcome interrupt_pharos_when(const std::string& condition, const std::string& arguments,
-                              const std::filesystem::path& folder, const char* signal);
+                              const std::filesystem::path& folder, const char* signal,
+                              const std::string& environment = "");
 /// Waits for a file for at most two minutes. Returns whether the file exists.
 bool appears(const std::filesystem::path& file);
 

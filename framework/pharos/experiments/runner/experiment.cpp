@@ -247,9 +247,9 @@ class Runner {
     if (control_.run_program.empty()) return make_run(order, registry_, control_.render);
     const ChildEnd end =
         carry_out_in_child(order, file_of(run, ".order"), results_.config.limits());
-    if (end.is_stopped) return std::nullopt;
+    // A run that had left its record before it was stopped counts.
     std::optional<RunRecord> record = end.problem.empty() ? load(run) : std::nullopt;
-    if (!record) {
+    if (!record && !end.is_stopped) {
       const std::string name = fmt::format("{}, {}, seed {}", order.scene, order.method, run.seed);
       warn(fmt::format("{}: failed: {}", name,
                        end.problem.empty() ? "it left no record" : end.problem));
