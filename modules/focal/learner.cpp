@@ -37,6 +37,25 @@ void FocalSettings::describe(Schema<FocalSettings>& s) {
           "Number of iterations after which all others narrow the density, instead of the last "
           "`narrowing_iterations`")
       .at_least(0);
+  s.field("catch_up", &S::catch_up,
+          "Greatest number of iterations to catch up with. The learner counts the iterations with "
+          "too little light, from the last one before narrowing on. Once an iteration has enough "
+          "light, its segments narrow the density again, once for each of them (paper: 0). Needs "
+          "`narrowing_decay: 0`")
+      .at_least(0)
+      .at_most(64);
+  s.field("least_segments", &S::least_segments,
+          "Number of equally bright segments that an iteration must be worth to have enough light")
+      .at_least(1);
+  s.field("caught_up_share", &S::caught_up_share,
+          "Least share of guided samples that is assumed for segments when they narrow the density "
+          "again")
+      .above(0)
+      .at_most(1);
+  s.field("kept_segments", &S::kept_segments,
+          "Number of segments of an iteration that are kept to catch up")
+      .at_least(64)
+      .at_most(1u << 20);
   s.field("splat_extent", &S::splat_extent,
           "Where a path adds mass: along the whole line of each segment (paper), or only along the "
           "segment itself unless its end is nearly specular (authors' code)");
@@ -65,6 +84,9 @@ void FocalSettings::describe(Schema<FocalSettings>& s) {
 }
 
 FocalLearner::FocalLearner(const Settings& settings) : settings_(settings) {
+  if (settings.catch_up > 0 && settings.narrowing_decay > 0) {
+    throw InputError("`catch_up` needs `narrowing_decay: 0`");
+  }
   if (!settings.region) return;
   const Vec3 extent = settings.region->high - settings.region->low;
   if (!(extent.x > 0 && extent.y > 0 && extent.z > 0)) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include <pharos/config/schema.h>
@@ -37,6 +38,10 @@ struct FocalSettings {
   int max_depth = 14;
   int narrowing_iterations = 5;
   std::optional<int> burn_in;  ///< iterations before narrowing; none: all but the last ones
+  int catch_up = 0;
+  double least_segments = 50;
+  double caught_up_share = 0.5;
+  std::uint32_t kept_segments = 65536;
   SplatExtent splat_extent = SplatExtent::line;
   float glossy_roughness = 0.3f;
   SplatWeight splat_weight = SplatWeight::length;
@@ -52,7 +57,8 @@ struct FocalSettings {
 class FocalLearner final : public Learner {
  public:
   using Settings = FocalSettings;
-  /// Throws InputError if the region has no volume.
+  /// Throws InputError if the region has no volume, or if both `catch_up` and `narrowing_decay` are
+  /// above 0.
   explicit FocalLearner(const Settings& settings);
 
   LearnerTraits traits() const override;

@@ -58,7 +58,9 @@ FocalLearningState::FocalLearningState(const FocalSettings& settings,
     : settings_(settings),
       max_depth_(settings.max_depth),
       growths_left_(settings.region_growths),
-      sums_(density_) {
+      seed_(context.seed),
+      sums_(density_),
+      kept_(settings.kept_segments) {
   const Box box = region_box(region_of(settings, context));
   diagonal_ = diagonal(box);
   // Learning starts with the uniform density in both octrees. Each is refined as if it had all
@@ -89,23 +91,37 @@ void FocalLearningState::absorb(const PathLog& log) {
   }
 }
 
-void FocalLearningState::splat_waiting() {
-  const std::size_t count = (waiting_.size() + kGroup - 1) / kGroup;
-  groups_.assign(count, FocalSums(density_));
-  // The loop is isolated, because the thread that waits here must not take up rendering instead.
-  tbb::this_task_arena::isolate([&] {
-    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t g) {
-      const std::size_t begin = g * kGroup;
-      const std::size_t size = std::min(kGroup, waiting_.size() - begin);
-      splat(std::span(waiting_).subspan(begin, size), groups_[g]);
+void FocalLearningState::splat_in_groups(std::span<const Segment> segments, Splat splat) {
+  for (; !segments.empty();
+       segments = segments.subspan(std::min(segments.size(), kGroup * kGroups))) {
+    const std::size_t size = std::min(segments.size(), kGroup * kGroups);
+    groups_.assign((size + kGroup - 1) / kGroup, FocalSums(density_));
+    // The loop is isolated, because the thread that waits here must not take up rendering instead.
+    tbb::this_task_arena::isolate([&] {
+      tbb::parallel_for(std::size_t{0}, groups_.size(), [&](std::size_t g) {
+        const std::size_t begin = g * kGroup;
+        (this->*splat)(segments.subspan(begin, std::min(kGroup, size - begin)), groups_[g]);
+      });
     });
-  });
-  for (const FocalSums& group : groups_) sums_.add(group);
+    for (const FocalSums& group : groups_) sums_.add(group);
+  }
+}
+
+void FocalLearningState::splat_waiting() {
+  splat_in_groups(waiting_, &FocalLearningState::splat_new);
   splatted_ += waiting_.size();
+  if (settings_.catch_up > 0) {
+    RandomStream random(seed_, batches_++);
+    for (const Segment& segment : waiting_) {
+      const double contribution = segment.contribution;
+      kept_.insert(segment, contribution, random);
+      squares_ += contribution * contribution;
+    }
+  }
   waiting_.clear();
 }
 
-void FocalLearningState::splat(std::span<const Segment> segments, FocalSums& sums) const {
+void FocalLearningState::splat_new(std::span<const Segment> segments, FocalSums& sums) const {
   if (narrowing_) {
     splat_narrowed(segments, density_, settings_.mis_compensation, sums);
   } else {
@@ -114,28 +130,63 @@ void FocalLearningState::splat(std::span<const Segment> segments, FocalSums& sum
   }
 }
 
+void FocalLearningState::splat_kept(std::span<const Segment> segments, FocalSums& sums) const {
+  splat_again(segments, density_, settings_.mis_compensation, settings_.caught_up_share, sums);
+}
+
 Learned FocalLearningState::update(const TrainingStage& stage) {
   splat_waiting();
   // If an iteration finds no light, the masses of earlier iterations stay.
   if (sums_.total() > 0) {
-    const double decay = narrowing_ ? settings_.narrowing_decay : settings_.decay;
-    const double kept = knows_something_ ? decay : 0;
-    fold(converging_.masses, sums_.converging, kept, static_cast<double>(paths_));
-    fold(diverging_.masses, sums_.diverging, kept, static_cast<double>(paths_));
-    segments_ = kept * segments_ + static_cast<double>(splatted_);
-    const double mass = converging_.mass() + diverging_.mass();
-    refine(mass);
-    if (growths_left_ > 0 && !next_narrows(stage)) grow_region(mass);
+    double decay = narrowing_ ? settings_.narrowing_decay : settings_.decay;
+    if (!knows_something_) decay = 0;
+    segments_ = decay * segments_ + static_cast<double>(splatted_);
+    learn_sums(decay);
+    if (growths_left_ > 0 && !next_narrows(stage)) grow_region();
     knows_something_ = true;
   }
+  if (settings_.catch_up > 0 && next_narrows(stage)) catch_up();
   // Only a learned density can be narrowed.
   narrowing_ = knows_something_ && next_narrows(stage);
   paths_ = splatted_ = 0;
+  kept_ = statistics::VarOptReservoir<Segment>(kept_.capacity());
+  squares_ = 0;
   return {knows_something_ ? model(stage.is_last()) : nullptr};
 }
 
-void FocalLearningState::refine(double total_mass) {
-  const SplitRule rule{settings_.split_threshold, max_depth_, total_mass};
+void FocalLearningState::learn_sums(double decay) {
+  fold(converging_.masses, sums_.converging, decay, static_cast<double>(paths_));
+  fold(diverging_.masses, sums_.diverging, decay, static_cast<double>(paths_));
+  refine();
+}
+
+bool FocalLearningState::has_enough_light() const {
+  // Kish's effective size: the number of equal contributions with the same uncertainty.
+  const double sum = kept_.total_weight();
+  return squares_ > 0 && sum * sum >= settings_.least_segments * squares_;
+}
+
+void FocalLearningState::catch_up() {
+  if (!has_enough_light()) {
+    missed_ = std::min(missed_ + 1, settings_.catch_up);
+    return;
+  }
+  std::vector<Segment> segments;
+  kept_.for_each([&](Segment segment, double weight) {
+    segment.contribution = static_cast<float>(weight);
+    segments.push_back(segment);
+  });
+  for (; missed_ > 0; --missed_) {
+    splat_in_groups(segments, &FocalLearningState::splat_kept);
+    // The segments may lie where the density is zero.
+    if (!(sums_.total() > 0)) return;
+    learn_sums(0);
+  }
+}
+
+void FocalLearningState::refine() {
+  const double mass = converging_.mass() + diverging_.mass();
+  const SplitRule rule{settings_.split_threshold, max_depth_, mass};
   converging_ = refined(converging_, rule);
   diverging_ = refined(diverging_, rule);
   use_octrees();
@@ -146,7 +197,7 @@ void FocalLearningState::use_octrees() {
   sums_ = FocalSums(density_);
 }
 
-void FocalLearningState::grow_region(double total_mass) {
+void FocalLearningState::grow_region() {
   const bool is_at_boundary =
       is_densest_at_boundary(density_.converging) || is_densest_at_boundary(density_.diverging);
   if (!is_at_boundary || max_depth_ + 1 >= Octree::kMostLevels) return;
@@ -154,7 +205,7 @@ void FocalLearningState::grow_region(double total_mass) {
   diverging_ = enlarged(diverging_);
   ++max_depth_;  // keeps the size of the smallest cells
   --growths_left_;
-  refine(total_mass);
+  refine();
 }
 
 std::shared_ptr<const GuidingModel> FocalLearningState::model(bool last) const {
@@ -170,11 +221,12 @@ void FocalLearningState::archive(Archive& archive) {
   const auto expect = [&](bool holds) {
     archive.expect(holds, "what was learned of focal points");
   };
-  archive.heading("focal_learning", 3);
+  archive.heading("focal_learning", 4);
   archive(converging_, diverging_, knows_something_, narrowing_, max_depth_, growths_left_, paths_,
-          segments_, splatted_);
+          segments_, splatted_, missed_, batches_, kept_, squares_);
   expect(converging_.octree.box() == diverging_.octree.box() && max_depth_ >= 0 &&
-         max_depth_ < Octree::kMostLevels && segments_ >= 0);
+         max_depth_ < Octree::kMostLevels && segments_ >= 0 && squares_ >= 0 && missed_ >= 0 &&
+         missed_ <= settings_.catch_up);
   if (archive.loads()) use_octrees();
   archive(sums_.converging, sums_.diverging, waiting_);
   expect(sums_.converging.size() == converging_.masses.size() &&

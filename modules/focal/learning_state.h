@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <pharos/guiding/contract/learner.h>
+#include <pharos/statistics/varopt.h>
 
 #include "learner.h"
 #include "octree_refinement.h"
@@ -23,12 +24,21 @@ class FocalLearningState final : public LearningState {
  private:
   /// Returns whether the iteration after `stage` narrows the density.
   bool next_narrows(const TrainingStage& stage) const;
-  /// Splats the waiting segments in concurrent groups. The groups do not depend on the number of
-  /// threads, so the sums have the same bits.
+  using Splat = void (FocalLearningState::*)(std::span<const Segment>, FocalSums&) const;
+  /// Splats segments in concurrent groups, a limited number at a time. The groups do not depend on
+  /// the number of threads, so the sums have the same bits.
+  void splat_in_groups(std::span<const Segment> segments, Splat splat);
   void splat_waiting();
-  void splat(std::span<const Segment> segments, FocalSums& sums) const;
-  void refine(double total_mass);
-  void grow_region(double total_mass);
+  void splat_new(std::span<const Segment> segments, FocalSums& sums) const;
+  void splat_kept(std::span<const Segment> segments, FocalSums& sums) const;
+  /// Sets the masses to `decay` times themselves plus the sums, and refines the octrees.
+  void learn_sums(double decay);
+  bool has_enough_light() const;
+  /// If this iteration has enough light, narrows the density once for each missed one, with the
+  /// segments that were kept. Otherwise this one is missed, too.
+  void catch_up();
+  void refine();
+  void grow_region();
   /// Makes the refined octrees the current density and clears the sums.
   void use_octrees();
   std::shared_ptr<const GuidingModel> model(bool last) const;
@@ -43,12 +53,17 @@ class FocalLearningState final : public LearningState {
                           ///< numbers of earlier iterations
   bool knows_something_ = false;
   bool narrowing_ = false;
+  std::uint64_t seed_;
+  int missed_ = 0;             ///< iterations with too little light to narrow the density
+  std::uint64_t batches_ = 0;  ///< of which segments were kept; a key of random numbers
 
   // Data of the current iteration.
   FocalSums sums_;
   std::uint64_t paths_ = 0;
-  std::uint64_t splatted_ = 0;     ///< number of segments in the sums
-  std::vector<Segment> waiting_;   ///< segments that wait to be splatted
+  std::uint64_t splatted_ = 0;                 ///< number of segments in the sums
+  std::vector<Segment> waiting_;               ///< segments that wait to be splatted
+  statistics::VarOptReservoir<Segment> kept_;  ///< to catch up
+  double squares_ = 0;  ///< sum of squared contributions of all segments that `kept_` was given
   std::vector<Rgb> incident_;      ///< scratch
   std::vector<FocalSums> groups_;  ///< scratch
 };

@@ -1,5 +1,6 @@
 #include "splat.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -68,15 +69,32 @@ void splat_length(const Segment& segment, const FocalDensity& density, double un
                              sums.diverging);
 }
 
-void splat_narrowed(const Segment& segment, const FocalDensity& density, bool mis_compensation,
-                    FocalSums& sums) {
+/// The densities with which a segment could have been drawn [1/sr], and the share of unguided
+/// samples.
+struct SegmentDensity {
+  double own = 0;  ///< of this guide
+  double guided = 0, unguided = 0;
+  double unguided_share = 0;
+};
+
+SegmentDensity density_of(const Segment& segment, const FocalDensity& density,
+                          bool mis_compensation) {
   const double own = density.directional_density(segment.origin, segment.direction);
-  const float unguided = mis_compensation ? segment.unguided_share : 0.0f;
-  const double guided = mis_compensation && segment.guided_pdf > 0 ? segment.guided_pdf : own;
-  const double pdf = unguided * double{segment.unguided_pdf} + (1 - unguided) * guided;
-  if (!(own > 0) || !(pdf > 0)) return;
+  if (!mis_compensation) return {.own = own, .guided = own};
+  return {.own = own,
+          .guided = segment.guided_pdf > 0 ? segment.guided_pdf : own,
+          .unguided = segment.unguided_pdf,
+          .unguided_share = segment.unguided_share};
+}
+
+/// Splats the part of a contribution that is due to the guides.
+void splat_narrowed(const Segment& segment, const FocalDensity& density, const SegmentDensity& of,
+                    FocalSums& sums) {
+  const double guided_share = 1 - of.unguided_share;
+  const double pdf = of.unguided_share * of.unguided + guided_share * of.guided;
+  if (!(of.own > 0) || !(pdf > 0)) return;
   const double scale =
-      (1 - unguided) * double{segment.contribution} / pdf / (3 * density.converging.box().volume());
+      guided_share * double{segment.contribution} / pdf / (3 * density.converging.box().volume());
   const Line line(density.converging.box(), segment.origin, segment.direction);
   const Reach reach(segment);
   // The integral of density t^2 over the length. In units of the level, a leaf's density is its
@@ -159,7 +177,17 @@ void splat_lengths(std::span<const Segment> segments, const FocalDensity& densit
 void splat_narrowed(std::span<const Segment> segments, const FocalDensity& density,
                     bool mis_compensation, FocalSums& sums) {
   for (const Segment& segment : segments) {
-    splat_narrowed(segment, density, mis_compensation, sums);
+    splat_narrowed(segment, density, density_of(segment, density, mis_compensation), sums);
+  }
+}
+
+void splat_again(std::span<const Segment> segments, const FocalDensity& density,
+                 bool mis_compensation, double least_share, FocalSums& sums) {
+  for (const Segment& segment : segments) {
+    SegmentDensity of = density_of(segment, density, mis_compensation);
+    of.unguided_share = std::min(of.unguided_share, 1 - least_share);
+    of.guided = std::max(of.guided, of.own);
+    splat_narrowed(segment, density, of, sums);
   }
 }
 

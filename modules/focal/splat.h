@@ -72,4 +72,10 @@ void splat_lengths(std::span<const Segment> segments, const FocalDensity& densit
 void splat_narrowed(std::span<const Segment> segments, const FocalDensity& density,
                     bool mis_compensation, FocalSums& sums);
 
+/// The same for segments that an earlier, wider state of the density has guided, or no guide at
+/// all. With MIS compensation, the share of the guides is taken as at least `least_share`, and
+/// their density as the larger one of the recorded density and the one of `density`.
+void splat_again(std::span<const Segment> segments, const FocalDensity& density,
+                 bool mis_compensation, double least_share, FocalSums& sums);
+
 }  // namespace pharos::focal

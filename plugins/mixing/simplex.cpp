@@ -12,7 +12,7 @@
 // Each class learns once for the whole scene, with these shares as the prior, and again in each
 // cell, with the shares of the whole scene as the prior. Cells that found no light thus learn from
 // others. A prior counts like `prior_steps` steps. The shares of an iteration count as many steps
-// as their weights are worth, (sum w)^2 / sum w^2, so a single bright step moves little. In the
+// as their weights are worth, (sum w)^2 / sum w^2, so a single bright step counts as one. In the
 // final iteration, methods are asked only where they lower the second moment by the factor `worth`
 // that makes up for their cost. In training, each method keeps at least the share `explore`,
 // because a method that is not asked cannot earn anything.

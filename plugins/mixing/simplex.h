@@ -16,11 +16,11 @@ class SimplexMixing final : public MixingPolicy {
     double least = 0.1;
     double explore = 0.05;
     double worth = 1.2;
-    double prior_steps = 32;
+    double prior_steps = 8;
     double decay = 0.25;
     float evidence = 32;
     std::uint32_t cell_steps = 8192;
-    std::uint32_t reservoir = 128;
+    std::uint32_t reservoir = 1024;
     static constexpr std::uint32_t kMostSteps = 4096;  ///< largest `reservoir`
     static void describe(Schema<Settings>& s);
   };

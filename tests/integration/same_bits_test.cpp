@@ -122,7 +122,7 @@ integrator:
     methods:
       - {{ learner: parallax_aware_mixtures, guider: parallax_aware_mixtures }}
       - {{ learner: practical_path_guiding, guider: practical_path_guiding }}
-      - {{ learner: {{ type: focal, burn_in: 1 }}, guider: focal }}
+      - {{ learner: {{ type: focal, burn_in: 1, catch_up: 8 }}, guider: focal }}
     mixing: simplex
     training: {{ schedule: geometric, images: combine, tolerance: 0.01, least_gain: {},
                  most_noise: 0.5, least_part: 0.01, trial: 0.1 }}

@@ -8,6 +8,7 @@
 
 #include <pharos/core/error.h>
 #include <pharos/core/warp.h>
+#include <pharos/tests/fixtures.h>
 
 #include "../model.h"
 #include "test_trees.h"
@@ -24,7 +25,7 @@ constexpr Point3 kCenter{0.1f, 1.1f, 3.9f};
 /// Adds paths of one guidable step each, from random points through the hole, as a camera obscura
 /// has them; every coordinate times `scale`.
 void add_hole_paths(PathLog& log, int count, std::uint64_t seed, float scale = 1,
-                    Point3 center = kCenter, float unguided_share = 0.5f) {
+                    Point3 center = kCenter, float unguided_share = 0.5f, float light = 1) {
   const std::array techniques{Technique{unguided_share, 0.3f}, Technique{1 - unguided_share, 0.3f}};
   RandomStream random(seed);
   for (int i = 0; i < count; ++i) {
@@ -43,7 +44,7 @@ void add_hole_paths(PathLog& log, int count, std::uint64_t seed, float scale = 1
                            .pdf = 0.3f});
     log.set_techniques(1, std::span(techniques).first(unguided_share < 1 ? 2 : 1));
     log.add(RecordedVertex{
-        .position = scale * (from + 4.0f * direction), .parent = 1, .emission = Rgb(1)});
+        .position = scale * (from + 4.0f * direction), .parent = 1, .emission = Rgb(light)});
   }
 }
 
@@ -70,8 +71,7 @@ LearningContext context(float scale = 1) {
 
 /// Trains on `hole_paths` for all iterations.
 std::shared_ptr<const FocalModel> trained(const FocalSettings& settings, float scale = 1,
-                                          Point3 center = kCenter) {
-  constexpr std::uint32_t iterations = 10;
+                                          Point3 center = kCenter, std::uint32_t iterations = 10) {
   const auto state = FocalLearner(settings).begin(context(scale));
   std::shared_ptr<const GuidingModel> model;
   for (std::uint32_t i = 0; i < iterations; ++i) {
@@ -136,16 +136,18 @@ TEST_CASE("focal learner: the region grows to a focal point outside of the scene
 }
 
 TEST_CASE("focal learner: the same model for any number of threads") {
-  std::string first;
-  for (const std::size_t threads : {1u, 2u, 3u, 7u}) {
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    const auto state = FocalLearner(FocalSettings{}).begin(context());
-    state->absorb(hole_paths(150'000, 1));
-    state->update({0, 1});
-    state->absorb(hole_paths(150'000, 2));
-    const std::string bits = saved(*state->update({1, 0}).model);
-    if (first.empty()) first = bits;
-    CHECK(bits == first);
+  for (const int catch_up : {0, 8}) {
+    std::string first;
+    for (const std::size_t threads : {1u, 2u, 3u, 7u}) {
+      const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+      const auto state = FocalLearner({.burn_in = 1, .catch_up = catch_up}).begin(context());
+      state->absorb(hole_paths(catch_up > 0 ? 20 : 150'000, 1));
+      state->update({0, 1});
+      state->absorb(hole_paths(150'000, 2));
+      const std::string bits = saved(*state->update({1, 0}).model);
+      if (first.empty()) first = bits;
+      CHECK(bits == first);
+    }
   }
 }
 
@@ -213,6 +215,83 @@ TEST_CASE("focal learner: narrowing after a burn-in, whenever training ends") {
   CHECK(never == doctest::Approx(hits(*trained({.narrowing_iterations = 0}))));
 }
 
+/// Returns the model after iterations with 3 paths each and a last one with 3000.
+std::shared_ptr<const FocalModel> found_late(std::uint32_t early, int catch_up,
+                                             double least_segments = 50) {
+  const FocalSettings settings{
+      .burn_in = 1, .catch_up = catch_up, .least_segments = least_segments};
+  const auto state = FocalLearner(settings).begin(context());
+  for (std::uint32_t i = 0; i < early; ++i) {
+    state->absorb(hole_paths(3, i));
+    state->update({i, early - i});
+  }
+  state->absorb(hole_paths(3000, 100));
+  return std::dynamic_pointer_cast<const FocalModel>(state->update({early, 0}).model);
+}
+
+TEST_CASE("focal learner: iterations with too little light are caught up with") {
+  const auto late = found_late(3, 0), caught_up = found_late(3, 8);
+  MESSAGE("share of directions through the hole: " << hits(*late) << ", caught up "
+                                                   << hits(*caught_up));
+  CHECK(hits(*caught_up) > 0.3);
+  // Every missed iteration counts, up to the number that is set.
+  const double one = hits(*found_late(3, 1)), two = hits(*found_late(3, 2));
+  CHECK(one > 1.05 * hits(*late));
+  CHECK(two > 1.02 * one);
+  CHECK(hits(*caught_up) > two);
+  CHECK(saved(*found_late(3, 3)) == saved(*caught_up));
+  CHECK(saved(*found_late(3, 2)) != saved(*caught_up));
+  // Nothing was missed, or the last iteration misses something, too.
+  CHECK(saved(*found_late(3, 8, 3)) == saved(*late));
+  CHECK(saved(*found_late(3, 8, 3000)) == saved(*caught_up));
+  CHECK(saved(*found_late(3, 8, 3001)) == saved(*late));
+}
+
+TEST_CASE("focal learner: a few bright paths are too little light") {
+  const auto model_of = [](int catch_up, float light) {
+    const auto state = FocalLearner({.burn_in = 1, .catch_up = catch_up}).begin(context());
+    // A dim iteration, so that the bright one does not count in the last.
+    state->absorb(hole_paths(3, 1, 1, kCenter, 0.5f));
+    state->update({0, 2});
+    PathLog log = hole_paths(1000, 1);
+    // 20 paths through another place.
+    add_hole_paths(log, 20, 2, 1, {-1, 2, 6}, 0.5f, light);
+    state->absorb(log);
+    return saved(*state->update({1, 0}).model);
+  };
+  CHECK(model_of(8, 1000) == model_of(0, 1000));
+  CHECK(model_of(8, 1) != model_of(0, 1));
+}
+
+TEST_CASE("focal learner: bright paths of one iteration do not count in the next") {
+  const auto model_of = [](int catch_up) {
+    const auto state = FocalLearner({.burn_in = 1, .catch_up = catch_up}).begin(context());
+    PathLog bright;
+    add_hole_paths(bright, 3, 1, 1, kCenter, 0.5f, 1e6f);
+    state->absorb(bright);
+    state->update({0, 1});
+    state->absorb(hole_paths(1000, 2));
+    return saved(*state->update({1, 0}).model);
+  };
+  CHECK(model_of(8) != model_of(0));
+}
+
+TEST_CASE("focal learner: iterations without light are caught up with") {
+  const auto model_of = [](std::uint32_t dark) {
+    const auto state = FocalLearner({.burn_in = 1, .catch_up = 8}).begin(context());
+    for (std::uint32_t i = 0; i < dark; ++i) state->update({i, 10});
+    state->absorb(hole_paths(1000, 1));
+    return std::dynamic_pointer_cast<const FocalModel>(state->update({dark, 0}).model);
+  };
+  CHECK(hits(*model_of(1)) > 2 * hits(*model_of(0)));
+  CHECK(hits(*model_of(3)) > 1.5 * hits(*model_of(1)));
+}
+
+TEST_CASE("focal learner: catching up does not go with a decay of narrowing") {
+  CHECK(test::input_error([] { FocalLearner({.catch_up = 1, .narrowing_decay = 0.25f}); }) ==
+        "`catch_up` needs `narrowing_decay: 0`");
+}
+
 TEST_CASE("focal learner: narrowing has a decay of its own") {
   // The last of three iterations narrows.
   const auto after = [](float decay, float narrowing_decay) {
@@ -247,19 +326,22 @@ TEST_CASE("focal learner: the behavior of the authors' code learns too") {
 }
 
 TEST_CASE("focal learner: saved learning goes on where it stopped") {
-  const FocalLearner learner(FocalSettings{});
-  const auto state = learner.begin(context());
-  state->absorb(hole_paths(1000, 1));
-  state->update({0, 1});
-  state->absorb(hole_paths(1000, 2));
-  const auto resumed = learner.begin(context());
-  std::istringstream in(saved(*state));
-  load(in, *resumed);
-  CHECK(saved(*resumed) == saved(*state));
-  for (std::uint32_t i = 1; i < 4; ++i) {
-    state->absorb(hole_paths(500, 10 + i));
-    resumed->absorb(hole_paths(500, 10 + i));
-    CHECK(saved(*state->update({i, 1}).model) == saved(*resumed->update({i, 1}).model));
+  for (const int catch_up : {0, 8}) {
+    // More segments than fit into a batch, and more than are kept.
+    const FocalLearner learner({.burn_in = 1, .catch_up = catch_up, .kept_segments = 1000});
+    const auto state = learner.begin(context());
+    state->absorb(hole_paths(20, 1));
+    state->update({0, 1});
+    state->absorb(hole_paths(70'000, 2));
+    const auto resumed = learner.begin(context());
+    std::istringstream in(saved(*state));
+    load(in, *resumed);
+    CHECK(saved(*resumed) == saved(*state));
+    for (std::uint32_t i = 1; i < 4; ++i) {
+      state->absorb(hole_paths(500, 10 + i));
+      resumed->absorb(hole_paths(500, 10 + i));
+      CHECK(saved(*state->update({i, 1}).model) == saved(*resumed->update({i, 1}).model));
+    }
   }
 }
 

@@ -199,6 +199,40 @@ TEST_CASE("splat: what other guides sample well is left to them") {
   CHECK(sums.total() == doctest::Approx(2.5 * 0.5 * own / (0.5 * 0.4 + 0.5 * 10 * own)));
 }
 
+TEST_CASE("splat: a segment that is splatted again counts as if this density had guided it") {
+  const FocalDensity density = test_densities()[2].density;
+  Segment s = segment({0, 1, 2.5f}, {0.1f, 1.3f, 3.7f}, true);
+  const double own = density.directional_density(s.origin, s.direction);
+  const auto first = [&] {
+    FocalSums sums(density);
+    splat_narrowed({&s, 1}, density, true, sums);
+    return sums.total();
+  };
+  const auto again = [&](double least_share, bool mis_compensation = true) {
+    FocalSums sums(density);
+    splat_again({&s, 1}, density, mis_compensation, least_share, sums);
+    return sums.total();
+  };
+  const auto expected = [&](double share, double guided) {
+    return doctest::Approx(2.5 * share * own / ((1 - share) * 0.4 + share * guided));
+  };
+  s.unguided_share = 0.9f;
+  s.guided_pdf = static_cast<float>(0.1 * own);
+  CHECK(first() == expected(0.1, 0.1 * own));
+  CHECK(again(0.5) == expected(0.5, own));
+  CHECK(again(0.25) == expected(0.25, own));
+  CHECK(again(0.5, false) == doctest::Approx(2.5));
+  // Other guides that sample it better, and a larger share of the guides, stay as they were.
+  s.unguided_share = 0.2f;
+  s.guided_pdf = static_cast<float>(10 * own);
+  CHECK(again(0.5) == expected(0.8, 10 * own));
+  // No guide was asked.
+  s.unguided_share = 1;
+  s.guided_pdf = 0;
+  CHECK(first() == 0);
+  CHECK(again(0.5) == expected(0.5, own));
+}
+
 TEST_CASE("splat: the weight of one cell is its share of the density (eq. 12)") {
   LearningOctree two = uniform_octree(test_box(), 1);
   two.masses = {0.8, 0, 0, 0, 0, 0, 0, 0.2};
