@@ -92,15 +92,15 @@ void FocalLearningState::absorb(const PathLog& log) {
 }
 
 void FocalLearningState::splat_in_groups(std::span<const Segment> segments, Splat splat) {
-  for (; !segments.empty();
-       segments = segments.subspan(std::min(segments.size(), kGroup * kGroups))) {
-    const std::size_t size = std::min(segments.size(), kGroup * kGroups);
-    groups_.assign((size + kGroup - 1) / kGroup, FocalSums(density_));
+  while (!segments.empty()) {
+    const auto batch = segments.first(std::min(segments.size(), kGroup * kGroups));
+    segments = segments.subspan(batch.size());
+    groups_.assign((batch.size() + kGroup - 1) / kGroup, FocalSums(density_));
     // The loop is isolated, because the thread that waits here must not take up rendering instead.
     tbb::this_task_arena::isolate([&] {
       tbb::parallel_for(std::size_t{0}, groups_.size(), [&](std::size_t g) {
         const std::size_t begin = g * kGroup;
-        (this->*splat)(segments.subspan(begin, std::min(kGroup, size - begin)), groups_[g]);
+        (this->*splat)(batch.subspan(begin, std::min(kGroup, batch.size() - begin)), groups_[g]);
       });
     });
     for (const FocalSums& group : groups_) sums_.add(group);

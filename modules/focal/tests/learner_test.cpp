@@ -250,7 +250,7 @@ TEST_CASE("focal learner: iterations with too little light are caught up with") 
 TEST_CASE("focal learner: a few bright paths are too little light") {
   const auto model_of = [](int catch_up, float light) {
     const auto state = FocalLearner({.burn_in = 1, .catch_up = catch_up}).begin(context());
-    // A dim iteration, so that the bright one does not count in the last.
+    // An iteration with too little light, for which the next one could make up.
     state->absorb(hole_paths(3, 1, 1, kCenter, 0.5f));
     state->update({0, 2});
     PathLog log = hole_paths(1000, 1);

@@ -32,7 +32,8 @@ struct ExperimentControl {
   std::function<void(const std::string&)> on_message;  ///< progress messages
   std::function<void(const std::string&)> on_warning;  ///< what failed or was damaged
   /// The program and arguments that make a run or a part of a reference, see carry_out(). The path
-  /// of a file by save_order() is added. If empty, this process makes both.
+  /// of the file that save_order() writes is added as the last argument. If the list is empty, this
+  /// process makes both itself.
   std::vector<std::string> run_program;
 };
 
