@@ -143,7 +143,7 @@ TEST_CASE("nothing of an earlier config stays") {
                                  folder.path())) == 1);
 }
 
-TEST_CASE("an output folder belongs to one experiment, and to one process at a time") {
+TEST_CASE("an output folder belongs to one experiment, and to one set of configs at a time") {
   const ScratchFolder folder;
   write_experiment(folder, "spp: 4", 1);
   REQUIRE(run_pharos("experiment test.yaml", folder.path()).exit_code == 0);
@@ -160,12 +160,16 @@ TEST_CASE("an output folder belongs to one experiment, and to one process at a t
                                  "INT");
   });
   CHECK(appears(folder.path() / "test/runs/deep/independent/seed-2.json"));
-  const Outcome second = run_pharos(same, elsewhere.path());
+  const Outcome second = run_pharos(same + " --set budget.spp=5", elsewhere.path());
+  // Fewer runs of the same configs are no conflict.
+  const Outcome third = run_pharos(same + " --set seeds=3", elsewhere.path());
   folder.write("done", "");
   CHECK(second.exit_code == 2);
-  CHECK(second.err.find("another process is at work here") != std::string::npos);
+  CHECK(second.err.find("another process is at work here, with other configs") !=
+        std::string::npos);
+  CHECK_MESSAGE(third.exit_code == 0, third.err);
   CHECK(busy.get().exit_code == 130);
-  CHECK(run_pharos(same, elsewhere.path()).exit_code == 0);
+  CHECK(run_pharos(same + " --set budget.spp=5", elsewhere.path()).exit_code == 0);
 }
 
 TEST_CASE("two processes that need one reference share it") {

@@ -5,10 +5,12 @@
 #include <fmt/format.h>
 
 #include <pharos/config/module_loader.h>
+#include <pharos/core/error.h>
 #include <pharos/core/log.h>
 #include <pharos/core/writable.h>
 #include <pharos/experiments/runner/experiment.h>
 #include <pharos/experiments/runner/results_files.h>
+#include <pharos/experiments/runner/status.h>
 
 #include "commands.h"
 #include "config_options.h"
@@ -24,6 +26,8 @@ struct ExperimentOptions {
   std::string output;
   int threads = 0;
   bool quiet = false;
+  bool status = false;
+  bool report = false;
 };
 
 /// Fails before the work starts if its results could not be written.
@@ -59,6 +63,17 @@ std::vector<std::string> run_program(const ExperimentOptions& options) {
   return command;
 }
 
+/// Writes the report of what is there.
+int write_report(const ExperimentConfig& config, ExperimentPlan plan) {
+  const ExperimentResults results = collect_results(config, std::move(plan), log_warning);
+  if (results.records.empty()) {
+    throw InputError(fmt::format("{}: error: no run of this experiment is done", config.output));
+  }
+  write_results(results);
+  report(results);
+  return kDone;
+}
+
 int run(const ExperimentOptions& options) {
   set_log_quiet(options.quiet);
   const Registry registry = load_default_modules();
@@ -66,7 +81,12 @@ int run(const ExperimentOptions& options) {
       load_experiment(options.config.path, options.config.overrides, registry);
   if (!options.output.empty()) config.output = options.output;
   ExperimentPlan plan = plan_experiment(config, registry);
+  if (options.status) {
+    fmt::print("{}", to_text(experiment_status(config, plan)));
+    return kDone;
+  }
   check_outputs(config);
+  if (options.report) return write_report(config, std::move(plan));
 
   const InterruptGuard interrupt;
   const ExperimentResults results = [&] {
@@ -102,6 +122,10 @@ void add_experiment_command(CLI::App& app, int& exit_code) {
   command->add_option("-o,--output", options->output, "Folder instead of the experiment's");
   command->add_option("--threads", options->threads, "Number of threads; 0: all cores")
       ->check(CLI::Range(0, 1024));
+  CLI::Option* status = command->add_flag(
+      "--status", options->status, "Only print what is done, running, failed and left to do");
+  command->add_flag("--report", options->report, "Only write the report of the runs that are done")
+      ->excludes(status);
   command->add_flag("-q,--quiet", options->quiet, "Only warnings and errors");
   command->callback([options, &exit_code] {
     with_threads(options->threads, [&] { exit_code = run(*options); });

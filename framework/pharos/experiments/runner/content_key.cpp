@@ -57,6 +57,11 @@ std::string content_key(std::string_view text) {
   return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
 }
 
+std::string pixels_key(const Image& image) {
+  const std::vector<float>& values = image.values();
+  return content_key({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float)});
+}
+
 std::string content_key_of_file(const std::filesystem::path& path) {
   const std::string problem = access_problem(path);
   std::ifstream in(path, std::ios::binary);

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include <pharos/core/image.h>
 #include <pharos/rendering/render_config.h>
 
 namespace pharos {
@@ -14,6 +15,9 @@ std::string content_key(std::string_view text);
 
 /// Returns the hash of a file's content. Throws RunError if the file cannot be read.
 std::string content_key_of_file(const std::filesystem::path& path);
+
+/// Returns the hash of an image's pixels.
+std::string pixels_key(const Image& image);
 
 /// Returns the files that a render reads: the files of its config, those that it names, and the
 /// buffers of glTF files.

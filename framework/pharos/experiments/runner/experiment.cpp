@@ -1,22 +1,31 @@
+#include <algorithm>
 #include <chrono>
-#include <cmath>
+#include <thread>
+#include <unistd.h>
 
 #include <fmt/format.h>
 
 #include <pharos/core/error.h>
 #include <pharos/core/file_lock.h>
-#include <pharos/experiments/runner/build_key.h>
 #include <pharos/experiments/runner/child.h>
-#include <pharos/experiments/runner/content_key.h>
 #include <pharos/experiments/runner/experiment.h>
-#include <pharos/experiments/runner/machine.h>
 #include <pharos/experiments/runner/output_folder.h>
 #include <pharos/experiments/runner/run_order.h>
+#include <pharos/experiments/runner/runs.h>
 
 namespace pharos {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// How long a process waits before it looks again at what other processes do.
+constexpr std::chrono::milliseconds kPause{1000};
+
+/// Returns the file that a process of this user locks while it needs this machine for itself. The
+/// folder for temporary files may be another one in every job of a cluster, so it is not used.
+fs::path machine_lock() {
+  return fmt::format("/tmp/pharos-machine-{}.lock", getuid());
+}
 
 /// Reports the progress of an experiment. The remaining time is estimated from the runs so far.
 class RunCounter {
@@ -49,12 +58,18 @@ class Runner {
  public:
   Runner(const ExperimentConfig& config, ExperimentPlan plan, const Registry& registry,
          const ExperimentControl& control)
-      : registry_(registry), control_(control) {
+      : registry_(registry),
+        control_(control),
+        place_(config.output, config.source, plan_key(config, plan)),
+        files_(config.output, [this](const std::string& message) { warn(message); }) {
     results_.config = config;
     results_.plan = std::move(plan);
-    for (const PlannedCell& cell : results_.plan.cells) {
-      results_.run_count += config.seeds_of(config.methods[cell.method]);
+    results_.references.resize(config.scenes.size());
+    for (const PlannedRun& run : planned_runs(results_.config, results_.plan)) {
+      runs_.push_back({run, {}, false});
     }
+    results_.run_count = runs_.size();
+    is_timed_ = std::ranges::any_of(runs_, [](const Run& run) { return run.planned.is_timed; });
   }
 
   ExperimentResults run() {
@@ -62,22 +77,15 @@ class Runner {
       tell(fmt::format("{}: left out, because '{}' does not exist", scene.name,
                        scene.config.string()));
     }
-    results_.stopped = !find_references();
-    std::vector<Run> runs = all_runs();
-    RunCounter counter(runs.size(), control_);
-    for (Run& run : runs) {
-      run.record = load(run);
-      if (run.record) counter.skip();
+    // What has failed before is tried again, unless others are in the middle of it.
+    for (const Run& run : runs_) {
+      if (place_.is_first()) files_.forget_failure(run.planned);
     }
-    for (Run& run : runs) {
-      if (results_.stopped) break;
-      if (run.record) continue;
-      const std::size_t failed = results_.failed.size();
-      run.record = render(run);
-      if (run.record) counter.finish(*run.record);
-      results_.stopped = !run.record && results_.failed.size() == failed;
-    }
-    for (Run& run : runs) {
+    find_references();
+    make_runs();
+    for (Run& run : runs_) {
+      // Others may have made it in the meantime.
+      if (!run.is_settled) run.record = files_.load(run.planned);
       if (run.record) results_.records.push_back(std::move(*run.record));
     }
     return std::move(results_);
@@ -85,28 +93,10 @@ class Runner {
 
  private:
   struct Run {
-    const PlannedCell* cell;
-    std::uint64_t seed;
+    PlannedRun planned;
     std::optional<RunRecord> record;
+    bool is_settled = false;  ///< it has a record, it has failed, or it is impossible
   };
-
-  /// Returns the runs whose reference exists, in the order of execution.
-  std::vector<Run> all_runs() const {
-    std::vector<Run> runs;
-    const std::uint64_t first = results_.config.first_seed;
-    for (std::uint64_t seed = first; seed < first + results_.config.seeds; ++seed) {
-      for (const PlannedCell& cell : results_.plan.cells) {
-        const bool has_seed =
-            seed < first + results_.config.seeds_of(results_.config.methods[cell.method]);
-        if (has_seed && has_reference(cell.scene)) runs.push_back({&cell, seed, {}});
-      }
-    }
-    return runs;
-  }
-
-  bool has_reference(std::size_t scene) const {
-    return scene < results_.references.size() && results_.references[scene];
-  }
 
   void tell(const std::string& message) const {
     if (control_.on_message) control_.on_message(message);
@@ -114,54 +104,73 @@ class Runner {
   void warn(const std::string& message) const {
     if (control_.on_warning) control_.on_warning(message);
   }
-
-  /// Returns false if the work was stopped.
-  bool find_references() {
-    for (std::size_t s = 0; s < results_.config.scenes.size(); ++s) {
-      const std::string& scene = results_.config.scenes[s].name;
-      try {
-        std::optional<Reference> reference = find_reference(scene, results_.plan.references[s]);
-        if (!reference) return false;
-        results_.references.push_back(std::move(reference));
-      } catch (const Error& error) {
-        warn(fmt::format("{}: the reference failed, so the scene has no runs: {}", scene,
-                         error.what()));
-        results_.failed.push_back(scene + ", reference");
-        results_.references.emplace_back();
-      }
-    }
-    return true;
+  bool is_asked_to_stop() const {
+    return control_.render.stop != nullptr && control_.render.stop->load();
   }
 
-  /// Returns empty if the work was stopped.
-  std::optional<Reference> find_reference(const std::string& scene,
-                                          const PlannedReference& planned) const {
-    const fs::path cache =
-        results_.config.cache.empty() ? default_reference_cache() : results_.config.cache;
+  /// Gives other processes time. Notes whether the work shall stop.
+  void wait() {
+    for (int i = 0; i < 10 && !is_asked_to_stop(); ++i) std::this_thread::sleep_for(kPause / 10);
+    results_.stopped |= is_asked_to_stop();
+  }
+
+  void find_references() {
+    std::vector<bool> is_settled(results_.config.scenes.size());
+    for (bool waits = true; waits && !results_.stopped;) {
+      waits = false;
+      for (std::size_t s = 0; s < is_settled.size() && !results_.stopped; ++s) {
+        if (!is_settled[s]) is_settled[s] = find_reference(s);
+        waits |= !is_settled[s];
+      }
+      if (waits && !results_.stopped) wait();
+    }
+  }
+
+  /// Returns false if other processes make the reference, or if the work was stopped.
+  bool find_reference(std::size_t s) {
+    const std::string& scene = results_.config.scenes[s].name;
+    try {
+      ReferenceSearch search = search_reference(scene, results_.plan.references[s]);
+      results_.stopped |= search.is_stopped;
+      results_.references[s] = std::move(search.reference);
+      return results_.references[s].has_value();
+    } catch (const Error& error) {
+      warn(fmt::format("{}: the reference failed, so the scene has no runs: {}", scene,
+                       error.what()));
+      results_.failed.push_back(scene + ", reference");
+      return true;
+    }
+  }
+
+  ReferenceSearch search_reference(const std::string& scene,
+                                   const PlannedReference& planned) const {
     const PartControl control{
         .make = [this](const PartOrder& order) { return render_part(order); },
         .report =
             [&](std::uint32_t part, std::uint32_t parts) {
               tell(fmt::format("{}: reference, part {} of {}", scene, part + 1, parts));
             },
-        .warn = [this](const std::string& message) { warn(message); },
-        .stop = control_.render.stop};
-    std::optional<Reference> reference = find_or_render(planned, cache, registry_, control);
-    if (reference && planned.parts > 0 && reference->build != planned.build) {
+        .warn = [this](const std::string& message) { warn(message); }};
+    ReferenceSearch search =
+        find_or_render(planned, results_.config.reference_cache(), registry_, control);
+    if (search.reference && planned.parts > 0 && search.reference->build != planned.build) {
       tell(
           fmt::format("{}: the reference was rendered by another build of Pharos; remove '{}' to "
                       "have it made anew",
-                      scene, reference->file.string()));
+                      scene, search.reference->file.string()));
     }
-    return reference;
+    return search;
   }
 
   /// Makes a part of a reference. Returns false if it was stopped.
   bool render_part(const PartOrder& order) const {
+    std::optional<FileLock> machine;
+    if (is_timed_ && !(machine = lock_machine())) return false;
     if (control_.run_program.empty()) return make_part(order, registry_, control_.render);
     ChildLimits limits = results_.config.limits();
     limits.seconds.reset();  // the limit on the time is meant for runs
-    const ChildEnd end = carry_out_in_child(order, results_.folder() / "reference.order", limits);
+    const std::string name = order.file.stem().string() + ".order";
+    const ChildEnd end = carry_out_in_child(order, results_.folder() / name, limits);
     if (!end.problem.empty()) throw RunError(end.problem);
     return !end.is_stopped;
   }
@@ -178,97 +187,110 @@ class Runner {
     return end;
   }
 
-  const std::string& scene_of(const Run& run) const {
-    return results_.config.scenes[run.cell->scene].name;
-  }
-  const std::string& method_of(const Run& run) const {
-    return results_.config.methods[run.cell->method].name;
-  }
-  fs::path file_of(const Run& run, const std::string& extension) const {
-    return results_.run_file(scene_of(run), method_of(run), run.seed, extension);
-  }
-  bool keeps_image(const Run& run) const {
-    return run.seed == results_.config.first_seed || results_.config.images == KeptImages::all;
+  /// Makes the runs that are missing and that no other process makes, and waits for the others.
+  void make_runs() {
+    for (Run& run : runs_) {
+      run.is_settled = !results_.references[run.planned.cell->scene].has_value();
+    }
+    RunCounter counter(runs_.size(), control_);
+    for (Run& run : runs_) load(run, counter);
+    for (bool waits = true; waits && !results_.stopped;) {
+      waits = false;
+      for (Run& run : runs_) {
+        if (!run.is_settled && !results_.stopped) make(run, counter);
+        waits |= !run.is_settled;
+      }
+      if (waits && !results_.stopped) wait();
+    }
   }
 
-  /// Returns the key of a run. The result of a run with a time budget also depends on the machine.
-  std::string key_of(const Run& run) const {
-    std::string key =
-        fmt::format("{} {} {}", run.cell->key, results_.references[run.cell->scene]->key, run.seed);
-    const ExperimentScene& scene = results_.config.scenes[run.cell->scene];
-    if (results_.config.budget_of(scene).seconds) {
-      key += fmt::format(" {} {}", thread_count(), processor_name());
-    }
-    return content_key(key);
+  /// Takes over what an earlier or another process has made.
+  void load(Run& run, RunCounter& counter) {
+    if (run.is_settled) return;
+    run.record = files_.load(run.planned);
+    if (run.record) counter.skip();
+    run.is_settled = run.record.has_value();
   }
 
-  /// Returns the record of an earlier run with the same key, if its files are as the run left them.
-  /// A damaged record is moved aside.
-  std::optional<RunRecord> load(const Run& run) const {
-    const fs::path file = file_of(run, ".json");
-    std::optional<RunRecord> record;
-    try {
-      record = load_record(file);
-    } catch (const InputError& error) {
-      warn(fmt::format("{}: {}", error.what(), moved_aside(file)));
-      return std::nullopt;
+  /// Makes a run, or learns how it has ended in another process. It stays unsettled as long as
+  /// another process makes it, and if the work was stopped.
+  void make(Run& run, RunCounter& counter) {
+    const std::string name = run.planned.claim_name();
+    load(run, counter);
+    if (run.is_settled || place_.board().holder(name)) return;
+    std::optional<FileLock> machine;
+    if (is_timed_ && !(machine = lock_machine())) {
+      results_.stopped = true;
+      return;
     }
-    if (!record || record->key != key_of(run)) return std::nullopt;
-    if (keeps_image(run) && !record->files.contains(".exr")) return std::nullopt;
-    for (const auto& [extension, key] : record->files) {
-      const fs::path kept = file_of(run, extension);
-      if (access_problem(kept).empty() && content_key_of_file(kept) == key) continue;
-      warn(fmt::format("{}: missing or changed, so the run is made again", kept.string()));
-      return std::nullopt;
+    if (const std::optional<Claim> claim = place_.board().try_claim(name)) {
+      make_claimed(run, counter);
     }
-    return record;
+  }
+
+  void make_claimed(Run& run, RunCounter& counter) {
+    run.record = files_.take_over(run.planned);
+    if (run.record) {
+      counter.skip();
+    } else if (!files_.failure(run.planned)) {
+      run.record = render(run.planned);
+      if (run.record) counter.finish(*run.record);
+    }
+    const bool has_failed = !run.record && files_.failure(run.planned);
+    if (has_failed) results_.failed.push_back(run.planned.name());
+    run.is_settled = run.record || has_failed;
+    results_.stopped |= !run.is_settled;
+  }
+
+  /// Keeps other processes from making runs on this machine meanwhile. Returns none if the work was
+  /// stopped before.
+  std::optional<FileLock> lock_machine() const {
+    return FileLock::wait(machine_lock(), control_.render.stop);
   }
 
   /// Returns the order for a run.
-  RunOrder order_of(const Run& run) const {
-    return {.key = key_of(run),
-            .scene = scene_of(run),
-            .method = method_of(run),
+  RunOrder order_of(const PlannedRun& run) const {
+    return {.key = run.key,
+            .scene = run.scene,
+            .method = run.method,
             .seed = run.seed,
             .config = run.cell->text,
             .build = run.cell->build,
             .exposure = run.cell->exposure,
             .reference = fs::absolute(results_.references[run.cell->scene]->file),
-            .stem = fs::absolute(file_of(run, "")),
-            .keeps_image = keeps_image(run),
+            .stem = fs::absolute(files_.file(run, "")),
+            .keeps_image = run.keeps_image,
             .keeps_pictures = run.seed == results_.config.first_seed};
   }
 
   /// Makes a run, in a process of its own if there is a program for it. Returns empty if the run
   /// was stopped or has failed.
-  std::optional<RunRecord> render(const Run& run) {
-    remove_run(file_of(run, ""));
+  std::optional<RunRecord> render(const PlannedRun& run) {
+    files_.clear(run);
     const RunOrder order = order_of(run);
     if (control_.run_program.empty()) return make_run(order, registry_, control_.render);
     const ChildEnd end =
-        carry_out_in_child(order, file_of(run, ".order"), results_.config.limits());
+        carry_out_in_child(order, files_.file(run, ".order"), results_.config.limits());
     // A run that had left its record before it was stopped counts.
-    std::optional<RunRecord> record = end.problem.empty() ? load(run) : std::nullopt;
+    std::optional<RunRecord> record = end.problem.empty() ? files_.load(run) : std::nullopt;
     if (!record && !end.is_stopped) {
-      const std::string name = fmt::format("{}, {}, seed {}", order.scene, order.method, run.seed);
-      warn(fmt::format("{}: failed: {}", name,
-                       end.problem.empty() ? "it left no record" : end.problem));
-      results_.failed.push_back(name);
+      const std::string reason = end.problem.empty() ? "it left no record" : end.problem;
+      warn(fmt::format("{}: failed: {}", run.name(), reason));
+      files_.save_failure(run, reason);
     }
     return record;
   }
 
   const Registry& registry_;
   const ExperimentControl& control_;
+  Workplace place_;
+  RunFiles files_;
   ExperimentResults results_;
+  std::vector<Run> runs_;
+  bool is_timed_ = false;  ///< the time of some runs counts, so none shares a machine
 };
 
 }  // namespace
-
-fs::path ExperimentResults::run_file(const std::string& scene, const std::string& method,
-                                     std::uint64_t seed, const std::string& extension) const {
-  return folder() / "runs" / scene / method / fmt::format("seed-{}{}", seed, extension);
-}
 
 const RunRecord* ExperimentResults::find(const std::string& scene, const std::string& method,
                                          std::uint64_t seed) const {
@@ -278,9 +300,25 @@ const RunRecord* ExperimentResults::find(const std::string& scene, const std::st
   return nullptr;
 }
 
+ExperimentResults collect_results(const ExperimentConfig& config, ExperimentPlan plan,
+                                  const std::function<void(const std::string&)>& on_warning) {
+  ExperimentResults results{
+      .config = config, .plan = std::move(plan), .references = {}, .failed = {}};
+  for (const PlannedReference& planned : results.plan.references) {
+    results.references.push_back(known_reference(planned, config.reference_cache(), on_warning));
+  }
+  const RunFiles files(config.output, on_warning);
+  for (const PlannedRun& run : planned_runs(results.config, results.plan)) {
+    ++results.run_count;
+    if (!results.references[run.cell->scene]) continue;
+    if (auto record = files.load(run)) results.records.push_back(std::move(*record));
+    if (files.failure(run)) results.failed.push_back(run.name());
+  }
+  return results;
+}
+
 ExperimentResults run_experiment(const ExperimentConfig& config, ExperimentPlan plan,
                                  const Registry& registry, const ExperimentControl& control) {
-  const FileLock lock = claim_folder(config.output, config.source);
   return Runner(config, std::move(plan), registry, control).run();
 }
 

@@ -24,6 +24,10 @@
 /// run would give the same result, so an experiment that was stopped can be resumed. A run whose
 /// record or images were damaged or changed is made again. A run that fails ends nothing but
 /// itself.
+///
+/// Several processes, also on other machines, may run the same experiment in the same folder at the
+/// same time. Each makes runs that no other process makes (see ClaimBoard), and ends when there are
+/// no more. Runs with a time budget are made one at a time on a machine.
 namespace pharos {
 
 /// Callbacks that observe and stop an experiment.
@@ -41,8 +45,7 @@ struct ExperimentControl {
 struct ExperimentResults {
   ExperimentConfig config;
   ExperimentPlan plan;
-  /// One per scene, fewer if the experiment was stopped before. None for a scene whose reference
-  /// failed; it has no runs.
+  /// One per scene. None for a scene whose reference failed, or is not there yet; it has no runs.
   std::vector<std::optional<Reference>> references;
   std::vector<RunRecord> records;  ///< all known records, in the order of the runs
   std::size_t run_count = 0;       ///< number of runs of the whole experiment
@@ -50,17 +53,18 @@ struct ExperimentResults {
   std::vector<std::string> failed;  ///< runs and references that failed, by name
 
   std::filesystem::path folder() const { return config.output; }
-  /// Returns the path of a file of a run, such as "output/runs/cornell-box/sobol/seed-1" +
-  /// extension.
-  std::filesystem::path run_file(const std::string& scene, const std::string& method,
-                                 std::uint64_t seed, const std::string& extension) const;
   /// Returns the record of a run; null if there is none.
   const RunRecord* find(const std::string& scene, const std::string& method,
                         std::uint64_t seed) const;
 };
 
+/// Returns what is there of an experiment, and renders nothing. References and records of runs that
+/// were not made yet are missing.
+ExperimentResults collect_results(const ExperimentConfig& config, ExperimentPlan plan,
+                                  const std::function<void(const std::string&)>& on_warning);
+
 /// Renders the missing runs. Throws InputError if another experiment has used the output folder, or
-/// if another process is using it.
+/// if a process with other configs is using it.
 ExperimentResults run_experiment(const ExperimentConfig& config, ExperimentPlan plan,
                                  const Registry& registry, const ExperimentControl& control);
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <pharos/core/user_cache.h>
 #include <pharos/experiments/runner/entry_names.h>
 #include <pharos/experiments/runner/experiment_config.h>
 
@@ -145,6 +146,10 @@ ChildLimits ExperimentConfig::limits() const {
   ChildLimits limits{.seconds = time_limit, .bytes = {}};
   if (memory_limit) limits.bytes = *memory_limit * kGibibyte;
   return limits;
+}
+
+std::filesystem::path ExperimentConfig::reference_cache() const {
+  return cache.empty() ? user_cache_folder() / "references" : cache;
 }
 
 ExperimentConfig load_experiment(const std::filesystem::path& path,

@@ -81,6 +81,8 @@ struct ExperimentConfig {
 
   /// Returns the limits of the process that makes a run.
   ChildLimits limits() const;
+  /// Returns the folder of references.
+  std::filesystem::path reference_cache() const;
   /// Returns the budget of every run of a scene.
   const Budget& budget_of(const ExperimentScene& scene) const {
     return scene.budget ? *scene.budget : budget;

@@ -1,15 +1,41 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include <pharos/core/file_lock.h>
+#include <pharos/experiments/runner/claims.h>
 
 namespace pharos {
 
-/// Creates the folder of an experiment's results and reserves it for this process while the lock
-/// exists. Throws InputError if the folder holds the results of another file than `source`, or if
-/// another process is using it.
+/// Returns the folder of the claims on the runs of an experiment.
+std::filesystem::path claims_folder(const std::filesystem::path& output);
+
+/// The start of the names under which processes claim a place at the work. No run's claim begins
+/// like this, because every scene has a name.
+inline constexpr const char* kWorkerClaims = "@";
+
+/// The place of this process among those that work on one experiment in one folder.
+class Workplace {
+ public:
+  /// Creates the folder. `plan` is a plan_key(). Throws InputError if the folder holds the results
+  /// of another file than `source`, or if processes with another plan are at work there.
+  Workplace(const std::filesystem::path& folder, const std::filesystem::path& source,
+            const std::string& plan);
+
+  ClaimBoard& board() { return board_; }
+  /// Whether this process was the first one at work.
+  bool is_first() const { return is_first_; }
+
+ private:
+  ClaimBoard board_;
+  std::optional<Claim> own_;
+  bool is_first_ = true;
+};
+
+/// Reserves a folder for this process alone. It creates the folder. Throws InputError if the folder
+/// holds the results of another file than `source`, or if another process has reserved it.
 FileLock claim_folder(const std::filesystem::path& folder, const std::filesystem::path& source);
 
 /// Removes the files of a run, which are `stem` with any extension, so that no file of an earlier

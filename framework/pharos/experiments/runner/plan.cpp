@@ -73,12 +73,17 @@ PlannedReference plan_reference(const ReferenceSettings& settings, const ConfigN
   // A reference file must have the size of the scene's images. Any budget is enough to determine
   // this size.
   reference.config.set("budget", budget_node({.spp = std::max(settings.spp / settings.parts, 1u)}));
-  LoadedConfig loaded = build_run(reference.config, 0, registry);
+  LoadedConfig loaded = build_run(reference.config, kReferenceSeed, registry);
+  if (reference.parts > 0) {
+    reference.key = content_key(content_key(loaded) + fmt::format(" in {}", reference.parts));
+  }
   loaded.resolved.take("output");
   reference.build = build_key(loaded.resolved, registry);
   const PixelRect window = loaded.config.film.window();
   reference.width = window.width(), reference.height = window.height();
-  if (!settings.image.empty()) read_reference(settings.image, reference.width, reference.height);
+  if (!settings.image.empty()) {
+    reference.key = pixels_key(read_reference(settings.image, reference.width, reference.height));
+  }
   return reference;
 }
 

@@ -19,6 +19,9 @@ struct PlannedCell {
   std::string key;                    ///< key of the config's content and of `build`
 };
 
+/// The first seed of references, far from the seeds of runs.
+inline constexpr std::uint64_t kReferenceSeed = std::uint64_t{1} << 40;
+
 /// The reference of a scene: a file or a render.
 struct PlannedReference {
   std::filesystem::path file;  ///< empty if the reference is to be rendered
@@ -26,6 +29,7 @@ struct PlannedReference {
   std::string build;           ///< build_key() of the code that renders it
   std::uint32_t parts = 0;     ///< number of parts of a render; 0: the reference is a file
   int width = 0, height = 0;   ///< size of the scene's images [pixels]
+  std::string key;             ///< key of the image, or of everything that determines its render
 };
 
 /// Everything that an experiment renders.

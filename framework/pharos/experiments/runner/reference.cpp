@@ -4,22 +4,23 @@
 #include <fmt/format.h>
 
 #include <pharos/core/error.h>
-#include <pharos/core/file_lock.h>
-#include <pharos/core/user_cache.h>
 #include <pharos/core/version.h>
 #include <pharos/experiments/metrics/metrics.h>
 #include <pharos/experiments/runner/build_key.h>
+#include <pharos/experiments/runner/claims.h>
 #include <pharos/experiments/runner/content_key.h>
 #include <pharos/experiments/runner/output_folder.h>
 #include <pharos/experiments/runner/reference.h>
 
 namespace pharos {
-namespace {
 
 namespace fs = std::filesystem;
 
-/// The first seed of references, far from the seeds of runs.
-constexpr std::uint64_t kReferenceSeed = std::uint64_t{1} << 40;
+std::string part_claim(const PlannedReference& planned, std::uint32_t part) {
+  return fmt::format("{}-{}.part-{}", planned.key, planned.build, part);
+}
+
+namespace {
 
 /// The mean of images of one size.
 class MeanImage {
@@ -64,25 +65,19 @@ constexpr const char* kPixelsEntry = "pharos:pixels";
 /// The name under which it holds the key of the code that rendered it, see build_key().
 constexpr const char* kBuildEntry = "pharos:build";
 
-std::string pixels_key(const Image& image) {
-  const std::vector<float>& values = image.values();
-  return content_key({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float)});
-}
-
 /// The references of one cache folder, by key. The parts of unfinished references are stored next
 /// to them.
 class Cache {
  public:
-  Cache(fs::path folder, std::string key, const PlannedReference& planned,
-        const PartControl& control)
-      : folder_(std::move(folder)), key_(std::move(key)), planned_(planned), control_(control) {}
+  Cache(fs::path folder, const PlannedReference& planned, const Warn& warn)
+      : folder_(std::move(folder)), planned_(planned), warn_(warn) {}
 
   std::optional<Reference> find() const {
     const fs::path file = path();
     std::optional<Image> image = sound_image(file);
     if (!image) return std::nullopt;
     const Metadata metadata = read_metadata(file);
-    Reference reference{.image = std::move(*image), .key = key_, .file = file};
+    Reference reference{.image = std::move(*image), .key = planned_.key, .file = file};
     reference.samples_per_pixel = number_at(metadata, "pharos:samples_per_pixel").value_or(0);
     reference.seconds = number_at(metadata, "pharos:seconds").value_or(0);
     reference.mse = number_at(metadata, "pharos:own_mse");
@@ -92,22 +87,20 @@ class Cache {
     return reference;
   }
 
-  /// Whether there is a sound part that the same code has rendered.
-  bool has_part(std::uint32_t part) const {
-    return sound_image(part_path(part)) &&
-           text_at(read_metadata(part_path(part)), kBuildEntry) == planned_.build;
-  }
+  bool has_part(std::uint32_t part) const { return fs::exists(part_path(part)); }
 
-  /// Averages all parts to the finished reference and removes the parts.
-  void finish(const std::string& config) const {
+  /// Averages all parts to the finished reference and removes the parts. Returns false if a part
+  /// was missing or damaged. The latter is moved aside.
+  bool finish(const std::string& config) const {
     MeanImage whole;
     std::array<MeanImage, 2> halves;
     double samples = 0, seconds = 0;
     for (std::uint32_t part = 0; part < planned_.parts; ++part) {
-      const Image image = read_reference(part_path(part), planned_.width, planned_.height);
+      const std::optional<Image> image = sound_image(part_path(part));
+      if (!image) return false;
       const Metadata metadata = read_metadata(part_path(part));
-      whole.add(image);
-      halves[part % 2].add(image);
+      whole.add(*image);
+      halves[part % 2].add(*image);
       samples += number_at(metadata, "pharos:samples_per_pixel").value_or(0);
       seconds += number_at(metadata, "pharos:seconds").value_or(0);
     }
@@ -127,17 +120,17 @@ class Cache {
                {"pharos:own_mse", fmt::format("{}", difference[Metric::mse] / 4)},
                {"pharos:own_relmse", fmt::format("{}", difference[Metric::relative_mse] / 4)}});
     remove_parts();
+    return true;
   }
 
   void remove_parts() const {
     for (std::uint32_t part = 0; part < planned_.parts; ++part) fs::remove(part_path(part));
   }
 
+  /// The parts of different builds are different files.
   fs::path part_path(std::uint32_t part) const {
-    return folder_ / fmt::format("{}.part-{}.exr", key_, part);
+    return folder_ / (part_claim(planned_, part) + ".exr");
   }
-  /// Returns the file that the process which renders this reference holds locked.
-  fs::path lock_path() const { return folder_ / (key_ + ".lock"); }
 
  private:
   /// Returns the image in a file; none if there is no file or it is damaged. A damaged file is
@@ -153,23 +146,22 @@ class Cache {
     } catch (const InputError& error) {
       problem = error.what();
     }
-    control_.warn(fmt::format("{}: {}; {}, and is rendered again", file.string(), problem,
-                              moved_aside(file)));
+    warn_(fmt::format("{}: {}; {}, and is rendered again", file.string(), problem,
+                      moved_aside(file)));
     return std::nullopt;
   }
 
-  fs::path path() const { return folder_ / (key_ + ".exr"); }
+  fs::path path() const { return folder_ / (planned_.key + ".exr"); }
 
   fs::path folder_;
-  std::string key_;
   const PlannedReference& planned_;
-  const PartControl& control_;
+  const Warn& warn_;
 };
 
 }  // namespace
 
-fs::path default_reference_cache() {
-  return user_cache_folder() / "references";
+fs::path reference_claims(const fs::path& cache) {
+  return cache / "claims";
 }
 
 bool make_part(const PartOrder& order, const Registry& registry, const RenderControl& control) {
@@ -187,38 +179,72 @@ bool make_part(const PartOrder& order, const Registry& registry, const RenderCon
   return true;
 }
 
-std::optional<Reference> find_or_render(const PlannedReference& planned,
-                                        const fs::path& cache_folder, const Registry& registry,
-                                        const PartControl& control) {
-  if (planned.parts == 0) {
-    Reference given{.image = read_reference(planned.file, planned.width, planned.height),
-                    .file = planned.file};
-    given.key = pixels_key(given.image);
-    return given;
-  }
-  const LoadedConfig whole = build_run(planned.config, kReferenceSeed, registry);
-  const Cache cache(cache_folder,
-                    content_key(content_key(whole) + fmt::format(" in {}", planned.parts)), planned,
-                    control);
-  fs::create_directories(cache_folder);
-  // Another process may be rendering the same reference. In this case, its result is used.
-  const auto lock = FileLock::wait(cache.lock_path(), control.stop);
-  if (!lock) return std::nullopt;
-  if (std::optional<Reference> known = cache.find()) {
-    cache.remove_parts();  // parts of a process that ended before it could remove them
-    return known;
-  }
-  for (std::uint32_t part = 0; part < planned.parts; ++part) {
-    if (cache.has_part(part)) continue;
-    control.report(part, planned.parts);
-    ConfigNode config = whole.resolved;
+std::optional<Reference> known_reference(const PlannedReference& planned, const fs::path& cache,
+                                         const Warn& warn) {
+  if (planned.parts > 0) return Cache(cache, planned, warn).find();
+  return Reference{.image = read_reference(planned.file, planned.width, planned.height),
+                   .key = planned.key,
+                   .file = planned.file};
+}
+
+namespace {
+
+/// Makes the parts of a reference that are missing and that no other process makes.
+class PartMaker {
+ public:
+  PartMaker(const Cache& cache, ClaimBoard& board, const PlannedReference& planned,
+            const PartControl& control)
+      : cache_(cache), board_(board), planned_(planned), control_(control) {}
+
+  /// Returns true if it has made a part, or if there is no need to. Returns false if it was
+  /// stopped.
+  bool make(std::uint32_t part, const ConfigNode& whole) const {
+    if (cache_.has_part(part)) return true;
+    const std::optional<Claim> claim = board_.try_claim(part_claim(planned_, part));
+    // Another process may have finished the part, or even the reference, since the last look.
+    if (!claim || cache_.has_part(part) || cache_.find()) return true;
+    control_.report(part, planned_.parts);
+    ConfigNode config = whole;
     config.take("output");
     config.set("seed", ConfigNode::scalar(std::to_string(kReferenceSeed + part)));
-    const PartOrder order{to_yaml(config), planned.build, fs::absolute(cache.part_path(part))};
-    if (!control.make(order)) return std::nullopt;
+    return control_.make({to_yaml(config), planned_.build, fs::absolute(cache_.part_path(part))});
   }
-  cache.finish(to_yaml(whole.resolved));
-  return cache.find();
+
+  bool has_all() const {
+    for (std::uint32_t part = 0; part < planned_.parts; ++part) {
+      if (!cache_.has_part(part)) return false;
+    }
+    return true;
+  }
+
+ private:
+  const Cache& cache_;
+  ClaimBoard& board_;
+  const PlannedReference& planned_;
+  const PartControl& control_;
+};
+
+}  // namespace
+
+ReferenceSearch find_or_render(const PlannedReference& planned, const fs::path& cache_folder,
+                               const Registry& registry, const PartControl& control) {
+  if (planned.parts == 0) return {known_reference(planned, cache_folder, control.warn)};
+  const Cache cache(cache_folder, planned, control.warn);
+  if (std::optional<Reference> known = cache.find()) {
+    cache.remove_parts();  // parts of a process that ended before it could remove them
+    return {std::move(known)};
+  }
+  ClaimBoard board(reference_claims(cache_folder));
+  const PartMaker maker(cache, board, planned, control);
+  const ConfigNode whole = build_run(planned.config, kReferenceSeed, registry).resolved;
+  for (std::uint32_t part = 0; part < planned.parts; ++part) {
+    if (!maker.make(part, whole)) return {.reference = {}, .is_stopped = true};
+  }
+  if (!maker.has_all()) return {cache.find()};
+  if (const std::optional<Claim> claim = board.try_claim(planned.key + "-whole")) {
+    cache.finish(to_yaml(whole));
+  }
+  return {cache.find()};
 }
 
 }  // namespace pharos

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <atomic>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -27,8 +26,12 @@ struct Reference {
   std::optional<double> mse, relative_mse;
 };
 
-/// Returns the folder "references" in user_cache_folder().
-std::filesystem::path default_reference_cache();
+/// Returns the folder where processes claim the parts of references, and the name of a claim.
+std::filesystem::path reference_claims(const std::filesystem::path& cache);
+std::string part_claim(const PlannedReference& planned, std::uint32_t part);
+
+/// Receives messages on files that were damaged.
+using Warn = std::function<void(const std::string&)>;
 
 /// Everything that one part of a reference needs. A process of its own can render it.
 struct PartOrder {
@@ -47,18 +50,26 @@ struct PartControl {
   std::function<bool(const PartOrder&)> make;
   /// Called before each part is made.
   std::function<void(std::uint32_t part, std::uint32_t parts)> report;
-  /// Receives messages on files that were damaged.
-  std::function<void(const std::string&)> warn;
-  /// Ends the wait for another process that makes the same reference. May be null.
-  const std::atomic<bool>* stop = nullptr;
+  Warn warn;
 };
 
+struct ReferenceSearch {
+  std::optional<Reference> reference;
+  /// Whether PartControl::make() was stopped. If there is no reference nevertheless, other
+  /// processes make what is missing.
+  bool is_stopped = false;
+};
+
+/// Returns the reference of a plan from its file or from `cache`; none if it must be rendered
+/// first. Damaged files of the cache are moved aside.
+std::optional<Reference> known_reference(const PlannedReference& planned,
+                                         const std::filesystem::path& cache, const Warn& warn);
+
 /// Returns the reference of a plan. It is read from its file or from `cache`, or those parts are
-/// made that are missing. If the work is stopped, finished parts stay in the cache and the result
-/// is empty. Damaged files of the cache are moved aside and made again. Throws what
+/// made that are missing and that no other process makes. If the work is stopped, finished parts
+/// stay in the cache. Damaged files of the cache are moved aside and made again. Throws what
 /// PartControl::make() throws.
-std::optional<Reference> find_or_render(const PlannedReference& planned,
-                                        const std::filesystem::path& cache,
-                                        const Registry& registry, const PartControl& control);
+ReferenceSearch find_or_render(const PlannedReference& planned, const std::filesystem::path& cache,
+                               const Registry& registry, const PartControl& control);
 
 }  // namespace pharos

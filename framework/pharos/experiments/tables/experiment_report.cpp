@@ -8,6 +8,7 @@
 #include <pharos/experiments/metrics/summary.h>
 #include <pharos/experiments/runner/machine.h>
 #include <pharos/experiments/runner/results_files.h>
+#include <pharos/experiments/runner/runs.h>
 
 namespace pharos {
 namespace {
@@ -106,7 +107,8 @@ ReportScene scene_of(const ExperimentResults& results, std::size_t index) {
   ReportScene scene{.name = name, .note = reference_note(reference), .images = {}, .pictures = {}};
   for (const ExperimentMethod& method : results.config.methods) {
     if (results.find(name, method.name, results.config.first_seed) == nullptr) continue;
-    const fs::path run = results.run_file(name, method.name, results.config.first_seed, "");
+    const fs::path run =
+        run_file(results.folder(), name, method.name, results.config.first_seed, "");
     const fs::path file = run.string() + ".exr";
     scene.images.push_back(method_image(file, method.name, reference.image));
     for (ReportPicture& picture : pictures_of(run, method.name)) {

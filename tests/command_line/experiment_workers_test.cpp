@@ -1,0 +1,173 @@
+// Several processes that run one experiment in one folder.
+
+#include <algorithm>
+#include <filesystem>
+#include <future>
+#include <map>
+#include <sstream>
+#include <thread>
+#include <vector>
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <pharos/core/random.h>
+
+#include "small_experiment.h"
+
+namespace pharos::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Returns the rendered runs by their words, with how often each was rendered.
+std::map<std::string, int> runs_in(const std::vector<Outcome>& outcomes) {
+  std::map<std::string, int> runs;
+  for (const Outcome& outcome : outcomes) {
+    std::istringstream in(outcome.err);
+    for (std::string line; std::getline(in, line);) {
+      const std::size_t begin = line.find("] "), end = line.find(": relMSE");
+      if (begin != line.npos && end != line.npos) ++runs[line.substr(begin, end - begin)];
+    }
+  }
+  return runs;
+}
+
+/// Returns how many processes in `folder` have an argument that ends with `end`.
+std::size_t processes_with(const std::string& end, const fs::path& folder) {
+  std::size_t count = 0;
+  for (const auto& entry : fs::directory_iterator("/proc")) {
+    std::error_code error;
+    if (fs::read_symlink(entry.path() / "cwd", error) != folder || error) continue;
+    count += test::bytes_of(entry.path() / "cmdline").find(end + '\0') != std::string::npos;
+  }
+  return count;
+}
+
+TEST_CASE("three processes share the runs and references of an experiment") {
+  const std::string table = undisturbed_table(20);
+  const ScratchFolder folder;
+  write_experiment(folder, "spp: 16", 20);
+  std::vector<std::future<Outcome>> workers;
+  for (int i = 0; i < 3; ++i) {
+    workers.push_back(std::async(
+        std::launch::async, [&] { return run_pharos("experiment test.yaml", folder.path()); }));
+  }
+  std::vector<Outcome> outcomes;
+  for (auto& worker : workers) outcomes.push_back(worker.get());
+  std::size_t parts = 0;
+  for (const Outcome& outcome : outcomes) {
+    CHECK_MESSAGE(outcome.exit_code == 0, outcome.err);
+    CHECK(rendered_runs(outcome) > 0);
+    parts += rendered_parts(outcome);
+  }
+  CHECK(parts == 8);
+  const std::map<std::string, int> runs = runs_in(outcomes);
+  CHECK(runs.size() == 80);
+  for (const auto& [run, count] : runs) CHECK_MESSAGE(count == 1, run);
+  CHECK(table_of(folder.path()) == table);
+  CHECK(fs::is_empty(folder.path() / "test/claims"));
+  CHECK(fs::is_empty(folder.path() / "cache/claims"));
+}
+
+TEST_CASE("what killed processes have begun is done by the one that lives") {
+  const std::string table = undisturbed_table(20);
+  const ScratchFolder folder;
+  write_experiment(folder, "spp: 16", 20);
+  auto survivor = std::async(std::launch::async,
+                             [&] { return run_pharos("experiment test.yaml", folder.path()); });
+  const auto is_at_work = [&] {
+    return survivor.wait_for(std::chrono::seconds(0)) != std::future_status::ready;
+  };
+  RandomStream random(3);
+  int kills = 0;
+  for (; kills < 10 && is_at_work(); ++kills) {
+    const double seconds = 0.1 + 0.3 * static_cast<double>(random() >> 11) * 0x1p-53;
+    interrupt_pharos("experiment test.yaml -q", folder.path(), seconds, "KILL");
+  }
+  CHECK(kills >= 3);
+  const Outcome outcome = survivor.get();
+  CHECK_MESSAGE(outcome.exit_code == 0, outcome.err);
+  CHECK(table_of(folder.path()) == table);
+}
+
+TEST_CASE("a run that has failed in one process is not tried by another") {
+  const ScratchFolder folder;
+  write_experiment(folder, "spp: 8", 4);
+  const std::string module = fmt::format("PHAROS_MODULE_PATH={}/aborts", PHAROS_WRONG_MODULES);
+  const std::string command =
+      "experiment test.yaml --set 'methods.0.settings={ integrator: { type: abort } }'";
+  std::vector<std::future<Outcome>> workers;
+  for (int i = 0; i < 2; ++i) {
+    workers.push_back(
+        std::async(std::launch::async, [&] { return run_pharos(command, folder.path(), module); }));
+  }
+  std::size_t failures = 0;
+  for (auto& worker : workers) {
+    const Outcome outcome = worker.get();
+    CHECK(outcome.exit_code == 3);
+    CHECK(outcome.err.find("8 failed: ") != std::string::npos);
+    for (std::size_t at = 0; (at = outcome.err.find(": failed: ", at)) != std::string::npos; ++at) {
+      ++failures;
+    }
+  }
+  CHECK(failures == 8);
+  const Outcome status = run_pharos(command + " --status", folder.path(), module);
+  CHECK(status.out.find("8 of 16 runs done, 0 running, 8 failed, 0 to do; 0 processes at work") !=
+        std::string::npos);
+  CHECK(status.out.find("failed   deep, independent, seed 1: ended by signal 6") !=
+        std::string::npos);
+}
+
+TEST_CASE("runs with a time budget take turns on a machine") {
+  const ScratchFolder folder;
+  write_experiment(folder, "seconds: 0.3", 2);
+  std::vector<std::future<Outcome>> workers;
+  for (int i = 0; i < 3; ++i) {
+    workers.push_back(std::async(
+        std::launch::async, [&] { return run_pharos("experiment test.yaml", folder.path()); }));
+  }
+  std::vector<Outcome> outcomes;
+  // A process that makes a run or a part of a reference has its order as an argument.
+  std::size_t most = 0, looks = 0;
+  const auto is_at_work = [](std::future<Outcome>& worker) {
+    return worker.wait_for(std::chrono::milliseconds(5)) != std::future_status::ready;
+  };
+  while (std::any_of(workers.begin(), workers.end(), is_at_work)) {
+    const std::size_t orders = processes_with(".order", fs::canonical(folder.path()));
+    most = std::max(most, orders);
+    looks += orders > 0 ? 1 : 0;
+  }
+  for (auto& worker : workers) outcomes.push_back(worker.get());
+  CHECK(runs_in(outcomes).size() == 8);
+  CHECK(looks > 10);
+  CHECK(most == 1);
+}
+
+TEST_CASE("--status tells what is done and running, --report shows what is there") {
+  const ScratchFolder folder;
+  write_experiment(folder, "spp: 16", 10000);
+  CHECK(
+      run_pharos("experiment test.yaml --status", folder.path())
+          .out.starts_with("0 of 40000 runs done, 0 running, 0 failed, 40000 to do; 0 processes"));
+  CHECK_FALSE(folder.has("test"));
+  CHECK(run_pharos("experiment test.yaml --report", folder.path()).exit_code == 2);
+  auto busy = std::async(std::launch::async, [&] {
+    return interrupt_pharos_once("done", "experiment test.yaml -q", folder.path(), "INT");
+  });
+  CHECK(appears(folder.path() / "test/runs/deep/independent/seed-2.json"));
+  const Outcome status = run_pharos("experiment test.yaml --status", folder.path());
+  const Outcome report = run_pharos("experiment test.yaml --report", folder.path());
+  CHECK_MESSAGE(report.exit_code == 0, report.err);
+  CHECK(folder.has("test/report.html"));
+  CHECK(test::bytes_of(folder.path() / "test/results.json").find("\"complete\": false") !=
+        std::string::npos);
+  folder.write("done", "");
+  CHECK(busy.get().exit_code == 130);
+  CHECK(status.exit_code == 0);
+  CHECK(status.out.find("; 1 process at work; about ") != std::string::npos);
+  CHECK(status.out.find("\nrunning  ") != std::string::npos);
+}
+
+}  // namespace
+}  // namespace pharos::testing
