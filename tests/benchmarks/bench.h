@@ -45,6 +45,8 @@ std::vector<Group> guiding_groups(const std::shared_ptr<const Registry>& registr
 /// Returns a group with the share of updates in the training of each learner, in renders with a
 /// budget of `seconds`.
 Group learning_group(const std::shared_ptr<const Registry>& registry, double seconds);
+/// Returns a group with the rates of learning on many machines, and simulated efficiencies.
+Group clusters_group(const std::shared_ptr<const Registry>& registry);
 /// Returns a group for the parts of vertex triplets and one for each scene. Renders of the scenes
 /// have a budget of `seconds`.
 std::vector<Group> triplets_groups(const std::shared_ptr<const Registry>& registry, double seconds);

@@ -14,6 +14,7 @@
 #include <pharos/core/error.h>
 
 #include "bench.h"
+#include "cluster_plots.h"
 #include "growth_plots.h"
 #include "results_file.h"
 
@@ -57,6 +58,7 @@ std::vector<Group> all_groups(const Options& options) {
       {"baselines", bench_baselines}, {"records", bench_records}};
   const auto registry = std::make_shared<const Registry>(load_default_modules());
   groups.push_back(learning_group(registry, options.learning_seconds));
+  groups.push_back(clusters_group(registry));
   for (const auto& more :
        {guiding_groups(registry), triplets_groups(registry, options.learning_seconds)}) {
     groups.insert(groups.end(), more.begin(), more.end());
@@ -79,7 +81,10 @@ int run(const Options& options) {
     fmt::print(stderr, "group {}: {:.0f} s\n", name, taken.count());
   }
   if (!options.json.empty()) write_results(options.json, all);
-  if (!options.plots.empty()) write_growth_plots(options.plots, all);
+  if (!options.plots.empty()) {
+    write_growth_plots(options.plots, all);
+    write_cluster_plots(options.plots, all);
+  }
   return 0;
 }
 
@@ -95,8 +100,10 @@ int main(int argc, char** argv) {
                  "results that --json has written")
       ->check(CLI::ExistingFile);
   app.add_option("--filter", options.filter, "Only groups whose name contains this");
-  app.add_option("--plots", options.plots,
-                 "Draw the figures named growth.PARAMETER.VALUE.FIGURE as SVG files in this folder")
+  app.add_option(
+         "--plots", options.plots,
+         "Draw how costs grow, and the simulated efficiency on many machines, as SVG files in "
+         "this folder")
       ->check(CLI::ExistingDirectory);
   app.add_option("--repeats", options.repeats, "How often to measure each figure")
       ->check(CLI::Range(1, 100));
