@@ -34,6 +34,8 @@ find_package(ZLIB REQUIRED)
 find_package(pugixml REQUIRED)
 # Optional, for the module open_pgl.
 find_package(openpgl 0.7 QUIET)
+# Optional, for renders on several machines. `./run --with-mpi` installs it.
+find_package(MPI QUIET COMPONENTS CXX)
 # Chart.js is written into every report page (framework/pharos/experiments/report).
 find_file(PHAROS_CHART_JS chart.min.js PATHS /usr/share/javascript/chart.js
           DOC "Chart.js 3 as one minified file")

@@ -3,6 +3,9 @@ include(CMakePackageConfigHelpers)
 install(TARGETS pharos pharos_options EXPORT pharos-targets
         LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(TARGETS pharos_images LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+if(TARGET pharos_mpi)
+  install(TARGETS pharos_mpi LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+endif()
 install(TARGETS pharos-program EXPORT pharos-targets RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY framework/pharos DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
         FILES_MATCHING PATTERN "*.h" PATTERN "tests" EXCLUDE PATTERN "app" EXCLUDE)

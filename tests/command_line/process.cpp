@@ -1,6 +1,7 @@
 #include "process.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <fstream>
 #include <iterator>
@@ -40,7 +41,11 @@ Outcome outcome_of(pid_t shell) {
 }
 
 Outcome run_shell(const std::string& command, const std::filesystem::path& folder) {
-  const auto out = folder / ".stdout", err = folder / ".stderr";
+  // Several threads may run programs in one folder.
+  static std::atomic<int> runs{0};
+  const int run = ++runs;
+  const auto out = folder / fmt::format(".stdout-{}", run);
+  const auto err = folder / fmt::format(".stderr-{}", run);
   const std::string line = fmt::format("cd '{}' && {} > '{}' 2> '{}'", folder.string(), command,
                                        out.string(), err.string());
   const pid_t shell = fork();
@@ -58,6 +63,19 @@ Outcome run_pharos(const std::string& arguments, const std::filesystem::path& fo
   return run_shell(fmt::format("{} timeout --kill-after=10 {} {} {}", environment, kTimeoutSeconds,
                                PHAROS_PROGRAM, arguments),
                    folder);
+}
+
+Outcome run_on_ranks(int ranks, const std::string& arguments, const std::filesystem::path& folder) {
+#ifdef PHAROS_MPIRUN
+  const char* const root = geteuid() == 0 ? "--allow-run-as-root" : "";
+  return run_shell(
+      fmt::format("timeout --kill-after=10 {} '{}' -n {} --oversubscribe --bind-to "
+                  "none {} '{}' {} --threads 1",
+                  kTimeoutSeconds, PHAROS_MPIRUN, ranks, root, PHAROS_PROGRAM, arguments),
+      folder);
+#else
+  throw std::logic_error("no mpirun");
+#endif
 }
 
 Outcome interrupt_pharos(const std::string& arguments, const std::filesystem::path& folder,

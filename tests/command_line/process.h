@@ -25,6 +25,9 @@ inline constexpr int kTimeoutSeconds = 300;
 /// "NAME=value".
 Outcome run_pharos(const std::string& arguments, const std::filesystem::path& folder,
                    const std::string& environment = "");
+/// Runs the program as above as `ranks` processes of mpirun, which have one thread each. Only
+/// builds with MPI can do this.
+Outcome run_on_ranks(int ranks, const std::string& arguments, const std::filesystem::path& folder);
 /// Runs the program as above and sends `signal` ("INT", "TERM") after `seconds`.
 Outcome interrupt_pharos(const std::string& arguments, const std::filesystem::path& folder,
                          double seconds, const char* signal);

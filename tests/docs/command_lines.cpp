@@ -65,6 +65,8 @@ std::optional<Call> call_of(const ShellCommand& command) {
     call.by_script = false;
     ++word;
   }
+  // A command on several ranks has the same arguments as alone.
+  if (call.by_script && *word == "--with-mpi" && end - word > 2) word += 2;
   if (word != end) call.name = *word++;
   if (call.name.ends_with(',')) call.name.pop_back();  // a list of commands
   call.arguments.assign(word, end);

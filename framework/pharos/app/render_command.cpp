@@ -8,7 +8,9 @@
 #include <pharos/core/error.h>
 #include <pharos/core/host_port.h>
 #include <pharos/core/log.h>
+#include <pharos/experiments/runner/content_key.h>
 #include <pharos/rendering/checkpoint.h>
+#include <pharos/rendering/rank_helper.h>
 #include <pharos/rendering/render_config.h>
 #include <pharos/rendering/render_job.h>
 #include <pharos/rendering/tev_packets.h>
@@ -19,9 +21,9 @@
 #include "earlier_render.h"
 #include "import_notes.h"
 #include "interrupt.h"
+#include "launched_ranks.h"
 #include "progress_bar.h"
 #include "render_outputs.h"
-#include "threads.h"
 
 namespace pharos {
 namespace {
@@ -85,12 +87,19 @@ void report(const RenderResult& result, const RenderConfig& config) {
   }
 }
 
+/// Returns a key of what a process renders.
+std::string render_key(const LoadedConfig& loaded, const Registry& registry) {
+  const SavedRender head = saved_render_head(loaded, registry);
+  return content_key(head.config + head.build);
+}
+
 /// One run of the command after its config was loaded.
 class Render {
  public:
-  Render(const LoadedConfig& loaded, const Registry& registry, const RenderOptions& options)
-      : loaded_(loaded), options_(options) {
-    find_checkpoint(registry);
+  Render(const LoadedConfig& loaded, const Registry& registry, const RenderOptions& options,
+         Ranks* ranks)
+      : loaded_(loaded), registry_(registry), options_(options), ranks_(ranks) {
+    find_checkpoint();
     job_.emplace(loaded.config);
   }
 
@@ -106,6 +115,8 @@ class Render {
                       [this](const std::string& message) { warn(message); });
       control.on_pass = [&preview](const RenderSnapshot& snapshot) { preview->show(snapshot); };
     }
+    control.ranks = ranks_;
+    if (ranks_ != nullptr) control.render_key = render_key(loaded_, registry_);
     control.checkpoint.is_due = [this] { return is_checkpoint_due(); };
     if (checkpoints_) {
       control.checkpoint.take = [this](std::string state, bool finished) {
@@ -129,10 +140,10 @@ class Render {
   }
 
  private:
-  void find_checkpoint(const Registry& registry) {
+  void find_checkpoint() {
     const OutputSettings& output = loaded_.config.output;
     if (output.checkpoint.empty() && !options_.resume && options_.continued.empty()) return;
-    const SavedRender head = saved_render_head(loaded_, registry);
+    const SavedRender head = saved_render_head(loaded_, registry_);
     check_named(output, options_.resume ? "--resume" : "--continue");
     // Locked before it is read: a render that still ends may write a newer one.
     checkpoints_.emplace(output.checkpoint, head, output.every,
@@ -174,7 +185,9 @@ class Render {
   }
 
   const LoadedConfig& loaded_;
+  const Registry& registry_;
   const RenderOptions& options_;
+  Ranks* ranks_;
   InterruptGuard interrupt_;
   std::optional<RenderJob> job_;
   ProgressBar bar_;
@@ -183,15 +196,39 @@ class Render {
   std::string state_name_;  ///< of the finished render
 };
 
-int render(const RenderOptions& options) {
+LoadedConfig load_config(const RenderOptions& options, const Registry& registry) {
+  options.confine.apply(registry);
+  if (!options.continued.empty()) allow_reading(options.continued);
+  return load_render_config(options.config.path, options.config.overrides, registry);
+}
+
+/// Renders what rank 0 hands out. Rank 0 says what there is to say, so that it is said once. It
+/// also decides what a signal means.
+int help_to_render(const RenderOptions& options, Ranks& ranks) {
+  InterruptGuard::expect_requests();
+  const InterruptGuard signals;
+  set_log_quiet(true);
+  try {
+    const Registry registry = load_default_modules();
+    const LoadedConfig loaded = load_config(options, registry);
+    RenderJob(loaded.config).help(ranks, render_key(loaded, registry));
+  } catch (const std::exception& error) {
+    refuse_to_help(ranks, error.what());
+  }
+  return signals.flag() ? kInterrupted : kDone;
+}
+
+int render(const RenderOptions& options, Ranks* ranks) {
+  if (ranks != nullptr && ranks->rank() > 0) return help_to_render(options, *ranks);
+  if (ranks != nullptr && !options.replay.empty()) {
+    throw InputError("--replay: error: one process traces the path, found several");
+  }
   if (options.replay.empty()) InterruptGuard::expect_requests();
   set_log_quiet(options.quiet);
   std::optional<HostPort> viewer;
   if (options.preview) viewer = parse_host_port(*options.preview, kTevPort, {"--preview"});
   const Registry registry = load_default_modules();
-  options.confine.apply(registry);
-  if (!options.continued.empty()) allow_reading(options.continued);
-  LoadedConfig loaded = load_render_config(options.config.path, options.config.overrides, registry);
+  LoadedConfig loaded = load_config(options, registry);
   if (!options.continued.empty()) loaded.config.output.image = options.continued;
   if (!options.output.empty()) loaded.config.output.image = options.output;
   check_outputs(loaded);
@@ -202,7 +239,7 @@ int render(const RenderOptions& options) {
     replay_path(job, loaded.config, options.replay);
     return kDone;
   }
-  Render render(loaded, registry, options);
+  Render render(loaded, registry, options, ranks);
   const RenderResult result = render.run(viewer);
   report(result, loaded.config);
   return result.stopped ? kInterrupted : kDone;
@@ -238,7 +275,8 @@ void add_render_command(CLI::App& app, int& exit_code) {
       ->excludes(replay)
       ->excludes(resume);
   command->callback([options, &exit_code] {
-    with_threads(options->threads, [&] { exit_code = render(*options); });
+    with_launched_ranks(options->threads,
+                        [&](Ranks* ranks) { exit_code = render(*options, ranks); });
   });
 }
 

@@ -47,7 +47,7 @@ class Setup {
   }
 
  private:
-  IterationContext context(bool record) const { return {sampler_, seed_, nullptr, record}; }
+  IterationContext context(bool record) const { return {sampler_, seed_, nullptr, record, record}; }
 
   Scene scene_;
   std::unique_ptr<const PreparedSensor> sensor_;

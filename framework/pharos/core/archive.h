@@ -64,8 +64,9 @@ class Archive {
     }
   }
 
-  /// A list of plain values without gaps between their members, such as pixels, as it lies in
-  /// memory. This is much faster than one number at a time. Numbers may be infinite or NaN.
+  /// A list of plain values, such as pixels, as it lies in memory. This is much faster than one
+  /// number at a time. Numbers may be infinite or NaN. What goes into files has no gaps between its
+  /// members, because their content is arbitrary.
   template <class T>
   void block(std::vector<T>& values) {
     static_assert(std::is_trivially_copyable_v<T>);

@@ -126,6 +126,14 @@ void FilmTile::add_radiance(Vec2 film, Rgb radiance) {
   }
 }
 
+void FilmTile::archive(Archive& archive) {
+  archive.block(pixels_);
+  archive.expect(pixels_.size() == bordered_.area(), "a tile of the film");
+  archive.block(splats_);
+  archive.block(landings_);
+  archive(paths_);
+}
+
 Film::Pixel& Film::Pixel::operator+=(const Pixel& other) {
   sum += other.sum;
   splats += other.splats;

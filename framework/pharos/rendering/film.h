@@ -45,6 +45,9 @@ class FilmTile {
   /// Counts paths that were started. Splats are divided by the film's total.
   void count_paths(std::uint64_t n) { paths_ += static_cast<double>(n); }
 
+  /// Saves all sums, or loads them into a tile of the same pixels and film.
+  void archive(Archive& archive);
+
  private:
   friend class Film;
   struct Pixel {

@@ -22,6 +22,9 @@ struct WorkUnit {
   std::uint32_t iteration = 0;
   std::uint32_t first_sample = 0;
   std::uint32_t sample_count = 0;
+  void archive(Archive& archive) {
+    archive(pixels.x0, pixels.y0, pixels.x1, pixels.y1, iteration, first_sample, sample_count);
+  }
 };
 
 /// Statistics of a work unit.
@@ -42,6 +45,9 @@ struct WorkResult {
   RenderCounters counters;
   /// The key of the first invalid path, if any. A message tells how to replay it.
   std::optional<PathKey> first_invalid;
+
+  /// Saves the result, or loads it into one whose `film` has the pixels of the same unit.
+  void archive(Archive& archive) { archive(film, log, counters, first_invalid); }
 };
 
 /// The data that is frozen during one iteration.
@@ -50,6 +56,7 @@ struct IterationContext {
   std::uint64_t seed = 0;
   const GuidingFrame* guiding = nullptr;  ///< null: nothing is known yet
   bool record = false;                    ///< fill WorkResult::log
+  bool training = false;                  ///< this is a training iteration
 };
 
 /// The scene, sensor and film for which an integrator is prepared. All referenced objects outlive

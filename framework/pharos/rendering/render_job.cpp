@@ -10,12 +10,15 @@
 
 #include <pharos/core/archive.h>
 #include <pharos/core/error.h>
-#include <pharos/core/parallel.h>
 #include <pharos/core/stopwatch.h>
 #include <pharos/rendering/image_combiner.h>
 #include <pharos/rendering/iteration_state.h>
+#include <pharos/rendering/rank_helper.h>
+#include <pharos/rendering/rank_leader.h>
 #include <pharos/rendering/render_job.h>
 #include <pharos/rendering/schedule.h>
+#include <pharos/rendering/unit_plan.h>
+#include <pharos/rendering/unit_runner.h>
 #include <pharos/rendering/window_sensor.h>
 
 namespace pharos {
@@ -66,6 +69,8 @@ class RenderJob::Implementation {
     if (!state.empty()) load_state(state);
     result_.times.preparation = preparation_seconds_;
     result_.times.sampler = sampler_seconds_;
+    // Ranks that load slowly are not charged to the budget.
+    watch_.pause([&] { units_ = unit_runner(control.ranks); });
     while (current_ || (!stopped() && begin_iteration())) run_iteration();
     if (stopped()) save_when_stopped();
     // A render that was stopped during training has only training images to show.
@@ -81,15 +86,32 @@ class RenderJob::Implementation {
     return std::move(result_);
   }
 
+  void help(Ranks& ranks, const std::string& render_key) {
+    begin({});
+    const Film film = make_film();
+    const auto begin_iteration = [&](bool trains, const std::string& guides) {
+      iteration_.training = trains;
+      if (!guides.empty()) load_guides(guides);
+      frame_ = guides.empty() ? nullptr : guiding_->frame();
+    };
+    const auto render = [&](const WorkUnit& unit, bool records) {
+      WorkResult work{.film = film.make_tile(unit.pixels)};
+      integrator_->render(unit, context(records), work);
+      return work;
+    };
+    pharos::help(ranks, render_key, {begin_iteration, render});
+  }
+
   PathTrace replay(const PathKey& key) {
     if (key.iteration > 0 && config_.budget.seconds) {
       throw InputError(
           "training by a time budget cannot be repeated: only iteration 0 can be replayed");
     }
     begin({});
+    units_ = unit_runner(nullptr);
     while (begin_iteration()) {
       if (iteration_.index == key.iteration) {
-        if (key.sample < iteration_.samples) return integrator_->replay(key, context());
+        if (key.sample < iteration_.samples) return integrator_->replay(key, context(false));
         throw InputError(fmt::format("--replay: error: there is no sample {}: iteration {} has {}",
                                      key.sample, key.iteration, iteration_.samples));
       }
@@ -121,6 +143,11 @@ class RenderJob::Implementation {
     frame_ = guiding_ == nullptr ? nullptr : guiding_->frame();
   }
 
+  std::unique_ptr<UnitRunner> unit_runner(Ranks* ranks) const {
+    if (ranks == nullptr) return std::make_unique<LocalUnits>();
+    return std::make_unique<RankLeader>(*ranks, control_.render_key, [this] { return !stopped(); });
+  }
+
   bool stopped() const { return control_.stop != nullptr && control_.stop->load(); }
 
   Schedule schedule() const { return {config_.budget, training_, set_size_}; }
@@ -128,8 +155,9 @@ class RenderJob::Implementation {
   /// The seconds that the budget counts.
   double seconds() const { return sampler_seconds_ + watch_.seconds(); }
 
-  IterationContext context() const {
-    return {*sampler_, config_.seed, frame_.get(), iteration_.training};
+  /// Returns what the units of the current iteration share. `records`: their paths are recorded.
+  IterationContext context(bool records) const {
+    return {*sampler_, config_.seed, frame_.get(), records, iteration_.training};
   }
 
   /// Makes the next iteration the current one. Returns false if there is none.
@@ -146,11 +174,17 @@ class RenderJob::Implementation {
   /// Returns the state of the current iteration before its first pass.
   IterationState begun_iteration(double start) const {
     // Training iterations do not wait for whole sets.
-    return {make_film(), PassSizes(iteration_, iteration_.training ? 1 : set_size_, start), start};
+    const bool trains = iteration_.training;
+    return {make_film(),
+            PassSizes(iteration_, trains ? training_.recorded(iteration_.samples) : 0,
+                      trains ? 1 : set_size_, start),
+            start};
   }
 
   void run_iteration() {
-    while (begin_pass() && run_pass()) {
+    units_->begin_iteration(iteration_.training, frame_ != nullptr,
+                            [this] { return saved_guides(); });
+    while (begin_pass() && run_passes()) {
       if (control_.on_pass) watch_.pause([&] { show(current_->film); });
     }
     const bool is_stopped = stopped();
@@ -215,8 +249,9 @@ class RenderJob::Implementation {
   std::uint32_t region_minimum(std::uint32_t samples) const {
     const double found = guiding_->samples_per_region();
     if (!(found > 0)) return 1;
-    return static_cast<std::uint32_t>(
-        std::clamp(std::ceil(samples * training_.region_samples / found), 1.0, 1e9));
+    const double wanted = std::ceil(training_.recorded(samples) * training_.region_samples / found);
+    // An iteration with more samples than are recorded would teach no more.
+    return training_.recorded(static_cast<std::uint32_t>(std::clamp(wanted, 1.0, 1e9)));
   }
 
   Film make_film() const {
@@ -250,57 +285,83 @@ class RenderJob::Implementation {
     return now.pass > 0;
   }
 
-  /// Renders what the current pass lacks. Returns false if the pass was stopped early.
-  bool run_pass() {
+  /// Returns the work units that the current pass lacks, and those of the passes that follow if
+  /// nothing must happen between them. Then no thread waits for the end of a pass.
+  UnitPlan planned_units() const {
+    const IterationState& now = *current_;
+    UnitPlan plan(tiles_, iteration_.index);
+    plan.add(now.done, now.pass, now.sizes.unit(now.done), now.units);
+    if (iteration_.is_timed() || control_.on_pass) return plan;
+    PassSizes sizes = now.sizes;
+    std::uint32_t done = now.done + now.pass;
+    while (const std::uint32_t pass = sizes.next(done, 0)) {
+      plan.add(done, pass, sizes.unit(done));
+      done += pass;
+    }
+    return plan;
+  }
+
+  /// Renders what planned_units() returns. Returns false if it was stopped early.
+  bool run_passes() {
     IterationState& now = *current_;
-    const IterationContext shared = context();
-    // Large passes are divided into chunks. The units of a chunk cover all tiles before the units
-    // of the next chunk.
-    const std::uint32_t chunk = unit_samples(iteration_);
-    const std::size_t count = unit_count(), first = now.units;
-    const auto unit = [&](std::size_t i) {
-      const std::size_t number = first + i;
-      const auto before = static_cast<std::uint32_t>(number / tiles_.size()) * chunk;
-      return WorkUnit{.pixels = tiles_[number % tiles_.size()],
-                      .iteration = iteration_.index,
-                      .first_sample = now.done + before,
-                      .sample_count = std::min(chunk, now.pass - before)};
-    };
-    const auto produce = [&](std::size_t i) {
-      WorkResult work{.film = now.film.make_tile(unit(i).pixels)};
-      spare_logs_.try_pop(work.log);
-      integrator_->render(unit(i), shared, work);
+    const UnitPlan plan = planned_units();
+    const auto blank = [&](std::size_t i) {
+      WorkResult work{.film = now.film.make_tile(plan[i].pixels)};
+      if (is_recorded(plan[i])) spare_logs_.try_pop(work.log);
       return work;
     };
-    const auto consume = [&](std::size_t i, WorkResult& work) {
-      merge(unit(i), work);
+    const auto render = [&](std::size_t i) {
+      WorkResult work = blank(i);
+      integrator_->render(plan[i], context(is_recorded(plan[i])), work);
+      return work;
+    };
+    const auto take = [&](std::size_t i, WorkResult& work) {
+      merge(plan[i], work);
+      if (now.units == unit_count()) {
+        end_pass(true);
+        if (i + 1 < plan.count()) begin_pass();
+      }
       if (control_.on_progress) {
         control_.on_progress(progress(now.done + now.pixel_samples / film_area()));
       }
       if (control_.checkpoint.is_due && control_.checkpoint.is_due()) save_state(false);
     };
-    parallel_ordered(count - first, produce, consume, [&](std::size_t) { return !stopped(); });
-    const bool complete = now.units == count;
-    if (!complete) save_when_stopped();
-    now.film.end_pass(now.pixel_samples / film_area(), complete);
+    units_->run({.count = plan.count(),
+                 .unit = [&](std::size_t i) { return plan[i]; },
+                 .is_recorded = [&](std::size_t i) { return is_recorded(plan[i]); },
+                 .blank = blank,
+                 .render = render,
+                 .merge = take,
+                 .keeps_going = [&] { return !stopped(); }});
+    if (now.pass == 0) return true;
+    save_when_stopped();
+    end_pass(false);
+    return false;
+  }
+
+  void end_pass(bool complete) {
+    IterationState& now = *current_;
+    if (now.units > 0) now.film.end_pass(now.pixel_samples / film_area(), complete);
     if (complete) now.done += now.pass;
     now.pass = 0;
     now.units = 0;
     now.pixel_samples = 0;
-    return complete;
   }
 
   /// Returns the number of work units in the current pass.
   std::size_t unit_count() const {
-    const std::size_t chunk = unit_samples(iteration_);
-    return (current_->pass + chunk - 1) / chunk * tiles_.size();
+    return UnitPlan::units_of(current_->pass, current_->sizes.unit(current_->done), tiles_.size());
+  }
+
+  bool is_recorded(const WorkUnit& unit) const {
+    return iteration_.training && unit.first_sample < training_.recorded(iteration_.samples);
   }
 
   /// Adds the result of a work unit to the film and the training data.
   void merge(const WorkUnit& unit, WorkResult& work) {
     IterationState& now = *current_;
     now.film.merge(work.film);
-    if (iteration_.training) {
+    if (is_recorded(unit)) {
       guiding_->absorb(work.log);
       work.log.clear();
       spare_logs_.push(std::move(work.log));
@@ -370,6 +431,21 @@ class RenderJob::Implementation {
     archive.expect(current_->units <= unit_count(), "the state of the render");
   }
 
+  /// Saves what other ranks need to guide paths as this one does.
+  std::string saved_guides() const {
+    std::ostringstream out;
+    Archive archive(out);
+    guiding_->archive_guides(archive);
+    if (!out) throw std::bad_alloc();
+    return std::move(out).str();
+  }
+
+  void load_guides(const std::string& guides) {
+    std::istringstream in(guides);
+    Archive archive(in);
+    guiding_->archive_guides(archive);
+  }
+
   double film_area() const { return static_cast<double>(config_.film.window().area()); }
 
   /// Returns the progress after `samples` samples per pixel of the current iteration.
@@ -407,6 +483,7 @@ class RenderJob::Implementation {
   Image last_image_;
   bool has_image_ = false;  ///< `last_image_` shows at least one whole pass
   bool is_saved_ = false;  ///< the render was stopped or has finished, and has handed out its state
+  std::unique_ptr<UnitRunner> units_;
   std::unique_ptr<GuidingState> guiding_;
   /// Empty logs whose memory is used again until training ends. Fresh memory would cost page
   /// faults.
@@ -421,6 +498,10 @@ RenderJob::~RenderJob() = default;
 
 RenderResult RenderJob::run(const RenderControl& control, const std::string& state) {
   return implementation_->run(control, state);
+}
+
+void RenderJob::help(Ranks& ranks, const std::string& render_key) {
+  implementation_->help(ranks, render_key);
 }
 
 PathTrace RenderJob::replay(int x, int y, std::uint32_t sample, std::uint32_t iteration) {

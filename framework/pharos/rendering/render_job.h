@@ -11,6 +11,7 @@
 #include <pharos/guiding/pipeline/guiding_state.h>
 #include <pharos/rendering/film.h>
 #include <pharos/rendering/integrator.h>
+#include <pharos/rendering/ranks.h>
 #include <pharos/rendering/render_config.h>
 
 namespace pharos {
@@ -57,6 +58,11 @@ struct RenderControl {
   /// Set it from any thread to end the render early. The samples so far are kept.
   const std::atomic<bool>* stop = nullptr;
   CheckpointControl checkpoint;
+  /// The processes that render together; null: this one alone. The others call RenderJob::help()
+  /// with the same config. This one is rank 0, and calls dismiss_helpers() when it needs them no
+  /// more.
+  Ranks* ranks = nullptr;
+  std::string render_key;  ///< key of what is rendered, which all ranks must have in common
 };
 
 /// Wall-clock seconds by what they were spent on.
@@ -88,8 +94,8 @@ struct RenderResult {
 };
 
 /// Runs a render config. It divides the budget into iterations and passes, runs their work units on
-/// TBB, merges tiles in order, and trains between iterations. With a sample budget the result is
-/// identical to the bit for any number of threads.
+/// TBB or on several ranks, merges tiles in order, and trains between iterations. With a sample
+/// budget the result is identical to the bit for any number of threads and ranks.
 class RenderJob {
  public:
   explicit RenderJob(const RenderConfig& config);
@@ -102,6 +108,10 @@ class RenderJob {
   /// samples that are left, from models that learn no more. Throws InputError if the state is
   /// damaged.
   RenderResult run(const RenderControl& control = {}, const std::string& state = {});
+
+  /// Renders what rank 0 hands out, until it says that there is no more. `render_key` is as in
+  /// RenderControl.
+  void help(Ranks& ranks, const std::string& render_key);
 
   /// Traces one path of `iteration` again, after training up to this iteration. (x, y) is its pixel
   /// on the whole film. `iteration` counts training iterations too; unguided renders only have

@@ -346,7 +346,6 @@ TEST_CASE("path logs: what is loaded is what was saved, field by field") {
   for (std::size_t i = 0; i < copy.size(); ++i) check_equal(original[i], copy[i]);
   CHECK(copy[2].transport == Transport::importance);
   CHECK(linked_children(copy[0], 0) == Indices{1, 3});
-  CHECK(saved(copy) == saved(original));
   CHECK(loaded(saved(PathLog())).size() == 0);
 }
 
@@ -360,7 +359,8 @@ TEST_CASE("path logs: a loaded log goes on") {
     log->add(RecordedVertex{.parent = 0});  // the last path now branches at its first vertex
     add_branching_path(*log, numbers);
   }
-  CHECK(saved(copy) == saved(original));
+  REQUIRE(copy.size() == original.size());
+  for (std::size_t i = 0; i < copy.size(); ++i) check_equal(original[i], copy[i]);
 }
 
 TEST_CASE("path logs: cut off anywhere, they are refused") {

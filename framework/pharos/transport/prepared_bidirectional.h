@@ -71,7 +71,7 @@ class PreparedBidirectional : public PreparedIntegrator {
 
   /// Returns whether paths start at lights. In training iterations they always do.
   bool traces_light(const IterationContext& context) const {
-    return context.record || light_paths_.always;
+    return context.training || light_paths_.always;
   }
 
   template <class Recorder, class LightRecorder>

@@ -52,9 +52,9 @@ struct GuidingState::Source {
     for (const std::uint32_t origin : own) origins.push_back(first + origin);
   }
 
-  void archive(Archive& archive) {
+  /// Saves or loads the model, unless it was read from a file.
+  void archive_model(Archive& archive) {
     if (state == nullptr) return;
-    state->archive(archive);
     bool has_model = model != nullptr;
     archive(has_model);
     if (archive.loads()) {
@@ -213,14 +213,23 @@ std::size_t GuidingState::model_bytes() const {
 }
 
 void GuidingState::archive(Archive& archive) {
-  archive.heading("guiding", 5);
-  for (Source& source : sources_) source.archive(archive);
+  archive.heading("guiding", 6);
+  for (Source& source : sources_) {
+    if (source.state != nullptr) source.state->archive(archive);
+  }
+  archive(samples_, last_samples_);
+  if (trial_) trial_->archive(archive);
+  archive_guides(archive);
+}
+
+void GuidingState::archive_guides(Archive& archive) {
+  archive.heading("guides", 1);
+  for (Source& source : sources_) source.archive_model(archive);
   for (User& user : users_) archive(user.is_out);
   mark_idle_sources();
   if (archive.loads()) mixing_->update(regions(), {}, false);
   mixing_->archive(archive);
-  archive(samples_, last_samples_, is_final_, is_off_);
-  if (trial_) trial_->archive(archive);
+  archive(is_final_, is_off_);
   if (archive.loads()) rebuild_frame();
 }
 

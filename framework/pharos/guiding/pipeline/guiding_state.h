@@ -47,6 +47,9 @@ class GuidingState {
   /// Saves what was learned so far, including models, or loads it into a state for the same render.
   /// Rendering then continues as if it had never stopped.
   void archive(Archive& archive);
+  /// Saves what frame() depends on, or loads it into a state for the same render, which then only
+  /// guides and does not learn.
+  void archive_guides(Archive& archive);
 
  private:
   struct Source;

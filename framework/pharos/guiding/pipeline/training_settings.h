@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string_view>
@@ -29,6 +30,9 @@ struct TrainingSettings {
   std::uint32_t iterations = 15;  ///< number of training iterations
   double share = 0.5;             ///< largest share of the budget that is spent on training [1]
   TrainingImages images = TrainingImages::combine;
+  /// Largest number of samples per pixel of an iteration whose paths are recorded. The rest of the
+  /// iteration only adds to its image. 0: all are recorded.
+  std::uint32_t recorded_samples = 0;
   /// Largest number of combined images, including the final one.
   std::uint32_t latest_images = 1001;
   /// Least mean number of training samples for each region of the largest model in an iteration.
@@ -52,6 +56,11 @@ struct TrainingSettings {
   /// enough), an iteration takes at most the rest of this share or half of the share, whichever
   /// is larger; see Spending::largest_share.
   double trial = 1.0 / 16;
+
+  /// Returns how many of the first `samples` samples per pixel of an iteration are recorded.
+  std::uint32_t recorded(std::uint32_t samples) const {
+    return recorded_samples == 0 ? samples : std::min(samples, recorded_samples);
+  }
 
   /// Returns whether anything depends on how much the guides help.
   bool puts_guides_on_trial() const { return tolerance > 0 || least_gain > 0 || least_part > 0; }

@@ -1,17 +1,25 @@
+#include <cstring>
+#include <type_traits>
+
 #include <pharos/guiding/record/path_record.h>
 
 namespace pharos {
 
-void RecordedVertex::archive(Archive& archive) {
-  archive(position, normal, kind, event, guidable, roughness, eta, parent, next, twin, throughput,
-          local_weight, direction, pdf, continuation, branch, mixing_key, transmittance,
-          medium_density, emission, joint_emission, first_technique, technique_count);
+// Logs travel between processes while an image is rendered, so they are saved as they lie in
+// memory.
+static_assert(std::is_trivially_copyable_v<RecordedVertex> &&
+              std::is_trivially_copyable_v<RecordedLightSample>);
+
+namespace {
+
+/// Whether the byte of a loaded flag is one that a bool may have.
+bool is_sound(const bool& flag) {
+  unsigned char byte = 0;
+  std::memcpy(&byte, &flag, sizeof byte);
+  return byte <= 1;
 }
 
-void RecordedLightSample::archive(Archive& archive) {
-  archive(vertex, position, kind, event, discrete, direction, contribution, joint_contribution,
-          mis_weight);
-}
+}  // namespace
 
 PathView PathLog::operator[](std::size_t i) const {
   const Head& head = paths_[i];
@@ -70,8 +78,11 @@ void PathLog::clear() {
 }
 
 void PathLog::archive(Archive& archive) {
-  archive.heading("path_log", 1);
-  archive(paths_, vertices_, light_samples_, techniques_);
+  archive.heading("path_log", 2);
+  archive.block(paths_);
+  archive.block(vertices_);
+  archive.block(light_samples_);
+  archive.block(techniques_);
   // Refuses a damaged log whose indices lead outside it.
   const auto expect = [&](bool holds) { archive.expect(holds, "the path log"); };
   for (std::size_t i = 0; archive.loads() && i < paths_.size(); ++i) {
@@ -88,12 +99,12 @@ void PathLog::archive(Archive& archive) {
       const auto follows = [&](std::uint32_t link) {
         return link == kNoVertex || (link > k && link < count);
       };
-      expect((v.parent == kNoVertex || v.parent < k) && follows(v.next) && follows(v.twin) &&
-             v.first_technique <= techniques_.size() &&
+      expect(is_sound(v.guidable) && (v.parent == kNoVertex || v.parent < k) && follows(v.next) &&
+             follows(v.twin) && v.first_technique <= techniques_.size() &&
              v.technique_count <= techniques_.size() - v.first_technique);
     }
     for (std::uint64_t k = head.first_light_sample; k < light_end; ++k) {
-      expect(light_samples_[k].vertex < count);
+      expect(is_sound(light_samples_[k].discrete) && light_samples_[k].vertex < count);
     }
   }
 }

@@ -21,7 +21,6 @@ struct Technique {
   /// Density of the step, in the measure of its event and next vertex, including the medium's
   /// factor.
   float density = 0;
-  void archive(Archive& archive) { archive(share, density); }
 };
 
 /// A vertex of a recorded path, together with the step that leaves it. If a path branches at a
@@ -60,8 +59,6 @@ struct RecordedVertex {
 
   /// The range of the techniques in the log; see PathView::techniques(). PathLog sets it.
   std::uint32_t first_technique = 0, technique_count = 0;
-
-  void archive(Archive& archive);
 };
 
 /// A next event estimate: a connection from a vertex to a point on a light, or to the lens on paths
@@ -76,8 +73,6 @@ struct RecordedLightSample {
   Rgb contribution;        ///< f/p of the connection times its MIS weight, without throughput
   Rgb joint_contribution;  ///< the same with the MIS weight among paths from both ends
   float mis_weight = 1;    ///< MIS weight among paths from the same end
-
-  void archive(Archive& archive);
 };
 
 /// One recorded path. Its spans are valid as long as the log. The path estimates its part of the
@@ -131,7 +126,7 @@ class PathLog {
     return vertices_[paths_.back().first_vertex + index];
   }
   void clear();
-  /// Saves or loads the whole log.
+  /// Saves or loads the whole log, in a form that only this build of the program can read.
   void archive(Archive& archive);
 
  private:
@@ -139,7 +134,6 @@ class PathLog {
     std::uint64_t first_vertex = 0, first_light_sample = 0;
     Vec2 film;
     Transport transport = Transport::radiance;
-    void archive(Archive& archive) { archive(first_vertex, first_light_sample, film, transport); }
   };
   std::vector<Head> paths_;
   std::vector<RecordedVertex> vertices_;
