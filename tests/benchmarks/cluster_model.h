@@ -16,7 +16,7 @@ struct ClusterJob {
   double latency = 20e-6;      ///< of a message [s]
 };
 
-/// Where the learning is done.
+/// The ranks that learn.
 enum class LearningPlace {
   rank_0,  ///< rank 0 receives all logs
   owners   ///< every rank receives the samples for its own cells

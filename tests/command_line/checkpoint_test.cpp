@@ -9,6 +9,7 @@
 #include <pharos/core/image.h>
 #include <pharos/core/random.h>
 
+#include "box_outputs.h"
 #include "process.h"
 #include "refusal.h"
 
@@ -35,39 +36,27 @@ void write_config(const ScratchFolder& folder, const std::string& integrator, in
 
 constexpr const char* kGuided = "{ type: path, guiding: pavmm }";
 
-/// The image and the model that a render leaves.
-struct Outputs {
-  std::vector<float> pixels;
-  std::string model;
-  bool operator==(const Outputs&) const = default;
-};
-
-Outputs outputs_in(const ScratchFolder& folder) {
-  return {read_image(folder.path() / "box.exr").values(),
-          test::bytes_of(folder.path() / "box.model")};
-}
-
 /// Renders the config of another folder without interruption.
-Outputs undisturbed(const ScratchFolder& other) {
+BoxOutputs undisturbed(const ScratchFolder& other) {
   const ScratchFolder folder;
   fs::copy_file(other.path() / "box.yaml", folder.path() / "box.yaml");
   const Outcome outcome = run_pharos("render box.yaml -q", folder.path());
   REQUIRE_MESSAGE(outcome.exit_code == 0, outcome.err);
-  return outputs_in(folder);
+  return box_outputs_in(folder);
 }
 
 /// Goes on until the render is done, and compares.
-void check_ends_like(const ScratchFolder& folder, const Outputs& whole) {
+void check_ends_like(const ScratchFolder& folder, const BoxOutputs& whole) {
   const Outcome outcome = run_pharos("render box.yaml -q --resume", folder.path());
   REQUIRE_MESSAGE(outcome.exit_code == 0, outcome.err);
-  const bool same = outputs_in(folder) == whole;
+  const bool same = box_outputs_in(folder) == whole;
   CHECK(same);
 }
 
 TEST_CASE("a killed render goes on to the same bits") {
   const ScratchFolder folder;
   write_config(folder, kGuided, 128, 0.02);
-  const Outputs whole = undisturbed(folder);
+  const BoxOutputs whole = undisturbed(folder);
   interrupt_pharos_once("box.checkpoint", "render box.yaml -q", folder.path(), "KILL");
   for (int kills = 0; kills < 2; ++kills) {
     interrupt_pharos("render box.yaml -q --resume", folder.path(), 0.4, "KILL");
@@ -80,7 +69,7 @@ TEST_CASE("a killed render goes on to the same bits") {
 TEST_CASE("signals that ask a render to end leave a checkpoint") {
   const ScratchFolder folder;
   write_config(folder, kGuided, 128, 1e9);
-  const Outputs whole = undisturbed(folder);
+  const BoxOutputs whole = undisturbed(folder);
   for (const char* signal : {"INT", "TERM", "HUP", "USR2"}) {
     CAPTURE(signal);
     fs::remove(folder.path() / "box.checkpoint");
@@ -281,14 +270,14 @@ TEST_CASE("soak: killed at random moments, renders of four methods go on to the 
     const ScratchFolder folder;
     write_config(folder, integrator, 128, 0.05);
     const double seconds = seconds_of(folder);
-    const Outputs whole = outputs_in(folder);
+    const BoxOutputs whole = box_outputs_in(folder);
     for (int kill = 0; kill < 25; ++kill) {
       for (const char* file : {"box.checkpoint", "box.exr", "box.model"}) {
         fs::remove(folder.path() / file);
       }
       interrupt_pharos("render box.yaml -q", folder.path(), random.next_1d() * seconds, "KILL");
       check_ends_like(folder, whole);
-      equal += outputs_in(folder) == whole ? 1 : 0;
+      equal += box_outputs_in(folder) == whole ? 1 : 0;
     }
   }
   CHECK(equal == 100);
@@ -297,7 +286,7 @@ TEST_CASE("soak: killed at random moments, renders of four methods go on to the 
 TEST_CASE("soak: killed while a checkpoint is written, a render goes on to the same bits") {
   const ScratchFolder folder;
   write_config(folder, kSoaked[3], 128, 1e-3);
-  const Outputs whole = undisturbed(folder);
+  const BoxOutputs whole = undisturbed(folder);
   int kills_in_writing = 0;
   for (int kill = 0; kill < 20; ++kill) {
     fs::remove(folder.path() / "box.checkpoint");

@@ -10,6 +10,7 @@
 
 #include <pharos/core/image.h>
 
+#include "box_outputs.h"
 #include "process.h"
 
 namespace pharos::testing {
@@ -27,22 +28,11 @@ void write_config(const ScratchFolder& folder, const std::string& preset, int sp
                            PHAROS_SCENES, spp, every, preset));
 }
 
-struct Outputs {
-  std::vector<float> pixels;
-  std::string model;
-  bool operator==(const Outputs&) const = default;
-};
-
-Outputs outputs_in(const ScratchFolder& folder) {
-  return {read_image(folder.path() / "box.exr").values(),
-          test::bytes_of(folder.path() / "box.model")};
-}
-
-Outputs outputs_alone(const std::string& preset, int spp) {
+BoxOutputs outputs_alone(const std::string& preset, int spp) {
   const ScratchFolder folder;
   write_config(folder, preset, spp);
   REQUIRE(run_pharos("render box.yaml -q", folder.path()).exit_code == 0);
-  return outputs_in(folder);
+  return box_outputs_in(folder);
 }
 
 TEST_CASE("mpirun: two ranks render the same image and learn the same model as one process") {
@@ -56,7 +46,7 @@ TEST_CASE("mpirun: two ranks render the same image and learn the same model as o
     const std::string report = "box.exr: 96 x 64, 64 samples a pixel";
     CHECK(outcome.err.find(report) != std::string::npos);
     CHECK(outcome.err.find(report) == outcome.err.rfind(report));
-    const bool same = outputs_in(folder) == outputs_alone(preset, 64);
+    const bool same = box_outputs_in(folder) == outputs_alone(preset, 64);
     CHECK(same);
   }
 }
@@ -91,7 +81,7 @@ pid_t process_of(int rank, const fs::path& folder) {
 }
 
 TEST_CASE("mpirun: a killed rank ends the job, and its checkpoint goes on with other ranks") {
-  const Outputs whole = outputs_alone("pavmm", 256);
+  const BoxOutputs whole = outputs_alone("pavmm", 256);
   for (const int killed : {0, 1}) {
     CAPTURE(killed);
     const ScratchFolder folder;
@@ -108,7 +98,7 @@ TEST_CASE("mpirun: a killed rank ends the job, and its checkpoint goes on with o
     const int ranks = killed == 0 ? 3 : 1;
     const Outcome rest = run_on_ranks(ranks, "render box.yaml -q --resume", folder.path());
     CHECK_MESSAGE(rest.exit_code == 0, rest.err);
-    const bool same = outputs_in(folder) == whole;
+    const bool same = box_outputs_in(folder) == whole;
     CHECK(same);
   }
 }
@@ -126,7 +116,7 @@ pid_t starter_in(const fs::path& folder) {
 }
 
 TEST_CASE("mpirun: SIGUSR2 ends a render, which goes on from there") {
-  const Outputs whole = outputs_alone("pavmm", 256);
+  const BoxOutputs whole = outputs_alone("pavmm", 256);
   const ScratchFolder folder;
   write_config(folder, "pavmm", 256, 0.02);
   Outcome outcome;
@@ -141,7 +131,7 @@ TEST_CASE("mpirun: SIGUSR2 ends a render, which goes on from there") {
   CHECK(outcome.err.find("--resume goes on from here") != std::string::npos);
   const Outcome rest = run_on_ranks(2, "render box.yaml -q --resume", folder.path());
   CHECK_MESSAGE(rest.exit_code == 0, rest.err);
-  const bool same = outputs_in(folder) == whole;
+  const bool same = box_outputs_in(folder) == whole;
   CHECK(same);
 }
 

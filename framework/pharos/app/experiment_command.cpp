@@ -63,7 +63,7 @@ std::vector<std::string> run_program(const ExperimentOptions& options) {
   return command;
 }
 
-/// Writes the report of what is there.
+/// Writes the report of the runs that are done.
 int write_report(const ExperimentConfig& config, ExperimentPlan plan) {
   const ExperimentResults results = collect_results(config, std::move(plan), log_warning);
   if (results.records.empty()) {

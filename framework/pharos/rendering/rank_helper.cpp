@@ -36,7 +36,7 @@ class Channel {
     const std::lock_guard lock(mutex_);
     return take();
   }
-  /// Drops what is left.
+  /// Drops all values. wait() returns none from now on.
   void close() {
     const std::lock_guard lock(mutex_);
     values_.clear();

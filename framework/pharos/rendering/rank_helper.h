@@ -8,7 +8,7 @@
 
 namespace pharos {
 
-/// What a rank other than 0 does with the messages that it gets.
+/// The work of a rank other than 0, which messages from rank 0 ask for.
 struct HelperWork {
   /// Begins an iteration whose units are to be rendered. `guides` is empty if there are none. No
   /// unit is in progress.

@@ -285,8 +285,9 @@ class RenderJob::Implementation {
     return now.pass > 0;
   }
 
-  /// Returns the work units that the current pass lacks, and those of the passes that follow if
-  /// nothing must happen between them. Then no thread waits for the end of a pass.
+  /// Returns the units of the current pass that are not rendered yet. The units of all later passes
+  /// follow, unless the clock or a viewer is asked between passes. So no thread waits for the end
+  /// of a pass.
   UnitPlan planned_units() const {
     const IterationState& now = *current_;
     UnitPlan plan(tiles_, iteration_.index);

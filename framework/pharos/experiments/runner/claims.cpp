@@ -231,8 +231,8 @@ void ClaimBoard::release(const fs::path& file) {
   const std::lock_guard lock(mutex_);
   held_.erase(file);
   std::error_code ignored;
-  // Those of dead owners go first, so that the work is not free before it is given back. Whoever
-  // has taken over from this process has a later file, which stays.
+  // The files of dead owners have smaller numbers. They are removed first, because the work is free
+  // as soon as this file is gone. A larger number belongs to a process that took this one for dead.
   const std::string name = file.stem().string();
   for (std::uint32_t number = 1; number < number_of(file, name); ++number) {
     fs::remove(folder_ / fmt::format("{}.{}", name, number), ignored);

@@ -58,8 +58,8 @@ struct ExperimentResults {
                         std::uint64_t seed) const;
 };
 
-/// Returns what is there of an experiment, and renders nothing. References and records of runs that
-/// were not made yet are missing.
+/// Returns the results that an experiment has so far, and renders nothing. References and records
+/// that do not exist yet are missing.
 ExperimentResults collect_results(const ExperimentConfig& config, ExperimentPlan plan,
                                   const std::function<void(const std::string&)>& on_warning);
 

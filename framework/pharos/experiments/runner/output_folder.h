@@ -20,7 +20,7 @@ inline constexpr const char* kWorkerClaims = "@";
 class Workplace {
  public:
   /// Creates the folder. `plan` is a plan_key(). Throws InputError if the folder holds the results
-  /// of another file than `source`, or if processes with another plan are at work there.
+  /// of another file than `source`, or if other processes work there on another plan.
   Workplace(const std::filesystem::path& folder, const std::filesystem::path& source,
             const std::string& plan);
 

@@ -70,7 +70,7 @@ class RunFiles {
   void forget_failure(const PlannedRun& run) const;
 
  private:
-  /// What an earlier run has left.
+  /// The files of an earlier run, as far as they are sound.
   struct Remains {
     std::optional<RunRecord> record;
     std::string problem;      ///< why there is no record that counts; empty if there was none

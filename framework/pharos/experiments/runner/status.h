@@ -10,7 +10,7 @@
 
 namespace pharos {
 
-/// What the processes that work on an experiment have done, and do now.
+/// The state of an experiment on which processes may be at work.
 struct ExperimentStatus {
   struct Work {
     std::string name;

@@ -115,7 +115,7 @@ TEST_CASE("claims: another machine's claim is free after its patience, and not b
   CHECK(board.try_claim("run"));
 }
 
-TEST_CASE("claims: a claim that was cut off counts as that of an unknown machine") {
+TEST_CASE("claims: a claim file that was cut off counts as the claim of an unknown machine") {
   const test::TemporaryFolder folder;
   ClaimBoard board(folder.path(), {.beat = milliseconds(50), .patience = milliseconds(400)});
   folder.write("run.1", "");
