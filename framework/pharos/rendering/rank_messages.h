@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
-#include <new>
 #include <optional>
 #include <sstream>
 #include <string>
 #include <thread>
 #include <utility>
 
-#include <pharos/core/archive.h>
+#include <pharos/core/saved_bytes.h>
 #include <pharos/rendering/integrator.h>
 #include <pharos/rendering/ranks.h>
 
@@ -49,12 +48,10 @@ struct Unit {
 /// Returns a message with the given parts. Throws std::bad_alloc if there is no memory for it.
 template <class... Parts>
 std::string write(Kind kind, Parts&&... parts) {
-  std::ostringstream out;
-  Archive archive(out);
-  archive(kind);
-  (archive(parts), ...);
-  if (!out) throw std::bad_alloc();
-  return std::move(out).str();
+  return saved_bytes([&](Archive& archive) {
+    archive(kind);
+    (archive(parts), ...);
+  });
 }
 
 /// Reads a message part by part.

@@ -2,73 +2,35 @@
 #include <cmath>
 #include <new>
 #include <optional>
-#include <sstream>
 #include <utility>
 
 #include <fmt/format.h>
 #include <tbb/concurrent_queue.h>
 
-#include <pharos/core/archive.h>
 #include <pharos/core/error.h>
+#include <pharos/core/saved_bytes.h>
 #include <pharos/core/stopwatch.h>
 #include <pharos/rendering/image_combiner.h>
 #include <pharos/rendering/iteration_state.h>
+#include <pharos/rendering/prepared_render.h>
 #include <pharos/rendering/rank_helper.h>
 #include <pharos/rendering/rank_leader.h>
 #include <pharos/rendering/render_job.h>
 #include <pharos/rendering/schedule.h>
 #include <pharos/rendering/unit_plan.h>
 #include <pharos/rendering/unit_runner.h>
-#include <pharos/rendering/window_sensor.h>
 
 namespace pharos {
-namespace {
-
-std::unique_ptr<const PreparedSensor> prepared_sensor(const Sensor& sensor,
-                                                      const FilmSettings& film) {
-  std::unique_ptr<const PreparedSensor> whole = sensor.prepare(film.width, film.height);
-  if (!film.crop) return whole;
-  return window_sensor(std::move(whole), film.width, film.height, film.window());
-}
-
-SceneParts with_sensor(SceneParts parts, const Ref<Sensor>& sensor) {
-  if (sensor != nullptr) parts.sensor = sensor;
-  return parts;
-}
-
-}  // namespace
 
 class RenderJob::Implementation {
  public:
-  explicit Implementation(const RenderConfig& config)
-      : config_(config),
-        scene_(with_sensor(config.scene, config.sensor)),
-        sensor_(prepared_sensor(scene_.sensor(), config.film)),
-        integrator_(
-            config.integrator->prepare({scene_, *sensor_, config.film.width, config.film.height,
-                                        config.film.window(), config.film.jitter})),
-        tiles_(tiles_of(config.film.window(), config.film.tile)) {
-    const GuidingSettings* guiding = config.integrator->guiding();
-    training_ = guiding != nullptr && guiding->learns() ? guiding->training
-                                                        : TrainingSettings{.iterations = 0};
-    set_size_ = config.sampler->preferred_samples({config.seed, config.budget.spp.value_or(0)});
-    preparation_seconds_ = watch_.seconds();
-    const auto probe = config.sampler->needs_probe() ? integrator_->probe() : nullptr;
-    sampler_ = config.sampler->prepare({config.film.width, config.film.height},
-                                       {config.seed, schedule().longest()}, probe.get());
-    // A wide filter spreads samples over neighboring pixels. If one pixel had more samples than its
-    // neighbors, the neighbors would be biased towards it.
-    if (!sampler_->film_samples().empty() && config.film.filter->radius() > 0.5f) {
-      throw InputError("samples that the sampler has left over need a film with `filter: box`");
-    }
-    sampler_seconds_ = watch_.seconds() - preparation_seconds_;
-  }
+  explicit Implementation(const RenderConfig& config) : prepared_(config) {}
 
   RenderResult run(const RenderControl& control, const std::string& state) {
     begin(control);
     if (!state.empty()) load_state(state);
-    result_.times.preparation = preparation_seconds_;
-    result_.times.sampler = sampler_seconds_;
+    result_.times.preparation = prepared_.preparation_seconds();
+    result_.times.sampler = prepared_.sampler_seconds();
     // Ranks that load slowly are not charged to the budget.
     watch_.pause([&] { units_ = unit_runner(control.ranks); });
     while (current_ || (!stopped() && begin_iteration())) run_iteration();
@@ -88,7 +50,7 @@ class RenderJob::Implementation {
 
   void help(Ranks& ranks, const std::string& render_key) {
     begin({});
-    const Film film = make_film();
+    const Film film = prepared_.make_film();
     const auto begin_iteration = [&](bool trains, const std::string& guides) {
       iteration_.training = trains;
       if (!guides.empty()) load_guides(guides);
@@ -96,14 +58,14 @@ class RenderJob::Implementation {
     };
     const auto render = [&](const WorkUnit& unit, bool records) {
       WorkResult work{.film = film.make_tile(unit.pixels)};
-      integrator_->render(unit, context(records), work);
+      prepared_.integrator().render(unit, context(records), work);
       return work;
     };
     pharos::help(ranks, render_key, {begin_iteration, render});
   }
 
   PathTrace replay(const PathKey& key) {
-    if (key.iteration > 0 && config_.budget.seconds) {
+    if (key.iteration > 0 && config().budget.seconds) {
       throw InputError(
           "training by a time budget cannot be repeated: only iteration 0 can be replayed");
     }
@@ -111,7 +73,8 @@ class RenderJob::Implementation {
     units_ = unit_runner(nullptr);
     while (begin_iteration()) {
       if (iteration_.index == key.iteration) {
-        if (key.sample < iteration_.samples) return integrator_->replay(key, context(false));
+        if (key.sample < iteration_.samples)
+          return prepared_.integrator().replay(key, context(false));
         throw InputError(fmt::format("--replay: error: there is no sample {}: iteration {} has {}",
                                      key.sample, key.iteration, iteration_.samples));
       }
@@ -121,25 +84,22 @@ class RenderJob::Implementation {
                                  iteration_.index + 1));
   }
 
-  const RenderConfig& config() const { return config_; }
-  const Scene& scene() const { return scene_; }
+  const RenderConfig& config() const { return prepared_.config(); }
+  const Scene& scene() const { return prepared_.scene(); }
 
  private:
   void begin(const RenderControl& control) {
     control_ = control;
     watch_ = Stopwatch();
     result_ = {};
-    schedule_.emplace(schedule());
+    schedule_.emplace(prepared_.schedule());
     spending_ = {};
-    combiner_ = ImageCombiner(training_.latest_images);
+    combiner_ = ImageCombiner(prepared_.training().latest_images);
     has_image_ = false;
     current_.reset();
     is_saved_ = false;
-    last_image_ = make_film().layers();
-    const GuidingSettings* settings = config_.integrator->guiding();
-    const LearningContext learning{
-        .region = scene_.bounds(), .seed = config_.seed, .window = config_.film.window()};
-    guiding_ = settings == nullptr ? nullptr : std::make_unique<GuidingState>(*settings, learning);
+    last_image_ = prepared_.make_film().layers();
+    guiding_ = prepared_.make_guiding();
     frame_ = guiding_ == nullptr ? nullptr : guiding_->frame();
   }
 
@@ -150,14 +110,12 @@ class RenderJob::Implementation {
 
   bool stopped() const { return control_.stop != nullptr && control_.stop->load(); }
 
-  Schedule schedule() const { return {config_.budget, training_, set_size_}; }
-
   /// The seconds that the budget counts.
-  double seconds() const { return sampler_seconds_ + watch_.seconds(); }
+  double seconds() const { return prepared_.sampler_seconds() + watch_.seconds(); }
 
   /// Returns what the units of the current iteration share. `records`: their paths are recorded.
   IterationContext context(bool records) const {
-    return {*sampler_, config_.seed, frame_.get(), records, iteration_.training};
+    return {prepared_.sampler(), config().seed, frame_.get(), records, iteration_.training};
   }
 
   /// Makes the next iteration the current one. Returns false if there is none.
@@ -167,7 +125,11 @@ class RenderJob::Implementation {
     if (!next) return false;
     iteration_ = *next;
     current_.emplace(begun_iteration(seconds()));
-    if (!iteration_.training) add_left_over_samples(current_->film);
+    // If a guide of the camera makes all paths splats, there are no samples to average with.
+    const bool has_splats = frame_ != nullptr && frame_->guides_camera();
+    if (!iteration_.training && !has_splats) {
+      result_.counters.invalid_paths += prepared_.add_left_over_samples(current_->film);
+    }
     return true;
   }
 
@@ -175,9 +137,9 @@ class RenderJob::Implementation {
   IterationState begun_iteration(double start) const {
     // Training iterations do not wait for whole sets.
     const bool trains = iteration_.training;
-    return {make_film(),
-            PassSizes(iteration_, trains ? training_.recorded(iteration_.samples) : 0,
-                      trains ? 1 : set_size_, start),
+    return {prepared_.make_film(),
+            PassSizes(iteration_, trains ? prepared_.training().recorded(iteration_.samples) : 0,
+                      trains ? 1 : prepared_.set_size(), start),
             start};
   }
 
@@ -214,7 +176,7 @@ class RenderJob::Implementation {
 
   /// Returns whether the image of the current iteration is part of the result.
   bool keeps_image() const {
-    return !iteration_.training || training_.images == TrainingImages::combine;
+    return !iteration_.training || prepared_.training().images == TrainingImages::combine;
   }
 
   void show(const Film& film) const {
@@ -249,32 +211,10 @@ class RenderJob::Implementation {
   std::uint32_t region_minimum(std::uint32_t samples) const {
     const double found = guiding_->samples_per_region();
     if (!(found > 0)) return 1;
-    const double wanted = std::ceil(training_.recorded(samples) * training_.region_samples / found);
+    const TrainingSettings& training = prepared_.training();
+    const double wanted = std::ceil(training.recorded(samples) * training.region_samples / found);
     // An iteration with more samples than are recorded would teach no more.
-    return training_.recorded(static_cast<std::uint32_t>(std::clamp(wanted, 1.0, 1e9)));
-  }
-
-  Film make_film() const {
-    const FilmSettings& film = config_.film;
-    return {film.window(), film.filter, film.least_weight};
-  }
-
-  /// Adds the samples that the sampler has left over. If a guide of the camera makes all paths
-  /// splats, nothing is added, because there are no samples to average with.
-  void add_left_over_samples(Film& film) {
-    const bool has_splats = frame_ != nullptr && frame_->guides_camera();
-    if (sampler_->film_samples().empty() || has_splats) return;
-    const PixelRect window = config_.film.window();
-    FilmTile tile = film.make_tile(window);
-    for (const FilmSample& sample : sampler_->film_samples()) {
-      if (!window.contains(static_cast<int>(sample.film.x), static_cast<int>(sample.film.y))) {
-        continue;
-      }
-      const bool valid = is_finite(sample.radiance);
-      if (!valid) ++result_.counters.invalid_paths;
-      tile.add_radiance(sample.film, valid ? sample.radiance : Rgb());
-    }
-    film.merge(tile);
+    return training.recorded(static_cast<std::uint32_t>(std::clamp(wanted, 1.0, 1e9)));
   }
 
   /// Makes the next pass the current one unless there is one. Returns false if the iteration is
@@ -290,7 +230,7 @@ class RenderJob::Implementation {
   /// of a pass.
   UnitPlan planned_units() const {
     const IterationState& now = *current_;
-    UnitPlan plan(tiles_, iteration_.index);
+    UnitPlan plan(prepared_.tiles(), iteration_.index);
     plan.add(now.done, now.pass, now.sizes.unit(now.done), now.units);
     if (iteration_.is_timed() || control_.on_pass) return plan;
     PassSizes sizes = now.sizes;
@@ -313,7 +253,7 @@ class RenderJob::Implementation {
     };
     const auto render = [&](std::size_t i) {
       WorkResult work = blank(i);
-      integrator_->render(plan[i], context(is_recorded(plan[i])), work);
+      prepared_.integrator().render(plan[i], context(is_recorded(plan[i])), work);
       return work;
     };
     const auto take = [&](std::size_t i, WorkResult& work) {
@@ -351,11 +291,13 @@ class RenderJob::Implementation {
 
   /// Returns the number of work units in the current pass.
   std::size_t unit_count() const {
-    return UnitPlan::units_of(current_->pass, current_->sizes.unit(current_->done), tiles_.size());
+    return UnitPlan::units_of(current_->pass, current_->sizes.unit(current_->done),
+                              prepared_.tiles().size());
   }
 
   bool is_recorded(const WorkUnit& unit) const {
-    return iteration_.training && unit.first_sample < training_.recorded(iteration_.samples);
+    return iteration_.training &&
+           unit.first_sample < prepared_.training().recorded(iteration_.samples);
   }
 
   /// Adds the result of a work unit to the film and the training data.
@@ -388,25 +330,20 @@ class RenderJob::Implementation {
 
   void save_state(bool finished) {
     if (!control_.checkpoint.take) return;
-    std::ostringstream out;
+    std::string state;
     try {
-      Archive archive(out);
-      archive_state(archive);
+      state = saved_bytes([this](Archive& archive) { archive_state(archive); });
     } catch (const std::bad_alloc&) {
-      out.setstate(std::ios::badbit);
+      if (control_.checkpoint.on_failure) {
+        control_.checkpoint.on_failure("the state of the render does not fit into memory");
+      }
+      return;
     }
-    if (out) {
-      control_.checkpoint.take(std::move(out).str(), finished);
-    } else if (control_.checkpoint.on_failure) {
-      control_.checkpoint.on_failure("the state of the render does not fit into memory");
-    }
+    control_.checkpoint.take(std::move(state), finished);
   }
 
   void load_state(const std::string& state) {
-    std::istringstream in(state);
-    Archive archive(in);
-    archive_state(archive);
-    archive.expect(in.peek() == std::istringstream::traits_type::eof(), "the state of the render");
+    load_bytes(state, [this](Archive& archive) { archive_state(archive); });
   }
 
   void archive_state(Archive& archive) {
@@ -434,20 +371,14 @@ class RenderJob::Implementation {
 
   /// Saves what other ranks need to guide paths as this one does.
   std::string saved_guides() const {
-    std::ostringstream out;
-    Archive archive(out);
-    guiding_->archive_guides(archive);
-    if (!out) throw std::bad_alloc();
-    return std::move(out).str();
+    return saved_bytes([this](Archive& archive) { guiding_->archive_guides(archive); });
   }
 
   void load_guides(const std::string& guides) {
-    std::istringstream in(guides);
-    Archive archive(in);
-    guiding_->archive_guides(archive);
+    load_bytes(guides, [this](Archive& archive) { guiding_->archive_guides(archive); });
   }
 
-  double film_area() const { return static_cast<double>(config_.film.window().area()); }
+  double film_area() const { return static_cast<double>(config().film.window().area()); }
 
   /// Returns the progress after `samples` samples per pixel of the current iteration.
   Progress progress(double samples) const {
@@ -462,18 +393,10 @@ class RenderJob::Implementation {
             .rays = result_.counters.rays};
   }
 
-  RenderConfig config_;
-  Stopwatch watch_;
-  Scene scene_;
-  std::unique_ptr<const PreparedSensor> sensor_;
-  std::unique_ptr<const PreparedIntegrator> integrator_;
-  std::vector<PixelRect> tiles_;
-  std::uint32_t set_size_ = 1;  ///< samples in a set, which passes of the final image fill
-  TrainingSettings training_;
-  std::unique_ptr<const PreparedSampler> sampler_;
-  double preparation_seconds_ = 0, sampler_seconds_ = 0;
+  const PreparedRender prepared_;
 
   // State of the run in progress.
+  Stopwatch watch_;
   RenderControl control_;
   RenderResult result_;
   std::optional<Schedule> schedule_;
