@@ -8,8 +8,8 @@
 
 namespace pharos::bench {
 
-/// What a guided render costs, by what must be done for a path, an update or an image. It is all
-/// that cluster_efficiency() needs to know about a method in a scene.
+/// The costs of a guided render for each path, each update and each image. cluster_efficiency()
+/// needs no other facts about a method in a scene.
 struct ClusterRates {
   // For each path of a training iteration:
   double trace = 0;             ///< time of one thread to trace and record it [s]

@@ -9,7 +9,7 @@
 
 namespace pharos::testing {
 
-/// What a render of the config box.yaml leaves: the image box.exr and the model box.model.
+/// The files that a render of box.yaml writes: the image box.exr and the model box.model.
 struct BoxOutputs {
   std::vector<float> pixels;
   std::string model;

@@ -144,7 +144,7 @@ TEST_CASE("runs with a time budget take turns on a machine") {
   CHECK(most == 1);
 }
 
-TEST_CASE("--status tells what is done and running, --report shows what is there") {
+TEST_CASE("--status lists runs that are done or running, --report writes the runs that are done") {
   const ScratchFolder folder;
   write_experiment(folder, "spp: 16", 10000);
   CHECK(

@@ -19,7 +19,7 @@
 namespace pharos::testing {
 namespace {
 
-/// What the ranks share.
+/// The messages between all ranks.
 struct PostOffice {
   explicit PostOffice(int ranks) : boxes(static_cast<std::size_t>(ranks)), all(ranks) {}
 

@@ -22,7 +22,9 @@ SceneParts with_sensor(SceneParts parts, const Ref<Sensor>& sensor) {
 
 }  // namespace
 
-PreparedRender::PreparedRender(const RenderConfig& config)
+PreparedRender::PreparedRender(const RenderConfig& config) : PreparedRender(config, Stopwatch()) {}
+
+PreparedRender::PreparedRender(const RenderConfig& config, const Stopwatch& watch)
     : config_(config),
       scene_(with_sensor(config.scene, config.sensor)),
       sensor_(prepared_sensor(scene_.sensor(), config.film)),
@@ -34,7 +36,7 @@ PreparedRender::PreparedRender(const RenderConfig& config)
   training_ = guiding != nullptr && guiding->learns() ? guiding->training
                                                       : TrainingSettings{.iterations = 0};
   set_size_ = config.sampler->preferred_samples({config.seed, config.budget.spp.value_or(0)});
-  preparation_seconds_ = watch_.seconds();
+  preparation_seconds_ = watch.seconds();
   const auto probe = config.sampler->needs_probe() ? integrator_->probe() : nullptr;
   sampler_ = config.sampler->prepare({config.film.width, config.film.height},
                                      {config.seed, schedule().longest()}, probe.get());
@@ -43,7 +45,7 @@ PreparedRender::PreparedRender(const RenderConfig& config)
   if (!sampler_->film_samples().empty() && config.film.filter->radius() > 0.5f) {
     throw InputError("samples that the sampler has left over need a film with `filter: box`");
   }
-  sampler_seconds_ = watch_.seconds() - preparation_seconds_;
+  sampler_seconds_ = watch.seconds() - preparation_seconds_;
 }
 
 std::unique_ptr<GuidingState> PreparedRender::make_guiding() const {

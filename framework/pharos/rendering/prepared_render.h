@@ -13,8 +13,8 @@
 
 namespace pharos {
 
-/// What a config prepares before a render begins. It is constant during the render, and all
-/// processes of a render prepare the same.
+/// The scene, integrator and sampler of a config, prepared before its render begins. They do not
+/// change during the render. All processes of a render prepare the same.
 class PreparedRender {
  public:
   /// Throws InputError if the parts of the config do not fit together.
@@ -38,7 +38,8 @@ class PreparedRender {
 
   /// Returns the schedule before its first iteration.
   Schedule schedule() const { return {config_.budget, training_, set_size_}; }
-  /// Returns the guiding before it has learned anything; null: unguided. It uses the config.
+  /// Returns the guiding before it has learned anything; null: unguided. It must not outlive this
+  /// object.
   std::unique_ptr<GuidingState> make_guiding() const;
   Film make_film() const;
   /// Adds the samples that the sampler has left over to the film of the final image. Returns how
@@ -46,8 +47,10 @@ class PreparedRender {
   std::uint64_t add_left_over_samples(Film& film) const;
 
  private:
+  /// `watch` has measured the time since the preparation began.
+  PreparedRender(const RenderConfig& config, const Stopwatch& watch);
+
   RenderConfig config_;
-  Stopwatch watch_;  ///< measures the preparation
   Scene scene_;
   std::unique_ptr<const PreparedSensor> sensor_;
   std::unique_ptr<const PreparedIntegrator> integrator_;

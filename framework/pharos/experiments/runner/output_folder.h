@@ -19,8 +19,8 @@ inline constexpr const char* kWorkerClaims = "@";
 /// The place of this process among those that work on one experiment in one folder.
 class Workplace {
  public:
-  /// Creates the folder. `plan` is a plan_key(). Throws InputError if the folder holds the results
-  /// of another file than `source`, or if other processes work there on another plan.
+  /// Creates the folder. `plan` is a plan_key(). Throws InputError if the folder holds results of
+  /// an experiment file that is not `source`, or if other processes work there on another plan.
   Workplace(const std::filesystem::path& folder, const std::filesystem::path& source,
             const std::string& plan);
 
@@ -35,7 +35,7 @@ class Workplace {
 };
 
 /// Reserves a folder for this process alone. It creates the folder. Throws InputError if the folder
-/// holds the results of another file than `source`, or if another process has reserved it.
+/// holds results of an experiment file that is not `source`, or if another process has reserved it.
 FileLock claim_folder(const std::filesystem::path& folder, const std::filesystem::path& source);
 
 /// Removes the files of a run, which are `stem` with any extension, so that no file of an earlier
