@@ -78,8 +78,10 @@ Outcome run_on_ranks(int ranks, const std::string& arguments, const std::filesys
 
 Outcome interrupt_pharos(const std::string& arguments, const std::filesystem::path& folder,
                          double seconds, const char* signal) {
-  return run_shell(fmt::format("timeout --preserve-status --signal={} {} {} {}", signal, seconds,
-                               PHAROS_PROGRAM, arguments),
+  // Unless it is in the foreground, timeout(1) kills itself too and does not wait for the program,
+  // which holds its locks until it has ended.
+  return run_shell(fmt::format("timeout --foreground --preserve-status --signal={} {} {} {}",
+                               signal, seconds, PHAROS_PROGRAM, arguments),
                    folder);
 }
 
