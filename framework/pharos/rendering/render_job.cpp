@@ -171,7 +171,7 @@ class RenderJob::Implementation {
     result_.samples_per_pixel += film.samples_per_pixel();
     spending_.samples += state.done;
     spending_.seconds_per_sample = taken / std::max(state.done, 1u);
-    if (iteration_.training && !is_stopped) update_guiding(state.done);
+    if (iteration_.training && !is_stopped) update_guiding(state.done, taken);
   }
 
   /// Returns whether the image of the current iteration is part of the result.
@@ -189,10 +189,14 @@ class RenderJob::Implementation {
     control_.on_pass({progress(film.samples_per_pixel()), image});
   }
 
-  /// Updates the guides after a training iteration of `samples` samples per pixel.
-  void update_guiding(std::uint32_t samples) {
+  /// Updates the guides after a training iteration of `samples` samples per pixel, which were
+  /// rendered in `taken` seconds.
+  void update_guiding(std::uint32_t samples, double taken) {
     const double start = watch_.seconds();
-    if (guiding_->may_end_training(schedule_->fraction(result_.samples_per_pixel, seconds()))) {
+    IterationCost cost{.spent = schedule_->fraction(result_.samples_per_pixel, seconds())};
+    // What a budget of samples renders does not depend on the clock.
+    if (config().budget.seconds) cost.samples = samples, cost.seconds = taken;
+    if (guiding_->may_end_training(cost)) {
       schedule_->end_training();
       iteration_.training_left = 0;
     }

@@ -21,12 +21,16 @@ using test::Methods, test::TinyMixing, test::asked_methods, test::load_from, tes
     test::tiny_settings;
 
 /// Ends an iteration of paths that guides have drawn. Returns whether training may end.
-bool may_end(GuidingState& state, std::span<const double> guides, double spent,
+bool may_end(GuidingState& state, std::span<const double> guides, const IterationCost& cost,
              std::uint64_t seed) {
   for (std::uint64_t unit = 0; unit < 100; ++unit) {
     state.absorb(test::guided_paths(guides, 1000, 100 * seed + unit));
   }
-  return state.may_end_training(spent);
+  return state.may_end_training(cost);
+}
+bool may_end(GuidingState& state, std::span<const double> guides, double spent,
+             std::uint64_t seed) {
+  return may_end(state, guides, IterationCost{.spent = spent}, seed);
 }
 bool may_end(GuidingState& state, double guide, double spent, std::uint64_t seed) {
   return may_end(state, std::array{guide}, spent, seed);
@@ -177,6 +181,77 @@ TEST_CASE("guide trial: guides of little gain stay if they lower the noise enoug
     CHECK(*state.gain()->noise_ratio ==
           doctest::Approx(test::expected_ratio(0.8)).epsilon(0.05).scale(0));
   }
+}
+
+TEST_CASE("guide trial: the time of guided paths counts") {
+  GuidingSettings own = tiny_settings();
+  own.training.least_gain = 10;
+  own.training.most_noise = 1;
+  own.training.trial = 0.5;
+  const double ratio = test::expected_ratio(0.6);
+  REQUIRE(ratio > 0.5);
+  // One sample per pixel takes two seconds without guides.
+  for (const double cost : {0.9 / ratio, 1.1 / ratio}) {
+    CAPTURE(cost);
+    GuidingState state(own, {}), resumed(own, {});
+    may_end(state, std::array{0.5}, {.spent = 0.1, .samples = 3, .seconds = 6}, 1);
+    state.update({0, 3});
+    load_from(saved(state), resumed);
+    for (GuidingState* each : {&state, &resumed}) {
+      may_end(*each, std::array{0.6}, {.spent = 0.2, .samples = 5, .seconds = 10 * cost}, 2);
+      CHECK((each->worthwhile_share() == 1) == (cost * ratio < 1));
+      each->update({1, 0});
+      CHECK(each->gain()->is_off == (cost * ratio > 1));
+    }
+  }
+  // A budget of samples takes the usual cost.
+  for (const double most : {1.4 * ratio, 1.6 * ratio}) {
+    own.training.most_noise = most;
+    GuidingState state(own, {});
+    may_end(state, 0.5, 0.1, 1);
+    state.update({0, 3});
+    may_end(state, 0.6, 0.2, 2);
+    state.update({1, 0});
+    CHECK(state.gain()->is_off == (most < 1.5 * ratio));
+  }
+}
+
+TEST_CASE("guide trial: the image is expected to be better than the last iteration was") {
+  GuidingSettings own = tiny_settings();
+  own.training.least_gain = 10;
+  own.training.most_noise = 0.8 * test::expected_ratio(0.7);
+  for (const double before : {0.5, 0.7}) {
+    GuidingState state(own, {});
+    may_end(state, 0.5, 0.1, 1);
+    state.update({0, 3});
+    may_end(state, before, 0.1, 2);
+    state.update({1, 3});
+    may_end(state, 0.7, 0.1, 3);
+    state.update({2, 0});
+    // Another fall like the one from 1 to this ratio would suffice.
+    CHECK(state.gain()->is_off == (before == 0.7));
+  }
+}
+
+TEST_CASE(
+    "guide trial: useless guides learn on only if what may become of them is worth the time") {
+  GuidingSettings own = tiny_settings();
+  own.training.least_gain = 10;
+  own.training.most_noise = 1;
+  own.training.trial = 0.1;
+  const double fall = test::expected_ratio(0.7);
+  const auto ends = [&](double cost) {
+    GuidingState state(own, {});
+    may_end(state, std::array{0.5}, {.spent = 0, .samples = 1, .seconds = 1}, 1);
+    state.update({0, 9});
+    may_end(state, std::array{0.5}, {.spent = 0.1, .samples = 1, .seconds = cost}, 2);
+    state.update({1, 9});
+    return may_end(state, std::array{0.7}, {.spent = 0.11, .samples = 1, .seconds = cost}, 3);
+  };
+  // An image made now would have the noise of the last iteration times `fall`, and after another
+  // iteration the square of it.
+  CHECK_FALSE(ends(1.1 / (fall * fall)));
+  CHECK(ends(1.1 / (fall * fall * fall)));
 }
 
 TEST_CASE("guide trial: a guide that hardly helps is off after training, which ends early") {

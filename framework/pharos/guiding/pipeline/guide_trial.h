@@ -19,26 +19,40 @@ struct GuideGain {
   bool is_off = false;  ///< neither suffices, see TrainingSettings: the image is not guided
 };
 
+/// What a training iteration has taken.
+struct IterationCost {
+  double spent = 0;    ///< share of the budget that is spent after it [1]
+  double samples = 0;  ///< per pixel; 0: not known
+  double seconds =
+      0;  ///< of rendering them. Budgets of samples do not depend on it and leave it 0.
+};
+
 /// Puts the guides of a render on trial: measures how much they help, and decides when training
 /// ends, which methods go on, and whether the image is guided.
 ///
-/// Let training have spent the share s of the time, and let its next iteration take the share t. In
-/// the same time, training makes about half as many samples as the final image, because all guides
-/// are asked and learn (0.35 to 0.6 of them were measured). If training ends, 1 - s samples follow
-/// (in units of the final image's samples in the whole time). If it goes on, t / 2 samples follow
-/// that are as noisy (none if the images of training are discarded), and 1 - s - t that are less
-/// noisy. So it pays if the noise falls by a factor below (1 - s - t) / (1 - s - t / 2). The noise
-/// is expected to fall by as much as in the last iteration, or by e^-g if the gain has risen by g.
-/// A budget of samples stands for time here.
+/// Let q be the noise ratio times the time of a guided path over the time of an unguided one: in
+/// the same time, guided paths make an image with q times the error. The time is measured by
+/// training iterations with and without guides, or taken as 1.5 if the budget is a number of
+/// samples.
+///
+/// Let training have spent the share s of the time, and let its next iteration take the share t. If
+/// training ends, the rest of the time is worth (1 - s) / q times as much as the whole time without
+/// guides, or 1 - s if they are off. In the same time, training makes about half as many samples as
+/// the final image, because all guides are asked and learn (0.35 to 0.6 of them were measured). If
+/// it goes on, the rest is worth t / 2q (nothing if the images of training are discarded) plus
+/// (1 - s - t) / q', again with the better one of 1 / q and 1 for guides that may be turned off.
+/// The noise is expected to fall from q to q' by as much as in the last iteration, or by e^-g if
+/// the gain has risen by g. The same fall is expected from the last iteration, which the ratio is
+/// known of, to an image that is made now, because the guides have learned since.
 class GuideTrial {
  public:
   GuideTrial(const TrainingSettings& settings, PixelRect window);
 
   /// Takes the recorded paths of one work unit. `is_guided`: guides could take part in them.
   void absorb(const PathLog& log, bool is_guided);
-  /// Ends an iteration. `spent` is the share of the budget that was spent. Returns whether training
-  /// may end, because the guides have settled or are not worth going on.
-  bool end_iteration(double spent, bool is_guided);
+  /// Ends an iteration. Returns whether training may end, because the guides have settled or are
+  /// not worth going on.
+  bool end_iteration(const IterationCost& cost, bool is_guided);
   /// Returns the largest share of the budget that the next training iteration is worth [1]: all of
   /// it. If the guides may be useless, it is the rest of the share TrainingSettings::trial or half
   /// of that share, whichever is larger.
@@ -53,14 +67,19 @@ class GuideTrial {
   /// Returns how much the guides help, without a verdict; none if no guided iteration found light.
   std::optional<GuideGain> gain() const;
 
-  void archive(Archive& archive) { archive(gain_, noise_, parts_before_, spent_before_, spent_); }
+  void archive(Archive& archive) {
+    archive(gain_, noise_, parts_before_, spent_before_, spent_, unguided_samples_,
+            unguided_seconds_, guided_seconds_);
+  }
 
  private:
+  /// Returns the time of a guided path over the time of an unguided one [1].
+  double path_cost() const;
+  /// Returns q of an image that is made now; none if the noise ratio is unknown.
+  std::optional<double> noise_in_time() const;
   bool lowers_noise() const;
   bool may_be_useless() const;
-  /// Returns whether the guides may suffice after another iteration like the last one.
-  bool may_suffice() const;
-  /// Returns whether another iteration may lower the noise by more than it costs.
+  /// Returns whether another iteration may be worth more than the time that it takes.
   bool may_pay() const;
   /// Returns the share of the budget that the next training iteration will probably take [1].
   double next_share() const;
@@ -68,8 +87,11 @@ class GuideTrial {
   TrainingSettings settings_;
   HeldOutGain gain_;
   NoiseRatio noise_;
-  std::vector<HeldOutGain::Part> parts_before_;  ///< in the iteration before the last
-  double spent_before_ = 0, spent_ = 0;          ///< shares of the budget
+  std::vector<HeldOutGain::Part> parts_before_;         ///< in the iteration before the last
+  double spent_before_ = 0, spent_ = 0;                 ///< shares of the budget
+  double unguided_samples_ = 0, unguided_seconds_ = 0;  ///< of iterations without guides
+  double guided_seconds_ =
+      0;  ///< for each sample per pixel of the last guided iteration; 0: unknown
 };
 
 }  // namespace pharos

@@ -105,8 +105,8 @@ void GuidingState::absorb(const PathLog& log) {
   }
 }
 
-bool GuidingState::may_end_training(double spent) {
-  return trial_ && trial_->end_iteration(spent, frame_ != nullptr);
+bool GuidingState::may_end_training(const IterationCost& cost) {
+  return trial_ && trial_->end_iteration(cost, frame_ != nullptr);
 }
 
 void GuidingState::leave_out_dispensable_method() {
@@ -213,7 +213,7 @@ std::size_t GuidingState::model_bytes() const {
 }
 
 void GuidingState::archive(Archive& archive) {
-  archive.heading("guiding", 6);
+  archive.heading("guiding", 7);
   for (Source& source : sources_) {
     if (source.state != nullptr) source.state->archive(archive);
   }

@@ -24,9 +24,9 @@ class GuidingState {
   /// uses the guiders of the settings and must not outlive the settings.
   std::shared_ptr<const GuidingFrame> frame() const { return frame_; }
   void absorb(const PathLog& log);
-  /// Ends the recording of an iteration. `spent` is the share of the budget that was spent. Returns
-  /// whether training may end; see GuideTrial::end_iteration().
-  bool may_end_training(double spent);
+  /// Ends the recording of an iteration. Returns whether training may end; see
+  /// GuideTrial::end_iteration().
+  bool may_end_training(const IterationCost& cost);
   /// Returns the largest share of the budget that the next training iteration is worth [1].
   double worthwhile_share() const { return trial_ ? trial_->worthwhile_share() : 1; }
   void update(const TrainingStage& stage);

@@ -76,7 +76,7 @@ void HeldOutGain::end_iteration() {
 
 double HeldOutGain::possible_rise() const {
   if (!has_before_ || !has_last_) return std::numeric_limits<double>::infinity();
-  return last_.mean - before_.mean + std::sqrt(before_.variance + last_.variance);
+  return rise() + std::sqrt(before_.variance + last_.variance);
 }
 
 bool HeldOutGain::may_be_below(double least) const {

@@ -33,6 +33,9 @@ class HeldOutGain {
   bool may_reach(double least) const {
     return !has_before_ || last_.mean + std::max(0.0, last_.mean - before_.mean) >= least;
   }
+  /// Returns by how much the gain has risen from the iteration before to the last one [nats]; 0 if
+  /// one of them is unknown.
+  double rise() const { return has_before_ && has_last_ ? last_.mean - before_.mean : 0; }
   /// Returns by how much the gain may rise in the next iteration [nats]: by as much as from the
   /// iteration before to the last one, and another standard error. Infinite as long as the
   /// iteration before is unknown.

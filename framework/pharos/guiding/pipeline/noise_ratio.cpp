@@ -127,9 +127,9 @@ void NoiseRatio::end_iteration(bool is_guided) {
   }
 }
 
-std::optional<double> NoiseRatio::next() const {
-  if (!before_ || !value_ || !(*before_ > 0)) return std::nullopt;
-  return *value_ * *value_ / *before_;
+double NoiseRatio::fall() const {
+  if (!before_ || !value_ || !(*before_ > 0)) return 0;
+  return std::log(*before_ / *value_);
 }
 
 void NoiseRatio::archive(Archive& archive) {

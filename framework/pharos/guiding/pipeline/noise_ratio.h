@@ -43,9 +43,9 @@ class NoiseRatio {
   /// Returns the ratio of the last guided iteration [1]; none if it found no light, or if there was
   /// no light before it.
   std::optional<double> value() const { return value_; }
-  /// Returns the ratio of the next iteration if it changes by the same factor as from the guided
-  /// iteration before to the last one; none if one of them is unknown.
-  std::optional<double> next() const;
+  /// Returns by how much the logarithm of the ratio has fallen from the guided iteration before to
+  /// the last one [nats]; 0 if one of them is unknown. It is infinite if the last one is 0.
+  double fall() const;
 
   void archive(Archive& archive);
 

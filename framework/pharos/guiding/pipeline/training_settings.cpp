@@ -38,20 +38,22 @@ void TrainingSettings::describe(Schema<TrainingSettings>& s) {
       .unit("nats")
       .at_least(0);
   s.field("most_noise", &TrainingSettings::most_noise,
-          "A gain below `least_gain` still suffices if the guides lower the mean squared error of "
-          "images to this part or less; 0: it does not")
+          "A gain below `least_gain` still suffices if guides lower the mean squared error that an "
+          "image has after the same time to this part or less; 0: it does not")
       .at_least(0)
-      .below(1);
+      .at_most(1);
   s.field("least_part", &TrainingSettings::least_part,
           "A method is left out of the rest of the render if, without it, the gain would have been "
           "lower by less than this in each of the last two iterations; 0: none is left out")
       .unit("nats")
       .at_least(0);
-  s.field("trial", &TrainingSettings::trial,
-          "Once this share of the budget is spent, training ends if the guides do not suffice, and "
-          "would not after another change of gain and noise like the last one. Nothing is decided "
-          "before. Until they surely suffice, an iteration takes at most the rest of this share or "
-          "half of the share, whichever is larger")
+  s.field(
+       "trial", &TrainingSettings::trial,
+       "Once this share of the budget is spent, training ends if the guides do not suffice, and if "
+       "another change of gain and noise like the last one would not be worth its time. Nothing "
+       "is decided before. Until they surely suffice, an iteration takes at most the rest of this "
+       "share or "
+       "half of the share, whichever is larger")
       .at_least(0)
       .at_most(1);
 }

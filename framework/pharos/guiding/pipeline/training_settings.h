@@ -44,17 +44,17 @@ struct TrainingSettings {
   /// The final image is not guided if the gain of the guides is less than this [nats]. 0: always
   /// guided.
   double least_gain = 0;
-  /// A gain below `least_gain` still suffices if the guides lower the mean squared error of images
-  /// to this part or less [1]; see NoiseRatio. 0: it does not.
+  /// A gain below `least_gain` still suffices if guides lower the mean squared error that an image
+  /// has after the same time to this part or less [1]; see GuideTrial. 0: it does not.
   double most_noise = 0;
   /// A method is left out of the rest of the render if, without it, the gain would have been lower
   /// by less than this in each of the last two iterations [nats]. 0: none is left out.
   double least_part = 0;
-  /// Once this share of the budget is spent, training ends if the guides do not suffice, and would
-  /// not after another change of gain and noise like the last one. Nothing is decided before. Until
-  /// they surely suffice (the gain exceeds `least_gain` by a standard error, or the noise is low
-  /// enough), an iteration takes at most the rest of this share or half of the share, whichever
-  /// is larger; see Spending::largest_share.
+  /// Once this share of the budget is spent, training ends if the guides do not suffice, and if
+  /// another change of gain and noise like the last one would not be worth its time. Nothing is
+  /// decided before. Until they surely suffice (the gain exceeds `least_gain` by a standard error,
+  /// or the noise is low enough), an iteration takes at most the rest of this share or half of the
+  /// share, whichever is larger; see Spending::largest_share.
   double trial = 1.0 / 16;
 
   /// Returns how many of the first `samples` samples per pixel of an iteration are recorded.
