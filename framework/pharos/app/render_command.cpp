@@ -62,9 +62,12 @@ void report(const RenderResult& result, const RenderConfig& config) {
                        result.stopped ? " (interrupted)" : ""));
   if (result.gain) {
     const std::optional<double> noise = result.gain->noise_ratio;
+    const std::string cost =
+        config.budget.seconds ? fmt::format(" in {:.2g} times their time", result.gain->path_cost)
+                              : "";
     log_info(fmt::format(
         "the guides' gain is {:.2g} nats a step{}{}", result.gain->nats,
-        noise ? fmt::format(", with {:.2g} times the noise of unguided paths", *noise) : "",
+        noise ? fmt::format(", with {:.2g} times the noise of unguided paths{}", *noise, cost) : "",
         result.gain->is_off ? "; that is too little, so the image is not guided" : ""));
   }
   if (!config.output.model.empty() && result.learned == nullptr) {

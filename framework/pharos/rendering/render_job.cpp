@@ -195,7 +195,10 @@ class RenderJob::Implementation {
     const double start = watch_.seconds();
     IterationCost cost{.spent = schedule_->fraction(result_.samples_per_pixel, seconds())};
     // What a budget of samples renders does not depend on the clock.
-    if (config().budget.seconds) cost.samples = samples, cost.seconds = taken;
+    if (config().budget.seconds) {
+      cost.samples = samples;
+      cost.seconds = taken;
+    }
     if (guiding_->may_end_training(cost)) {
       schedule_->end_training();
       iteration_.training_left = 0;

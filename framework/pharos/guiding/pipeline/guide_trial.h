@@ -16,7 +16,8 @@ struct GuideGain {
   double nats = 0;  ///< gain in the last training iteration, see HeldOutGain
   /// Mean squared error of guided images over the error of unguided ones [1], see NoiseRatio.
   std::optional<double> noise_ratio;
-  bool is_off = false;  ///< neither suffices, see TrainingSettings: the image is not guided
+  double path_cost = 1;  ///< time of a guided path over the time of an unguided one [1]
+  bool is_off = false;   ///< neither suffices, see TrainingSettings: the image is not guided
 };
 
 /// What a training iteration has taken.
@@ -40,10 +41,10 @@ struct IterationCost {
 /// guides, or 1 - s if they are off. In the same time, training makes about half as many samples as
 /// the final image, because all guides are asked and learn (0.35 to 0.6 of them were measured). If
 /// it goes on, the rest is worth t / 2q (nothing if the images of training are discarded) plus
-/// (1 - s - t) / q', again with the better one of 1 / q and 1 for guides that may be turned off.
-/// The noise is expected to fall from q to q' by as much as in the last iteration, or by e^-g if
-/// the gain has risen by g. The same fall is expected from the last iteration, which the ratio is
-/// known of, to an image that is made now, because the guides have learned since.
+/// (1 - s - t) / q', or plus 1 - s - t if the guides are off then. The noise is expected to fall
+/// from q to q' by as much as in the last iteration, or by e^-g if the gain may rise by g. The
+/// noise ratio was measured in the last iteration. The guides have learned since, so the ratio of
+/// an image that is made now is expected to be lower, by as much as in that iteration.
 class GuideTrial {
  public:
   GuideTrial(const TrainingSettings& settings, PixelRect window);

@@ -127,8 +127,8 @@ void NoiseRatio::end_iteration(bool is_guided) {
   }
 }
 
-double NoiseRatio::fall() const {
-  if (!before_ || !value_ || !(*before_ > 0)) return 0;
+std::optional<double> NoiseRatio::fall() const {
+  if (!before_ || !value_ || !(*before_ > 0)) return std::nullopt;
   return std::log(*before_ / *value_);
 }
 

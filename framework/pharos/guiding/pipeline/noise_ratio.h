@@ -44,8 +44,8 @@ class NoiseRatio {
   /// no light before it.
   std::optional<double> value() const { return value_; }
   /// Returns by how much the logarithm of the ratio has fallen from the guided iteration before to
-  /// the last one [nats]; 0 if one of them is unknown. It is infinite if the last one is 0.
-  double fall() const;
+  /// the last one [nats]; none if one of them is unknown. It is infinite if the last one is 0.
+  std::optional<double> fall() const;
 
   void archive(Archive& archive);
 

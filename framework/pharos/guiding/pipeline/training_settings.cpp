@@ -49,11 +49,12 @@ void TrainingSettings::describe(Schema<TrainingSettings>& s) {
       .at_least(0);
   s.field(
        "trial", &TrainingSettings::trial,
-       "Once this share of the budget is spent, training ends if the guides do not suffice, and if "
-       "another change of gain and noise like the last one would not be worth its time. Nothing "
-       "is decided before. Until they surely suffice, an iteration takes at most the rest of this "
-       "share or "
-       "half of the share, whichever is larger")
+       "Once this share of the budget is spent, training ends if the guides do not suffice, unless "
+       "the gain may reach `least_gain` in another iteration, or the noise may fall by enough to "
+       "be "
+       "worth its time. Nothing is decided before. Until they surely suffice, an iteration takes "
+       "at "
+       "most the rest of this share or half of it, whichever is larger")
       .at_least(0)
       .at_most(1);
 }
