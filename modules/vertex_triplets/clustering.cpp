@@ -13,12 +13,13 @@ namespace {
 template <int D>
 constexpr int kAddedParameters = D + D*(D + 1) / 2 + 1;
 
-/// Returns sums about `center` over the points on the positive side of the plane through `center`
-/// across `axis`.
+/// Returns sums about `center` over the points on each side of the plane through `center` across
+/// `axis`. The sums of one side are not the difference of two sums, which would have no correct
+/// digits where that side has little weight.
 template <int D>
-Sums<D> sums_beyond(const Points<D>& points, const std::array<float, D>& center,
-                    const std::array<float, D>& axis) {
-  Sums8<D> sums;
+std::array<Sums<D>, 2> sums_of_sides(const Points<D>& points, const std::array<float, D>& center,
+                                     const std::array<float, D>& axis) {
+  std::array<Sums8<D>, 2> sums;
   for (const auto& points8 : points.registers()) {
     std::array<Float8, D> d;
     Float8 along{};
@@ -26,9 +27,10 @@ Sums<D> sums_beyond(const Points<D>& points, const std::array<float, D>& center,
       d[i] = points8.x[i] - center[i];
       along += d[i] * axis[i];
     }
-    sums.add(along > 0 ? points8.weight : Float8{}, d);
+    sums[0].add(along > 0 ? points8.weight : Float8{}, d);
+    sums[1].add(along > 0 ? Float8{} : points8.weight, d);
   }
-  return sums.summed();
+  return {sums[0].summed(), sums[1].summed()};
 }
 
 template <int D>
@@ -93,16 +95,11 @@ std::optional<Mixture<D>> best_halves(const Cluster<D>& cluster, const Regulariz
   const Eigen::SelfAdjointEigenSolver<Matrix<D>> eigen(cluster.sums.covariance());
   for (int i = D - 1; i >= 0; --i) {
     const Vector<D> axis = eigen.eigenvectors().col(i);
-    const Sums<D> beyond = sums_beyond<D>(cluster.points, cluster.center, rounded<D>(axis));
-    Sums<D> rest = cluster.sums;
-    rest -= beyond;
     Mixture<D> halves;
     double score = 0;
-    for (const Sums<D>& half : {beyond, rest}) {
-      // The difference of sums may be a rounding error instead of zero.
-      constexpr double kLeastShare = 1e-6;
+    for (const Sums<D>& half : sums_of_sides<D>(cluster.points, cluster.center, rounded<D>(axis))) {
       const double share = half.weight / cluster.sums.weight;
-      if (!(share > kLeastShare) || !(half.squared_weight > 0)) break;
+      if (!(share > 0) || !(half.squared_weight > 0)) break;
       const Matrix<D> covariance = regularized<D>(half.covariance(), half.count(), rule);
       score += share * (std::log(share) + mean_log_density<D>(half.covariance(), covariance));
       halves.weights.push_back(share);

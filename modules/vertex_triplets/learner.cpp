@@ -25,6 +25,10 @@ void VertexTripletsSettings::describe(Schema<VertexTripletsSettings>& s) {
   s.field("reservoir", &S::reservoir, "Maximum number of samples that a cell keeps")
       .at_least(8)
       .at_most(1u << 20);
+  s.field("least_effective", &S::least_effective,
+          "A cell is divided only if it keeps effectively more samples (Kish) than this; cells are "
+          "then also compared by this number. 0: they are compared by plain counts of new samples")
+      .at_least(0);
   s.field("jitter", &S::jitter,
           "Edge of the box in which a sample's position is jittered to choose its cell, relative "
           "to the edge of the sample's own cell")

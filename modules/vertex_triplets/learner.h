@@ -18,6 +18,7 @@ struct VertexTripletsSettings {
   std::uint32_t cells = 64;
   std::uint32_t components = 32;
   std::uint32_t reservoir = 1024;
+  double least_effective = 0;
   float jitter = 0.2f;
   float single_deviation = 0.1f;
   float least_deviation = 1e-4f;

@@ -77,11 +77,13 @@ void VertexTripletsLearningState::insert() {
 Learned VertexTripletsLearningState::update(const TrainingStage&) {
   insert();
   const std::vector<double> counted = counts();
-  const double threshold = std::accumulate(counted.begin(), counted.end(), 0.0) / settings_.cells;
+  const double all = std::accumulate(counted.begin(), counted.end(), 0.0);
+  const double threshold = std::max(all / settings_.cells, settings_.least_effective);
   collapse(threshold);
   Learned learned = fit();
   if (learned.model == nullptr) return learned;
   for (std::uint32_t i = 0; i < cells_.size(); ++i) cells_[i].origin = i;
+  camera_region_ = static_cast<std::uint32_t>(cells_.size());
   divide(threshold);
   for (Cell& cell : cells_) cell.count = 0;
   return learned;
@@ -89,7 +91,9 @@ Learned VertexTripletsLearningState::update(const TrainingStage&) {
 
 std::vector<double> VertexTripletsLearningState::counts() const {
   std::vector<double> result;
-  for (const Cell& cell : cells_) result.push_back(cell.count);
+  for (const Cell& cell : cells_) {
+    result.push_back(settings_.least_effective > 0 ? cell.reservoir.effective_size() : cell.count);
+  }
   return result;
 }
 
@@ -172,14 +176,15 @@ Learned VertexTripletsLearningState::fit() const {
     }
     origins.push_back(cells_[c].origin);
   }
+  origins.push_back(camera_region_);
   return {std::make_shared<VertexTripletsModel>(rule_.kind, tree_, knowledge,
                                                 CameraMixture(std::move(camera)), sample_bytes()),
           std::move(origins)};
 }
 
 void VertexTripletsLearningState::archive(Archive& archive) {
-  archive.heading("vertex_triplets_learning", 2);
-  archive(lessons_, tree_, samples_);
+  archive.heading("vertex_triplets_learning", 3);
+  archive(camera_region_, lessons_, tree_, samples_);
   archive.list(cells_, [&] { return Cell{Reservoir(settings_.reservoir)}; });
   bool is_sound = cells_.size() == tree_.cell_count();
   for (const Cell& cell : cells_) is_sound &= cell.count >= 0;

@@ -33,6 +33,8 @@ class VertexTripletsLearningState final : public LearningState {
   /// Inserts the waiting samples into the reservoirs of their cells.
   void insert();
   std::uint32_t jittered_cell(const Sample& sample, std::uint64_t number) const;
+  /// Returns the numbers of samples by which cells are compared: of new ones, or effective numbers
+  /// of kept ones.
   std::vector<double> counts() const;
   void collapse(double threshold);
   void divide(double threshold);
@@ -44,9 +46,10 @@ class VertexTripletsLearningState final : public LearningState {
   std::uint64_t seed_;
   Octree tree_;
   std::vector<Cell> cells_;
-  std::uint64_t lessons_ = 0;    ///< number of calls of insert()
-  std::vector<Sample> samples_;  ///< samples that wait for insert()
-  std::vector<Rgb> incident_;    ///< scratch
+  std::uint32_t camera_region_ = 0;  ///< region of the camera in the last model
+  std::uint64_t lessons_ = 0;        ///< number of calls of insert()
+  std::vector<Sample> samples_;      ///< samples that wait for insert()
+  std::vector<Rgb> incident_;        ///< scratch
 };
 
 }  // namespace pharos::vertex_triplets

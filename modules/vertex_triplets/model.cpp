@@ -64,7 +64,7 @@ void VertexTripletsModel::archive(Archive& archive) {
 
 Place VertexTripletsModel::place(const GuidingVertex& vertex) const {
   if (vertex.kind == VertexKind::sensor) {
-    return {.evidence = camera_.empty() ? 0.0f : std::max(all_samples_, 1.0f)};
+    return {tree_.cell_count(), camera_.empty() ? 0.0f : std::max(all_samples_, 1.0f)};
   }
   const std::uint32_t cell = tree_.cell_at(vertex.position);
   const bool is_known = pairs_.knows_something(cell) || triplets_.knows_something(cell);
@@ -80,9 +80,9 @@ std::size_t VertexTripletsModel::size_bytes() const {
 ModelInfo VertexTripletsModel::info() const {
   const std::size_t bytes = size_bytes();
   return {.name = std::string(kName),
-          .version = 3,
+          .version = 4,
           .bytes = bytes,
-          .regions = tree_.cell_count(),
+          .regions = tree_.cell_count() + 1,
           .facts = {{"vertices", kind_.prefix == Prefix::pair ? "pairs"
                                  : kind_.both_ways            ? "triplets, both ways"
                                                               : "triplets"},

@@ -49,8 +49,8 @@ class VertexTripletsModel final : public GuidingModel, public SpatialMixture {
 
   ModelInfo info() const override;
   void archive(Archive& archive) override;
-  /// The regions are the cells. Vertices on the lens, where first vertices are sampled, belong to
-  /// region 0.
+  /// The regions are the cells, and the last one is the camera: vertices on the lens, where first
+  /// vertices are sampled.
   Place place(const GuidingVertex& vertex) const override;
   double density(Point3 point, const Vec3* direction) const override;
   std::span<const SpatialGaussian> mixture_at(const GuidingQuery& query,

@@ -17,10 +17,14 @@ float scattering_share(const LocalScattering& scattering, float specular_roughne
   return roughness > 0 ? std::max(0.0f, 1 - roughness / specular_roughness) : 0.0f;
 }
 
-TargetMask mask_of(VertexKind kind) {
-  return kind == VertexKind::volume        ? TargetMask::volume
-         : kind == VertexKind::environment ? TargetMask::environment
-                                           : TargetMask::surface;
+/// The kinds of vertices that a step meets if it does not end in a volume: its direction
+/// decides between surfaces and the environment.
+constexpr TargetMask kBehindVolume = TargetMask::surface | TargetMask::environment;
+
+/// Returns whether a group's next vertices, or the vertex that a step has met, are in a volume.
+template <class Next>
+bool ends_in_volume(const Next& next) {
+  return next.kind == VertexKind::volume;
 }
 
 /// Returns the result of `compute(lane)` in all lanes with a component, and 0 in the others.
@@ -85,7 +89,7 @@ auto NextDistribution::choose(float u) const -> Branch {
 
 Vec3 NextDistribution::direction_to(const Branch& branch, Vec2 u, float v) const {
   const NextGroup& next = *branch.group->next;
-  const bool in_volume = next.kind == VertexKind::volume;
+  const bool in_volume = ends_in_volume(next);
   if (!in_volume && technique_ == SurfaceTechnique::projected) {
     return branch.group->projection.sample(branch.lane, u);
   }
@@ -100,9 +104,8 @@ Vec3 NextDistribution::direction_to(const Branch& branch, Vec2 u, float v) const
 
 Vec3 NextDistribution::scattered_direction(Event event, const VertexStream& stream) const {
   if (!is_discrete(event)) {
-    const auto sample =
-        scattering_.sample(stream.get_1d(Purpose::bsdf_choice),
-                           stream.get_2d(Purpose::bsdf_direction), pharos::mask_of(event));
+    const auto sample = scattering_.sample(stream.get_1d(Purpose::bsdf_choice),
+                                           stream.get_2d(Purpose::bsdf_direction), mask_of(event));
     return sample ? sample->direction : Vec3{};
   }
   for (const DiscreteOutcome& outcome : scattering_.discrete()) {
@@ -114,7 +117,7 @@ Vec3 NextDistribution::scattered_direction(Event event, const VertexStream& stre
 std::optional<Proposal> NextDistribution::propose(const VertexStream& stream) const {
   const Branch branch = choose(stream.get_1d(Purpose::guide_choice));
   const NextGroup& next = *branch.group->next;
-  const bool in_volume = next.kind == VertexKind::volume;
+  const bool in_volume = ends_in_volume(next);
   const float v = stream.get_1d(Purpose::guide_distance);
   const bool scatters = stream.get_1d(Purpose::guide_choice, 1) < by_scattering(next.event);
   const Vec3 to = scatters ? scattered_direction(next.event, stream)
@@ -122,10 +125,10 @@ std::optional<Proposal> NextDistribution::propose(const VertexStream& stream) co
   const float distance = length(to);
   if (!(distance > 0)) return std::nullopt;
   Proposal proposal{.direction = to / distance,
-                    .events = pharos::mask_of(next.event),
+                    .events = mask_of(next.event),
                     .reach = in_volume ? Proposal::Reach::distance : Proposal::Reach::surface,
                     .distance = distance,
-                    .targets = mask_of(next.kind)};
+                    .targets = in_volume ? TargetMask::volume : kBehindVolume};
   if (scatters && in_volume) {
     const DistancesAlong distances(next.gaussian(branch.lane), origin_, proposal.direction);
     if (!distances.is_possible()) return std::nullopt;
@@ -154,7 +157,7 @@ Float8 NextDistribution::distance_densities(const Branches& branches,
 Float8 NextDistribution::densities(const Branches& branches, const ResolvedVertex& vertex,
                                    float scattering_pdf) const {
   const float scatters = by_scattering(vertex.event);
-  const bool in_volume = vertex.kind == VertexKind::volume;
+  const bool in_volume = ends_in_volume(vertex);
   Float8 density{};
   if (scatters > 0 && scattering_pdf > 0) {
     density = all8(scatters * scattering_pdf);
@@ -172,13 +175,13 @@ Float8 NextDistribution::densities(const Branches& branches, const ResolvedVerte
 float NextDistribution::density(const ResolvedVertex& vertex) const {
   const bool discrete = is_discrete(vertex.event);
   const float scattering_pdf =
-      discrete ? 1.0f
-      : by_scattering_ > 0
-          ? scattering_.evaluate(vertex.direction, pharos::mask_of(vertex.event)).pdf
-          : 0.0f;
+      discrete             ? 1.0f
+      : by_scattering_ > 0 ? scattering_.evaluate(vertex.direction, mask_of(vertex.event)).pdf
+                           : 0.0f;
   Float8 total{};
   for (const Branches& branches : branches_) {
-    if (branches.next->event != vertex.event || branches.next->kind != vertex.kind) continue;
+    if (branches.next->event != vertex.event) continue;
+    if (ends_in_volume(*branches.next) != ends_in_volume(vertex)) continue;
     total += branches.share * densities(branches, vertex, scattering_pdf);
   }
   return sum(total);

@@ -61,13 +61,6 @@ struct Sums {
   Vector<D> first = Vector<D>::Zero();
   Matrix<D> second = Matrix<D>::Zero();
 
-  Sums& operator-=(const Sums& other) {
-    weight -= other.weight;
-    squared_weight -= other.squared_weight;
-    first -= other.first;
-    second -= other.second;
-    return *this;
-  }
   /// Returns the effective number of points (Kish 1965; Schuessler et al. 2022, eq. 43). Requires
   /// weight > 0.
   double count() const { return weight * weight / squared_weight; }

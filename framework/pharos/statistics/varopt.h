@@ -61,6 +61,16 @@ class VarOptReservoir {
   std::size_t size() const { return heavy_.size() + light_.size(); }
   /// The sum of the weights of all items that were inserted.
   double total_weight() const { return total_; }
+  /// The effective number of items in the sample (Kish 1965): the squared sum of their weights over
+  /// the sum of their squared weights; 0 without items. A few heavy items count for few.
+  double effective_size() const {
+    double sum = 0, squares = 0;
+    for_each([&](const Item&, double weight) {
+      sum += weight;
+      squares += weight * weight;
+    });
+    return squares > 0 ? sum * sum / squares : 0;
+  }
 
   /// The items that keep their own weights, the items that share one weight, and this shared
   /// weight, the threshold.

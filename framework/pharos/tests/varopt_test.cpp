@@ -103,6 +103,18 @@ TEST_CASE("VAROPT: fewer items than places keep their weights; worthless ones ar
   CHECK(reservoir.threshold() == 0);
 }
 
+TEST_CASE("VAROPT: the effective size is the number of equal weights that say as much") {
+  RandomStream random(3);
+  Reservoir reservoir(8);
+  CHECK(reservoir.effective_size() == 0);
+  for (int i = 0; i < 4; ++i) reservoir.insert(i, 2, random);
+  CHECK(reservoir.effective_size() == doctest::Approx(4));
+  reservoir.insert(4, 1e6, random);
+  CHECK(reservoir.effective_size() == doctest::Approx(1).epsilon(1e-4));
+  for (int i = 5; i < 100; ++i) reservoir.insert(i, 1e6, random);
+  CHECK(reservoir.effective_size() == doctest::Approx(8).epsilon(1e-3));
+}
+
 TEST_CASE("VAROPT: a reservoir of a reservoir has the same expectations") {
   const std::vector<double> weights = heavy_tailed_weights(30);
   double sum = 0;

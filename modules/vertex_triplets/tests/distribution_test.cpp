@@ -86,6 +86,22 @@ TEST_CASE("on surfaces: directions follow their density, which integrates to one
   }
 }
 
+TEST_CASE("surfaces and the environment are one set of directions") {
+  std::vector<NextVertex> next;
+  for (const auto& g : any_gaussians(4, 1)) {
+    const VertexKind kind = next.size() % 2 == 0 ? VertexKind::surface : VertexKind::environment;
+    next.push_back(next_vertex(g, 0.25f, Event::scatter, kind));
+  }
+  const InMedium at(next, 0);
+  for (const VertexKind met : {VertexKind::surface, VertexKind::environment}) {
+    const auto fit = fit_directions(*at.guide, met);
+    CHECK(fit.is_density());
+    CHECK(fit.missed == 0);
+    CHECK(fit.integral == doctest::Approx(1).epsilon(1e-3));
+    CHECK(fit.chi_square.p_value > 1e-4);
+  }
+}
+
 TEST_CASE("near specular: shares of the phase function and of the Gaussians (eq. 22 to 25)") {
   std::vector<NextVertex> next;
   for (const auto& g : any_gaussians(3, 2)) {
@@ -322,7 +338,13 @@ TEST_CASE("discrete events: each as often as its components' shares, distances i
   const auto reflected = guide->density(
       {.distance = 1, .kind = VertexKind::surface, .event = Event::discrete_reflect});
   CHECK(reflected == doctest::Approx(0.6f));
-  CHECK(guide->density({.kind = VertexKind::environment, .event = Event::discrete_reflect}) == 0);
+  // The direction decides whether a surface or the environment is met.
+  CHECK(guide->density({.kind = VertexKind::environment, .event = Event::discrete_reflect}) ==
+        doctest::Approx(0.6f));
+  CHECK(guide->density({.distance = 1,
+                        .position = {0, 0, 2},
+                        .kind = VertexKind::volume,
+                        .event = Event::discrete_reflect}) == 0);
   CHECK(over_distances(*guide, -back, Event::discrete_transmit) ==
         doctest::Approx(0.4).epsilon(1e-2));
   RandomStream random(9);

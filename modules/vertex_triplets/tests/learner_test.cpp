@@ -170,7 +170,7 @@ TEST_CASE("samples: lights that no step can meet are of a kind of their own; not
 
 /// Adds paths over a mirror-like floor under a lens. Light reaches a point of the floor from the
 /// mirrored direction of the lens.
-void add_mirror_paths(PathLog& log, int count, std::uint64_t seed) {
+void add_mirror_paths(PathLog& log, int count, std::uint64_t seed, float light = 1) {
   RandomStream random(seed);
   for (int i = 0; i < count; ++i) {
     const Vec2 u = random.next_2d(), v = random.next_2d();
@@ -186,7 +186,7 @@ void add_mirror_paths(PathLog& log, int count, std::uint64_t seed) {
                            .local_weight = Rgb(1),
                            .direction = normalize(ceiling - floor)});
     log.add(RecordedVertex{
-        .position = ceiling, .parent = 1, .emission = Rgb(1), .joint_emission = Rgb(1)});
+        .position = ceiling, .parent = 1, .emission = Rgb(light), .joint_emission = Rgb(light)});
   }
 }
 
@@ -260,6 +260,39 @@ TEST_CASE("learning: triplets know a mirror's direction, pairs its mean") {
   settings.vertices = Prefix::pair;
   const auto pairs = learned(settings);
   CHECK(mirror_error(*pairs) > 0.2);
+}
+
+TEST_CASE("learning: cells divide by effective numbers, which a few heavy samples do not raise") {
+  const auto cells = [](double least_effective, float heavy) {
+    const auto state =
+        VertexTripletsLearner({.cells = 64, .least_effective = least_effective}).begin(context());
+    PathLog log;
+    add_mirror_paths(log, 4000, 3);
+    add_mirror_paths(log, 40, 5, heavy);
+    state->absorb(log);
+    state->update({0, 1});
+    state->absorb(mirror_paths(1, 4));
+    return state->update({1, 0}).model->info().regions - 1;
+  };
+  CHECK(cells(0, 1e6f) > 1);
+  CHECK(cells(200, 1) > 1);
+  CHECK(cells(200, 1e6f) == 1);  // 40 heavy samples have all the weight
+}
+
+TEST_CASE("learning: the camera is a region of its own, which comes from itself") {
+  const auto state = VertexTripletsLearner({.cells = 16}).begin(context());
+  std::uint32_t before = 0;
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    state->absorb(mirror_paths(2000, i));
+    const Learned learned = state->update({i, 2 - i});
+    const std::uint32_t regions = learned.model->info().regions;
+    REQUIRE(learned.region_origins.size() == regions);
+    CHECK(learned.region_origins.back() == before);
+    const GuidingVertex lens{.position = {0.5f, 0.5f, 1}, .kind = VertexKind::sensor};
+    CHECK(learned.model->place(lens).region == regions - 1);
+    CHECK(learned.model->place({.position = {0.5f, 0.5f, 0}}).region < regions - 1);
+    before = regions - 1;
+  }
 }
 
 TEST_CASE("learning: knows nothing of nothing") {
