@@ -13,6 +13,9 @@
 // integrator to sample `all` lights. The base sampler provides all other numbers, and the numbers
 // of integrands without an edge.
 //
+// With guiding, a part of the samples is drawn by the BSDF. With `ordered_choice`, the direction
+// numbers of these samples are evenly spread along the (first) normal, up to the seam of the shift.
+//
 // Sets have 64, 256, 1024 or 4096 points. The sampler uses the largest set that the samples of a
 // pixel fill. With fewer than 64 samples, the base sampler provides all numbers and nothing is
 // probed. With `directions: 4`, the points are aligned with two edges at once. The sets for two
@@ -61,18 +64,26 @@ class SetTable {
       PointSet set = library_.find(wanted, size_);
       sort_into_cells(set);
       points_.insert(points_.end(), set.begin(), set.end());
+      const std::vector<std::uint32_t> of_set = spread_choices(set, entry->first.front());
+      choices_.insert(choices_.end(), of_set.begin(), of_set.end());
     }
     return entry->second;
   }
   /// The points of all sets, one set after the other, each sorted into cells.
   const PointSet& points() const { return points_; }
+  /// The numbers of spread_choices() of these points.
+  const std::vector<std::uint32_t>& choices() const { return choices_; }
 
  private:
   const PointSetLibrary& library_;
   std::uint32_t size_;
   std::map<std::vector<int>, std::uint32_t> begins_;
   PointSet points_;
+  std::vector<std::uint32_t> choices_;
 };
+
+/// The choice between guide and BSDF at the first hit, and the number of the BSDF's direction.
+constexpr Dimension kChoice{Purpose::mix_choice, 1}, kChosen{Purpose::bsdf_direction, 1};
 
 /// The 128 bits of a product.
 struct WideProduct {
@@ -87,7 +98,7 @@ WideProduct wide_product(std::uint64_t a, std::uint64_t b) {
 class PreparedAligned final : public PreparedSampler {
  public:
   PreparedAligned(std::unique_ptr<const PreparedSampler> base, const DirectionField& field,
-                  const PointSetLibrary& library, std::uint32_t size)
+                  const PointSetLibrary& library, std::uint32_t size, bool ordered_choice)
       : base_(std::move(base)),
         places_(field.dimensions()),
         bits_(std::countr_zero(size)),
@@ -107,10 +118,16 @@ class PreparedAligned final : public PreparedSampler {
       }
     }
     points_ = table.points();
+    choices_ = table.choices();
+    if (ordered_choice) chosen_place_ = places_.find(kChosen);
   }
 
   std::uint64_t begin(const PathKey& key) const override { return base_->begin(key); }
   float value_1d(const SampleStream& stream, Dimension dimension) const override {
+    if (dimension == kChoice && chosen_place_ >= 0) {
+      const std::uint32_t set = set_of(stream.key().index, chosen_place_);
+      if (set != SetTable::kNone) return choice(set, stream.key());
+    }
     return base_->value_1d(stream, dimension);
   }
   Vec2 value_2d(const SampleStream& stream, Dimension dimension) const override {
@@ -118,7 +135,7 @@ class PreparedAligned final : public PreparedSampler {
     if (place < 0) return base_->value_2d(stream, dimension);
     const std::uint32_t set = set_of(stream.key().index, place);
     if (set == SetTable::kNone) return base_->value_2d(stream, dimension);
-    return shifted(points_.data() + set, stream.key(), dimension);
+    return shifted(set, stream.key(), dimension);
   }
   std::span<const FilmSample> film_samples() const override { return film_samples_; }
 
@@ -130,21 +147,38 @@ class PreparedAligned final : public PreparedSampler {
     return sets_[static_cast<std::size_t>(place) * pixel_count_ + known];
   }
 
-  /// Returns the sample's point. All samples of the pixel's set share one toroidal shift. The hash
-  /// uses both halves of two wide products, because every path pays for it. Each bit of these
-  /// products depends on many bits of both factors.
-  Vec2 shifted(const GridPoint* set, const PathKey& key, Dimension dimension) const {
+  /// Two random words that all samples of a pixel's set share.
+  struct SetKey {
+    std::uint64_t offset;
+    std::uint32_t order;
+  };
+  /// The hash uses both halves of two wide products, because every path pays for it. Each bit of
+  /// these products depends on many bits of both factors.
+  SetKey set_key(const PathKey& key, Dimension dimension) const {
     const std::uint64_t pixel = key.index * 0xb564ef22ec7aece5ull + key.seed;
     const std::uint64_t part = dimension.code() * 0x9fb21c651e98df25ull +
                                ((std::uint64_t{key.iteration} << 32) | (key.sample >> bits_));
     const WideProduct mixed =
         wide_product(pixel ^ 0xd1342543de82ef95ull, part ^ 0xaf251af3b0f025b5ull);
     const WideProduct bits = wide_product(mixed.high ^ mixed.low, 0xf7c2ebc08f67f2b5ull);
-    const std::uint64_t offset = bits.high ^ bits.low;
-    const GridPoint p = set[orders_.place(key.sample, static_cast<std::uint32_t>(bits.high))];
+    return {bits.high ^ bits.low, static_cast<std::uint32_t>(bits.high)};
+  }
+
+  /// Returns the sample's point, shifted on the torus.
+  Vec2 shifted(std::uint32_t set, const PathKey& key, Dimension dimension) const {
+    const auto [offset, order] = set_key(key, dimension);
+    const GridPoint p = points_[set + orders_.place(key.sample, order)];
     // Sums of 32 bits wrap around like the torus.
     return {to_unit_float((std::uint32_t{p.x} << 16) + static_cast<std::uint32_t>(offset >> 32)),
             to_unit_float((std::uint32_t{p.y} << 16) + static_cast<std::uint32_t>(offset))};
+  }
+
+  /// Returns the number that decides whether a guide or the BSDF draws the direction for which the
+  /// sample has a point of the set.
+  float choice(std::uint32_t set, const PathKey& key) const {
+    const std::uint32_t order = set_key(key, kChosen).order;
+    const auto offset = static_cast<std::uint32_t>(set_key(key, kChoice).offset);
+    return to_unit_float(choices_[set + orders_.place(key.sample, order)] + offset);
   }
 
   std::unique_ptr<const PreparedSampler> base_;
@@ -154,6 +188,8 @@ class PreparedAligned final : public PreparedSampler {
   std::size_t pixel_count_;
   std::vector<std::uint32_t> sets_;  ///< by dimension, then by pixel
   PointSet points_;
+  std::vector<std::uint32_t> choices_;  ///< of the points, see spread_choices()
+  int chosen_place_ = -1;               ///< of kChosen; -1: choices are numbers of the base
   std::vector<FilmSample> film_samples_;
 };
 
@@ -185,6 +221,9 @@ void AlignedSettings::describe(Schema<AlignedSettings>& s) {
           "Largest number of directions that points are aligned with, including both axes")
       .at_least(3)
       .at_most(2 + kMostFree);
+  s.field("ordered_choice", &S::ordered_choice,
+          "If bsdf_direction is aligned: choose between guide and BSDF so that the numbers of the "
+          "directions that the BSDF draws stay evenly spread along the normal of the edge");
   s.field("angles", &S::angles,
           "Normals of the edges for all pixels; if empty, they are estimated for each block")
       .unit("degrees")
@@ -264,7 +303,8 @@ std::unique_ptr<const PreparedSampler> AlignedSampler::prepare(const PixelGrid& 
                               aligned_dimensions(settings_.purposes, settings_.lights));
   const PointSetLibrary library(
       {.cache_folder = settings_.cache_folder, .pair_step = settings_.pair_step});
-  return std::make_unique<PreparedAligned>(std::move(base), field, library, size);
+  return std::make_unique<PreparedAligned>(std::move(base), field, library, size,
+                                           settings_.ordered_choice);
 }
 
 }  // namespace pharos::aligned

@@ -19,6 +19,7 @@ struct AlignedSettings {
   std::vector<Purpose> purposes{Purpose::light_position};
   int lights = 4;
   int directions = 3;
+  bool ordered_choice = false;
   std::vector<double> angles;
   std::optional<std::uint32_t> samples;
   bool synthesize = false;

@@ -14,6 +14,11 @@ namespace pharos::aligned {
 /// axes. The first k bits of a point's index then identify its cell at level k.
 void sort_into_cells(std::span<GridPoint> points);
 
+/// Returns a number for each of 2^b points (b >= 1), as a fraction of 2^32. Points whose numbers
+/// are below any limit are evenly spread along a direction [degrees]: the number is the point's
+/// rank along it, with the bits in reverse order.
+std::vector<std::uint32_t> spread_choices(std::span<const GridPoint> points, double direction);
+
 /// The orders in which samples visit the sorted points of sets with 2^bits points.
 class SetOrders {
  public:

@@ -1,7 +1,9 @@
 #include "../aligned_sampler.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
+#include <optional>
 #include <set>
 #include <utility>
 #include <vector>
@@ -82,8 +84,9 @@ std::multiset<Steps> steps_of(const std::vector<Vec2>& points) {
   return steps;
 }
 
-/// Returns whether the points are the points of a set, moved by one toroidal shift.
-bool is_shifted_set(const std::vector<Vec2>& points, const PointSet& set) {
+/// Returns the toroidal shift that moves a set to the points, in steps of 2^-24; none if they are
+/// not the points of the set.
+std::optional<Steps> shift_of(const std::vector<Vec2>& points, const PointSet& set) {
   const std::multiset<Steps> found = steps_of(points);
   const Steps first = *found.begin();
   for (const GridPoint start : set) {
@@ -94,9 +97,13 @@ bool is_shifted_set(const std::vector<Vec2>& points, const PointSet& set) {
       moved.emplace((x + (std::uint32_t{p.x} << 8)) & 0xffffff,
                     (y + (std::uint32_t{p.y} << 8)) & 0xffffff);
     }
-    if (moved == found) return true;
+    if (moved == found) return Steps{x, y};
   }
-  return false;
+  return std::nullopt;
+}
+
+bool is_shifted_set(const std::vector<Vec2>& points, const PointSet& set) {
+  return shift_of(points, set).has_value();
 }
 
 PointSet set_of(double angle) {
@@ -115,6 +122,44 @@ TEST_CASE("aligned: a pixel's points are those of the set, moved") {
     CHECK_FALSE(is_shifted_set(points_of(*sampler, key, kLight), set_of(31)));
     CHECK_FALSE(is_shifted_set(points_of(*sampler, key, kLight, 64, 32), set));
   }
+}
+
+TEST_CASE("aligned: ordered choices take points at even distances along the normal") {
+  constexpr Dimension kChoice{Purpose::mix_choice, 1}, kDirection{Purpose::bsdf_direction, 1};
+  AlignedSettings ordered = stated(30);
+  ordered.purposes = {Purpose::bsdf_direction};
+  ordered.ordered_choice = true;
+  const auto sampler = AlignedSampler(ordered).prepare(kFilm, kPlan, nullptr);
+  const PathKey key{.seed = 3, .index = 77};
+  const std::vector<Vec2> points = points_of(*sampler, key, kDirection);
+  const std::optional<Steps> shift = shift_of(points, set_of(30));
+  REQUIRE(shift);
+  /// A sample's place along the normal before the shift, and its choice.
+  std::vector<std::pair<double, float>> along;
+  for (std::uint32_t i = 0; i < 64; ++i) {
+    const auto before = [](float x, std::uint32_t by) {
+      return (static_cast<std::uint32_t>(x * 0x1p24f) - by) & 0xffffff;
+    };
+    const double place = std::cos(radians(30)) * before(points[i].x, shift->first) +
+                         std::sin(radians(30)) * before(points[i].y, shift->second);
+    PathKey sample = key;
+    sample.sample = i;
+    along.emplace_back(place, SampleStream(*sampler, sample).get_1d(kChoice));
+  }
+  std::ranges::sort(along);
+  for (std::size_t rank = 0; rank < 64; ++rank) {
+    double expected = along[0].second;
+    for (std::size_t bit = 0; bit < 6; ++bit)
+      expected += std::ldexp(rank >> bit & 1, -1 - static_cast<int>(bit));
+    CHECK(along[rank].second == doctest::Approx(expected - std::floor(expected)).epsilon(1e-5));
+  }
+}
+
+TEST_CASE("aligned: without ordered choices, they are numbers of the base") {
+  const auto sampler = AlignedSampler(stated(30)).prepare(kFilm, kPlan, nullptr);
+  const PathKey key{.seed = 3, .index = 77};
+  constexpr Dimension kChoice{Purpose::mix_choice, 1};
+  CHECK(SampleStream(*sampler, key).get_1d(kChoice) == base_number(key, kChoice).x);
 }
 
 TEST_CASE("aligned: pixels, sets, lights, seeds and iterations have other offsets and orders") {

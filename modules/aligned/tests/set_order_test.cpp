@@ -1,6 +1,8 @@
 #include "../set_order.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 #include <tuple>
 #include <vector>
 
@@ -46,6 +48,26 @@ TEST_CASE("set order: points are sorted into the cells of a kd-tree") {
   std::vector<GridPoint> again = sorted;
   std::ranges::sort(again, less);
   CHECK(again == points);
+}
+
+TEST_CASE("set order: points chosen by their numbers are evenly spread along the direction") {
+  const std::vector<GridPoint> points = random_points(2);
+  const std::vector<std::uint32_t> choices = spread_choices(points, 30);
+  std::vector<std::size_t> ranked(kCount);
+  std::iota(ranked.begin(), ranked.end(), std::size_t{0});
+  std::ranges::sort(ranked, {}, [&](std::size_t i) {
+    return std::cos(0.5235987756) * points[i].x + 0.5 * points[i].y;
+  });
+  for (const std::uint32_t chosen : {1u, 8u, 16u, 32u}) {
+    const std::uint32_t step = kCount / chosen;
+    for (std::uint32_t rank = 0; rank < kCount; ++rank) {
+      const bool is_chosen = choices[ranked[rank]] < (chosen << (32 - kBits));
+      CHECK(is_chosen == (rank % step == 0));
+    }
+  }
+  std::vector<std::uint32_t> sorted = choices;
+  std::ranges::sort(sorted);
+  for (std::uint32_t i = 0; i < kCount; ++i) CHECK(sorted[i] == i << (32 - kBits));
 }
 
 TEST_CASE("set order: aligned runs of samples have a point in each cell") {
