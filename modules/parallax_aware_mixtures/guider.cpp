@@ -27,15 +27,7 @@ void ParallaxAwareMixturesGuiderSettings::describe(Schema<ParallaxAwareMixturesG
   s.field("product", &ParallaxAwareMixturesGuiderSettings::product,
           "Factor that mixtures are multiplied by at a vertex: nothing, a lobe in place of the "
           "cosine, or lobes fitted to the BSDF or phase function");
-  s.field("bsdf_samples", &ParallaxAwareMixturesGuiderSettings::bsdf_samples,
-          "For `bsdf`: number of sampled directions to which these lobes are fitted")
-      .at_least(4)
-      .at_most(kMostScatteringSamples);
-  s.field("bsdf_tail", &ParallaxAwareMixturesGuiderSettings::bsdf_tail,
-          "For `bsdf`: directions whose density is below this share of the largest density form "
-          "the second lobe")
-      .above(0)
-      .below(1);
+  describe_scattering_fit(s);
   s.example("{ product: none }");
   s.example("{ product: bsdf }");
 }
@@ -54,14 +46,10 @@ const GuidingDistribution* ParallaxAwareMixturesGuider::query(
 /// Returns the lobes that the mixture is multiplied by.
 ScatteringLobes ParallaxAwareMixturesGuider::factors_at(const GuidingQuery& query) const {
   if (settings_.product == ProductFactor::bsdf) {
-    return fit_scattering(*query.scattering, {settings_.bsdf_samples, settings_.bsdf_tail});
+    return fit_scattering(*query.scattering, settings_);
   }
-  const bool is_opaque = query.current.kind == VertexKind::surface &&
-                         !contains(query.scattering->events(), Event::smooth_transmit);
-  if (settings_.product == ProductFactor::none || !is_opaque) return {};
-  const Vec3 n = query.current.shading_normal;
-  const Vec3 towards_path = dot(n, query.towards_previous) < 0 ? -n : n;
-  return {.lobes = {Factor{towards_path, kCosineKappa}}, .count = 1};
+  if (settings_.product == ProductFactor::none || !is_opaque_surface(query)) return {};
+  return {.lobes = {ScatteringLobe{normal_towards_path(query), kCosineKappa}}, .count = 1};
 }
 
 }  // namespace pharos::parallax_aware_mixtures

@@ -1,29 +1,15 @@
 #pragma once
 
-#include <array>
-#include <string_view>
-#include <utility>
-
 #include <pharos/config/schema.h>
 #include <pharos/guiding/contract/guider.h>
+#include <pharos/guiding/toolkit/scattering_lobes.h>
 
 #include "model.h"
-#include "scattering_lobes.h"
 
-namespace pharos {
-namespace parallax_aware_mixtures {
+namespace pharos::parallax_aware_mixtures {
 
-/// The factor that the mixture of incident radiance is multiplied by.
-enum class ProductFactor {
-  none,    ///< nothing
-  cosine,  ///< a lobe in place of the cosine, on opaque surfaces
-  bsdf     ///< lobes in place of BSDF and cosine, or of the phase function
-};
-
-struct ParallaxAwareMixturesGuiderSettings {
+struct ParallaxAwareMixturesGuiderSettings : ScatteringFit {
   ProductFactor product = ProductFactor::cosine;
-  std::uint32_t bsdf_samples = 16;
-  float bsdf_tail = 0.1f;
   static void describe(Schema<ParallaxAwareMixturesGuiderSettings>& schema);
 };
 
@@ -43,14 +29,4 @@ class ParallaxAwareMixturesGuider final : public GuiderOf<ParallaxAwareMixturesM
   Settings settings_;
 };
 
-}  // namespace parallax_aware_mixtures
-
-template <>
-struct EnumNames<parallax_aware_mixtures::ProductFactor> {
-  static constexpr auto names = std::to_array<EnumName<parallax_aware_mixtures::ProductFactor>>(
-      {{"none", parallax_aware_mixtures::ProductFactor::none},
-       {"cosine", parallax_aware_mixtures::ProductFactor::cosine},
-       {"bsdf", parallax_aware_mixtures::ProductFactor::bsdf}});
-};
-
-}  // namespace pharos
+}  // namespace pharos::parallax_aware_mixtures

@@ -25,6 +25,7 @@ class ParallaxAwareMixturesLessons {
       : settings_(settings), seed_(context.seed) {}
 
   const ParallaxAwareMixturesSettings& settings() const { return settings_; }
+  std::uint64_t seed() const { return seed_; }
   void extract(const PathView& path, std::vector<Sample>& samples) {
     extract_samples(path, {settings_.least_pdf, settings_.glossy}, scratch_, samples);
   }

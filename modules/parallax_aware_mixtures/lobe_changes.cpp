@@ -5,9 +5,9 @@
 
 #include <pharos/core/frame.h>
 #include <pharos/core/parallel.h>
+#include <pharos/statistics/von_mises_fisher.h>
 
 #include "lobe_simd.h"
-#include "vmf.h"
 
 namespace pharos::parallax_aware_mixtures {
 namespace {
@@ -17,7 +17,8 @@ namespace {
 /// kappa_a mu_a + kappa_b mu_b - kappa mu.
 double overlap(const Lobe& a, const Lobe& b, const Lobe& whole) {
   const double rest = (a.kappa * a.mean + b.kappa * b.mean - whole.kappa * whole.mean).norm();
-  return std::exp(log_norm(a.kappa) + log_norm(b.kappa) - log_norm(whole.kappa) - log_norm(rest));
+  return std::exp(von_mises_fisher::log_norm(a.kappa) + von_mises_fisher::log_norm(b.kappa) -
+                  von_mises_fisher::log_norm(whole.kappa) - von_mises_fisher::log_norm(rest));
 }
 
 Vec3 to_vec(const Direction& d) {
@@ -36,7 +37,7 @@ struct TestLobes8 {
         t[axis][i] = frame.t[axis];
       }
       slope[i] = static_cast<float>(-0.5 * lobe.kappa) * kLog2E;
-      mode[i] = static_cast<float>(mode_density(lobe.kappa));
+      mode[i] = static_cast<float>(von_mises_fisher::mode_density(lobe.kappa));
       weight[i] = static_cast<float>(lobe.weight);
     }
   }
@@ -133,11 +134,12 @@ PlacedLobe PlacedLobe::seen_from(const Direction& step) const {
 
 Lobe merged(const Lobe& a, const Lobe& b) {
   const double weight = a.weight + b.weight;
-  const Direction resultant =
-      (a.weight * mean_cosine(a.kappa) * a.mean + b.weight * mean_cosine(b.kappa) * b.mean) /
-      weight;
+  const Direction resultant = (a.weight * von_mises_fisher::mean_cosine(a.kappa) * a.mean +
+                               b.weight * von_mises_fisher::mean_cosine(b.kappa) * b.mean) /
+                              weight;
   const double length = resultant.norm();
-  return {weight, length > 0 ? Direction(resultant / length) : a.mean, concentration(length)};
+  return {weight, length > 0 ? Direction(resultant / length) : a.mean,
+          von_mises_fisher::concentration(length)};
 }
 
 double merge_cost(const Lobe& i, const Lobe& j) {
@@ -151,12 +153,14 @@ double merge_cost(const Lobe& i, const Lobe& j) {
 std::array<Lobe, 2> halves(const Lobe& lobe, const Direction& axis, double most_kappa) {
   std::array<Lobe, 2> parts{lobe, lobe};
   const double stretch = std::sqrt(1 + axis.squaredNorm());
-  const double cosine = mean_cosine(lobe.kappa) * stretch;
+  const double cosine = von_mises_fisher::mean_cosine(lobe.kappa) * stretch;
   for (int side : {0, 1}) {
     Lobe& part = parts[static_cast<std::size_t>(side)];
     part.weight = lobe.weight / 2;
     part.mean = (lobe.mean + (side == 0 ? 1.0 : -1.0) * axis) / stretch;
-    part.kappa = cosine < mean_cosine(most_kappa) ? concentration(cosine) : most_kappa;
+    part.kappa = cosine < von_mises_fisher::mean_cosine(most_kappa)
+                     ? von_mises_fisher::concentration(cosine)
+                     : most_kappa;
   }
   return parts;
 }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "vmf.h"
+#include <pharos/statistics/von_mises_fisher.h>
 
 namespace pharos::parallax_aware_mixtures {
 namespace {
@@ -14,14 +14,15 @@ constexpr float kMostKappa = 1e8f;
 LobeGroup empty_group() {
   LobeGroup group;
   group.mean[2] = all8(1);
-  group.kappa = all8(kLeastKappa);
-  group.mode = all8(static_cast<float>(mode_density(kLeastKappa)));
+  group.kappa = all8(von_mises_fisher::kLeastKappa);
+  group.mode =
+      all8(static_cast<float>(von_mises_fisher::mode_density(von_mises_fisher::kLeastKappa)));
   return group;
 }
 
 void set_shape(LobeGroup& group, std::size_t lane, float kappa) {
   group.kappa[lane] = kappa;
-  group.mode[lane] = static_cast<float>(mode_density(kappa));
+  group.mode[lane] = static_cast<float>(von_mises_fisher::mode_density(kappa));
 }
 
 }  // namespace
@@ -36,7 +37,8 @@ void append_groups(const Mixture& mixture, std::span<const double> inverse_dista
     for (int axis = 0; axis < 3; ++axis) {
       group.mean[axis][lane] = static_cast<float>(mixture[k].mean[axis]);
     }
-    set_shape(group, lane, std::max(static_cast<float>(mixture[k].kappa), kLeastKappa));
+    set_shape(group, lane,
+              std::max(static_cast<float>(mixture[k].kappa), von_mises_fisher::kLeastKappa));
     group.inverse_distance[lane] = static_cast<float>(inverse_distances[k]);
   }
 }
@@ -59,8 +61,8 @@ bool is_sound(const std::vector<LobeGroup>& groups) {
     for (std::size_t i = 0; i < kLanes; ++i) {
       const Vec3 mean{group.mean[0][i], group.mean[1][i], group.mean[2][i]};
       const float kappa = group.kappa[i];
-      const bool is_lobe = group.weight[i] >= 0 && kappa >= kLeastKappa && kappa <= kMostKappa &&
-                           std::abs(length_squared(mean) - 1) < 1e-4f &&
+      const bool is_lobe = group.weight[i] >= 0 && kappa >= von_mises_fisher::kLeastKappa &&
+                           kappa <= kMostKappa && std::abs(length_squared(mean) - 1) < 1e-4f &&
                            group.inverse_distance[i] >= 0 &&
                            group.inverse_distance[i] <= kLargestInverse;
       if (!is_lobe) return false;

@@ -12,15 +12,12 @@ namespace pharos::parallax_aware_mixtures {
 struct LobeGroup {
   Float8 weight{};            ///< the weights of all groups add up to 1
   Float8 mean[3]{};           ///< unit
-  Float8 kappa{};             ///< >= kLeastKappa
+  Float8 kappa{};             ///< >= von_mises_fisher::kLeastKappa
   Float8 mode{};              ///< the lobe's density at its mean [1/sr]
   Float8 inverse_distance{};  ///< 1 / distance of the light [1/scene unit]; 0: infinitely far
 
   void archive(Archive& archive);
 };
-
-/// Lower bound of kappa, so that quotients of differences stay numerically stable.
-inline constexpr float kLeastKappa = 1e-3f;
 
 /// Upper bound of inverse distances [1/scene unit]. A file with larger ones is damaged.
 inline constexpr double kLargestInverse = 1e12;

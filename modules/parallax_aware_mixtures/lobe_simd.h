@@ -4,16 +4,15 @@
 
 #include <pharos/core/simd.h>
 #include <pharos/core/vec.h>
+#include <pharos/guiding/toolkit/lobe_products.h>
 
 /// Eight lobes side by side.
 namespace pharos::parallax_aware_mixtures {
 
 inline constexpr std::size_t kLanes = 8;
 
-/// Returns |a - w|^2. For unit vectors this is 2 (1 - cos) and keeps the digits of small angles.
 inline Float8 squared_distance(const Float8 (&a)[3], Vec3 w) {
-  const Float8 x = a[0] - w.x, y = a[1] - w.y, z = a[2] - w.z;
-  return x * x + y * y + z * z;
+  return pharos::squared_distance(Lanes3<Float8>{a[0], a[1], a[2]}, w);
 }
 
 /// Returns the largest of eight numbers.

@@ -1,6 +1,6 @@
 #include "seen_lobes.h"
 
-#include "vmf.h"
+#include <pharos/guiding/toolkit/lobe_products.h>
 
 namespace pharos::parallax_aware_mixtures {
 namespace {
@@ -15,46 +15,14 @@ void shift(const LobeGroup& lobes, Vec3 offset, SeenGroup& seen) {
   constexpr float kLeast = 1e-12f;  // nearer to the light, the direction stays unchanged
   const Mask8 is_apart = squared > kLeast;
   const Float8 over = 1 / sqrt(larger(squared, all8(kLeast)));
-  seen.mean[0] = is_apart ? x * over : lobes.mean[0];
-  seen.mean[1] = is_apart ? y * over : lobes.mean[1];
-  seen.mean[2] = is_apart ? z * over : lobes.mean[2];
-}
-
-/// Returns the density at the mean for kappa >= kLeastKappa [1/sr]. For flat lobes it uses the
-/// series, because the difference in the formula would lose digits.
-Float8 mode_density8(const Float8& kappa) {
-  constexpr float kOverTwoPi = 0.159154943f, kFlat = 0.1f;
-  const Float8 flat = 0.5f * kOverTwoPi * (1 + kappa * (1 + (1.0f / 3) * kappa));
-  return kappa < kFlat ? flat : kappa * kOverTwoPi / (1 - exp(-2 * kappa));
-}
-
-/// Multiplies the lobes by another lobe: kappa' mu' = kappa mu + kappa_f mu_f. The weight changes
-/// by the quotient of the densities at the means, and by e^(kappa' - kappa - kappa_f). This
-/// exponent equals -kappa kappa_f |mu - mu_f|^2 / (kappa' + kappa + kappa_f).
-void multiply(const LobeGroup& lobes, const Factor& factor, SeenGroup& seen) {
-  const Float8& kappa = lobes.kappa;
-  const Vec3 f = factor.kappa * factor.mean;
-  const Float8 apart = squared_distance(seen.mean, factor.mean);
-  const Float8 x = kappa * seen.mean[0] + f.x, y = kappa * seen.mean[1] + f.y,
-               z = kappa * seen.mean[2] + f.z;
-  const Float8 length = sqrt(x * x + y * y + z * z);
-  const Float8 product = larger(length, all8(kLeastKappa)), over = 1 / product;
-  const Float8 exponent = -kappa * factor.kappa * apart / (product + kappa + factor.kappa);
-  const Float8 mode = mode_density8(product);
-  seen.share = lobes.weight * factor.peak * (lobes.mode / mode) * exp(exponent);
-  seen.scale = mode;
-  seen.kappa = product;
-  // The product of opposite lobes of the same concentration is a flat lobe.
-  const Mask8 is_flat = length < kLeastKappa;
-  seen.mean[0] = is_flat ? seen.mean[0] : x * over;
-  seen.mean[1] = is_flat ? seen.mean[1] : y * over;
-  seen.mean[2] = is_flat ? seen.mean[2] : z * over;
+  seen.mean = {is_apart ? x * over : lobes.mean[0], is_apart ? y * over : lobes.mean[1],
+               is_apart ? z * over : lobes.mean[2]};
 }
 
 }  // namespace
 
 const SeenLobes* SeenLobes::make(std::span<const LobeGroup> groups, Vec3 offset,
-                                 std::span<const Factor> factors, Arena& arena) {
+                                 std::span<const ScatteringLobe> factors, Arena& arena) {
   const std::size_t copies = factors.empty() ? 1 : factors.size();
   const std::size_t count = groups.size() * copies;
   SeenGroup* seen = arena.make_array<SeenGroup>(count);
@@ -67,7 +35,12 @@ const SeenLobes* SeenLobes::make(std::span<const LobeGroup> groups, Vec3 offset,
       seen[i].scale = lobes.mode;
       seen[i].kappa = lobes.kappa;
     } else {
-      multiply(lobes, factors[i % copies], seen[i]);
+      const LobeProducts product =
+          multiply(seen[i].mean, lobes.kappa, lobes.mode, factors[i % copies]);
+      seen[i].mean = product.mean;
+      seen[i].share = lobes.weight * product.integral;
+      seen[i].scale = product.mode;
+      seen[i].kappa = product.kappa;
     }
     seen[i].slope = (-0.5f * kLog2E) * seen[i].kappa;
     sums += seen[i].share;
@@ -104,8 +77,7 @@ Vec3 SeenLobes::sample(float choice, Vec2 u) const {
     choice -= share;
   }
   const SeenGroup& g = groups_[group];
-  return parallax_aware_mixtures::sample({g.mean[0][lane], g.mean[1][lane], g.mean[2][lane]},
-                                         g.kappa[lane], u);
+  return von_mises_fisher::sample(lane_of(g.mean, static_cast<unsigned>(lane)), g.kappa[lane], u);
 }
 
 }  // namespace pharos::parallax_aware_mixtures

@@ -3,7 +3,9 @@
 #include <span>
 
 #include <pharos/core/arena.h>
+#include <pharos/core/lanes3.h>
 #include <pharos/core/vec.h>
+#include <pharos/guiding/toolkit/scattering_lobes.h>
 
 #include "lobe_mixture.h"
 
@@ -13,18 +15,11 @@ namespace pharos::parallax_aware_mixtures {
 struct SeenGroup {
   SeenGroup() {}  // leaves the members uninitialized, so that arrays of groups are not cleared
 
-  Float8 mean[3];
+  Lanes3<Float8> mean;
   Float8 kappa;
   Float8 slope;  ///< -log2(e) kappa / 2; times squared_distance() it is the exponent to base 2
   Float8 share;  ///< probability of choosing the lobe
   Float8 scale;  ///< share times the density at the mean [1/sr]
-};
-
-/// One lobe that a mixture is multiplied by.
-struct Factor {
-  Vec3 mean;        ///< unit
-  float kappa = 0;  ///< > 0
-  float peak = 1;   ///< its value at the mean, up to a constant common to all factors
 };
 
 /// A mixture of lobes as seen from a vertex: a distribution over directions.
@@ -35,7 +30,7 @@ class SeenLobes {
   /// of the factors; their products with lobes are lobes again. Without factors it stays unchanged.
   /// The result lives in `arena`. Returns null if the product is zero.
   static const SeenLobes* make(std::span<const LobeGroup> groups, Vec3 offset,
-                               std::span<const Factor> factors, Arena& arena);
+                               std::span<const ScatteringLobe> factors, Arena& arena);
 
   explicit SeenLobes(std::span<const SeenGroup> groups) : groups_(groups) {}
 

@@ -5,9 +5,9 @@
 #include <limits>
 
 #include <pharos/core/parallel.h>
+#include <pharos/statistics/von_mises_fisher.h>
 
 #include "lobe_simd.h"
-#include "vmf.h"
 
 namespace pharos::parallax_aware_mixtures {
 namespace {
@@ -20,7 +20,8 @@ struct LogLobes8 {
       const Lobe lobe = is_lobe ? mixture[first + i] : Lobe{};
       for (int axis = 0; axis < 3; ++axis) mean[axis][i] = static_cast<float>(lobe.mean[axis]);
       half_kappa[i] = static_cast<float>(0.5 * lobe.kappa);
-      log_scale[i] = is_lobe ? static_cast<float>(std::log(lobe.weight * mode_density(lobe.kappa)))
+      log_scale[i] = is_lobe ? static_cast<float>(std::log(
+                                   lobe.weight * von_mises_fisher::mode_density(lobe.kappa)))
                              : -std::numeric_limits<float>::infinity();
     }
   }
@@ -141,7 +142,7 @@ void maximize(std::span<const Moments> moments, const FitRules& rules, Mixture& 
     share += mixture[number(rules, i)].weight;
   }
   if (!(total > 0)) return;
-  const double most_cosine = mean_cosine(rules.most_kappa);
+  const double most_cosine = von_mises_fisher::mean_cosine(rules.most_kappa);
   for (std::size_t i = 0; i < count; ++i) {
     const Moments& m = moments[number(rules, i)];
     Lobe& lobe = mixture[number(rules, i)];
@@ -150,7 +151,7 @@ void maximize(std::span<const Moments> moments, const FitRules& rules, Mixture& 
     if (!(length > 0)) continue;
     lobe.mean = m.resultant / length;
     const double cosine = length / (m.weight + rules.prior_strength);
-    lobe.kappa = cosine < most_cosine ? concentration(cosine) : rules.most_kappa;
+    lobe.kappa = cosine < most_cosine ? von_mises_fisher::concentration(cosine) : rules.most_kappa;
   }
 }
 
@@ -162,7 +163,7 @@ double objective(const Mixture& mixture, double log_likelihood, double seen,
     const Moments old = rules.frozen.empty() ? Moments{} : rules.frozen[k];
     const double counts = old.weight + rules.prior_share * seen;
     if (counts > 0) value += counts * std::log(lobe.weight);
-    value += (old.weight + rules.prior_strength) * log_norm(lobe.kappa) +
+    value += (old.weight + rules.prior_strength) * von_mises_fisher::log_norm(lobe.kappa) +
              lobe.kappa * lobe.mean.dot(old.resultant);
   }
   return value;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <numeric>
+#include <set>
 #include <utility>
 
 #include <pharos/core/random.h>
@@ -99,12 +100,14 @@ class CellUpdate {
       : cell_(cell),
         samples_(samples),
         settings_(settings),
+        scene_size_(scene_size),
         least_size_(settings.least_size * scene_size) {}
 
   void run(RandomStream& random) {
     if (!cell_.knows_something()) begin(random);
     middle_ = mean_origin() - cell_.pivot_;
     const WeightedPoints<3> all = points_of(samples_, cell_.pivot_);
+    set_prior(all);
     points_ = chosen_of(all, settings_.most_fit_samples(), random);
     frozen_ = cell_.moments_;
     fit({});
@@ -119,18 +122,31 @@ class CellUpdate {
  private:
   MixtureFit<3> rules(std::span<const std::size_t> changing) const {
     return {.frozen = frozen_,
-            .prior = {settings_.prior_counts, settings_.prior_strength, cell_.prior_variance_},
+            .prior = {settings_.prior_counts, settings_.prior_strength},
+            .prior_variances = prior_variances_,
             .floors = floors_,
             .changing = changing,
             .most_iterations = settings_.em_iterations,
             .tolerance = settings_.em_tolerance};
   }
 
-  /// Sets the lower bounds of the eigenvalues for the current positions of the components, and
-  /// applies them. As seen from the middle of the samples' origins, no component is then more
-  /// concentrated than the largest concentration allows.
-  void set_floors() {
+  /// Returns whether a position is on the environment. Other targets are within the scene.
+  bool is_far(const Vector<3>& position) const { return (position - middle_).norm() > scene_size_; }
+  /// If targets of one kind have not been found, it has the other's variance.
+  double prior_variance(const Vector<3>& mean) const {
+    const double own = is_far(mean) ? cell_.far_variance_ : cell_.near_variance_;
+    return own > 0 ? own : std::max(cell_.near_variance_, cell_.far_variance_);
+  }
+
+  /// Sets the variances of the prior, and the lower bounds of the eigenvalues, for the current
+  /// positions of the components, and applies the bounds. As seen from the middle of the samples'
+  /// origins, no component is then more concentrated than the largest concentration allows.
+  void set_bounds() {
+    prior_variances_.clear();
     floors_.clear();
+    for (const Gaussian3& g : cell_.mixture_.components) {
+      prior_variances_.push_back(prior_variance(g.mean));
+    }
     for (const Gaussian3& g : cell_.mixture_.components) {
       floors_.push_back(std::max((g.mean - middle_).squaredNorm() / settings_.largest_concentration,
                                  least_size_ * least_size_));
@@ -155,20 +171,45 @@ class CellUpdate {
     const auto centers = spread_centers(points, settings_.components, random);
     const std::vector<Moments3> moments = moments_about(centers, points);
     const Moments3 all = std::accumulate(moments.begin(), moments.end(), Moments3{});
-    cell_.prior_variance_ = std::max(all.covariance().trace() / 3, least_size_ * least_size_);
+    set_prior(points);
     const auto count = moments.size();
     cell_.mixture_.weights.assign(count, 1.0 / static_cast<double>(count));
-    const Gaussian3 ball{all.mean(), cell_.prior_variance_ * Matrix<3>::Identity()};
+    const Gaussian3 ball{all.mean(), prior_variance(all.mean()) * Matrix<3>::Identity()};
     cell_.mixture_.components.assign(count, ball);
     cell_.moments_.assign(count, {});
     cell_.tests_.assign(count, {});
     frozen_.clear();
     floors_.clear();
+    prior_variances_.clear();
+    for (const Moments3& m : moments) {
+      prior_variances_.push_back(prior_variance(m.weight > 0 ? m.mean() : all.mean()));
+    }
     statistics::maximize<3>(moments, rules({}), cell_.mixture_);
   }
 
+  /// Sets the variances of the prior that are not yet known. Distant points that stand for the
+  /// environment would make components on small lamps as wide as the scene, so each kind has its
+  /// own.
+  void set_prior(const WeightedPoints<3>& points) {
+    Moments3 near, far;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Vector<3> x = points.point(i);
+      (is_far(x) ? far : near) += Moments3::of(points.weight(i), x, Matrix<3>::Zero());
+    }
+    const auto set = [&](const Moments3& found, double& variance) {
+      const double own = found.weight > 0 ? found.covariance().trace() / 3 : 0;
+      // A single point has no variance.
+      if (variance == 0 && own > least_size_ * least_size_) variance = own;
+    };
+    set(near, cell_.near_variance_);
+    set(far, cell_.far_variance_);
+    if (cell_.near_variance_ == 0 && cell_.far_variance_ == 0) {
+      cell_.near_variance_ = least_size_ * least_size_;
+    }
+  }
+
   void fit(std::span<const std::size_t> changing) {
-    set_floors();
+    set_bounds();
     seen_ = statistics::fit_mixture(cell_.mixture_, points_, rules(changing)).seen;
   }
 
@@ -188,12 +229,41 @@ class CellUpdate {
   void merge() {
     cell_.since_merge_ = 0;
     const Mixture& m = cell_.mixture_;
+    std::set<std::pair<std::size_t, std::size_t>> refused;
     merge_cheapest_pairs(
         settings_.merge_threshold, [&] { return m.size(); },
-        [&](std::size_t i, std::size_t j, double) {
-          return merge_cost(m.weights[i], m.components[i], m.weights[j], m.components[j]);
+        [&](std::size_t i, std::size_t j, double least) {
+          const double cost =
+              merge_cost(m.weights[i], m.components[i], m.weights[j], m.components[j]);
+          if (cost >= least) return cost;
+          if (!refused.contains({i, j}) && !would_be_split(i, j)) return cost;
+          refused.insert({i, j});
+          return kNeverMerged;
         },
-        [&](std::size_t i, std::size_t j) { join(i, j); });
+        [&](std::size_t i, std::size_t j) {
+          join(i, j);
+          refused.clear();  // other pairs have these numbers now
+        });
+  }
+
+  static constexpr double kNeverMerged = std::numeric_limits<double>::infinity();
+
+  /// Returns whether the directions ask to split what would replace a pair of components. Merges
+  /// look at positions and splits at directions, so the same pair could be merged and split again
+  /// and again. Few samples do not tell.
+  bool would_be_split(std::size_t i, std::size_t j) const {
+    if (samples_.size() < settings_.split_samples) return false;
+    Mixture merged = cell_.mixture_;
+    const auto part = [&](std::size_t k) {
+      return Moments3::of(merged.weights[k], merged.components[k].mean,
+                          merged.components[k].covariance);
+    };
+    const Moments3 both = part(i) + part(j);
+    merged.weights[i] += merged.weights[j];
+    merged.components[i] = {both.mean(), both.covariance()};
+    merged.weights.erase(merged.weights.begin() + static_cast<std::ptrdiff_t>(j));
+    merged.components.erase(merged.components.begin() + static_cast<std::ptrdiff_t>(j));
+    return asks_for_split(test(merged)[i]);
   }
 
   void join(std::size_t i, std::size_t j) {
@@ -212,19 +282,20 @@ class CellUpdate {
     erase(cell_.tests_);
     erase(cell_.moments_);
     erase(floors_);
+    erase(prior_variances_);
     const std::size_t changed[] = {i};
     maximize(changed);
   }
 
   void split_where_needed() {
-    add_tests(test());
-    split_until_settled([&] { return test(); }, [&] { return split(); },
+    add_tests(test(cell_.mixture_));
+    split_until_settled([&] { return test(cell_.mixture_); }, [&] { return split(); },
                         [&](std::span<const std::size_t> changed) { fit(changed); },
                         [&](std::size_t k, const DirectionTest& t) { cell_.tests_[k] = t; });
   }
 
-  std::vector<DirectionTest> test() const {
-    return test_directions(cell_.mixture_, cell_.pivot_, samples_,
+  std::vector<DirectionTest> test(const Mixture& mixture) const {
+    return test_directions(mixture, cell_.pivot_, samples_,
                            settings_.least_density * warp::sphere_pdf());
   }
   void add_tests(const std::vector<DirectionTest>& tests) {
@@ -234,10 +305,13 @@ class CellUpdate {
     }
   }
 
+  bool asks_for_split(const DirectionTest& t) const {
+    return t.samples >= settings_.split_samples && t.divergence() > settings_.split_threshold;
+  }
+
   std::vector<std::size_t> split() {
     const auto divergence = [&](std::size_t k) {
-      const DirectionTest& t = cell_.tests_[k];
-      return t.samples < settings_.split_samples ? 0 : t.divergence();
+      return asks_for_split(cell_.tests_[k]) ? cell_.tests_[k].divergence() : 0;
     };
     return halve_worst(
         settings_.split_threshold, settings_.most_components, [&] { return cell_.mixture_.size(); },
@@ -275,12 +349,12 @@ class CellUpdate {
   CellMixture& cell_;
   std::span<const Sample> samples_;
   const SpatialGaussiansSettings& settings_;
-  double least_size_;
+  double scene_size_, least_size_;        ///< [scene units]
   Vector<3> middle_ = Vector<3>::Zero();  ///< mean of the samples' origins, relative to the pivot
   WeightedPoints<3> points_;              ///< points for the fit, see chosen_of()
-  std::vector<double> floors_;
-  std::vector<Moments3> frozen_;  ///< moments of earlier iterations
-  std::vector<Moments3> seen_;    ///< moments of this iteration
+  std::vector<double> floors_, prior_variances_;  ///< of each component
+  std::vector<Moments3> frozen_;                  ///< moments of earlier iterations
+  std::vector<Moments3> seen_;                    ///< moments of this iteration
 };
 
 void CellMixture::update(std::span<const Sample> samples, const SpatialGaussiansSettings& settings,
@@ -315,11 +389,11 @@ std::vector<SpatialGaussian> CellMixture::components() const {
 }
 
 void CellMixture::archive(Archive& archive) {
-  archive(pivot_, prior_variance_, samples_, since_merge_, mixture_.weights, mixture_.components,
-          moments_, tests_, first_);
+  archive(pivot_, near_variance_, far_variance_, samples_, since_merge_, mixture_.weights,
+          mixture_.components, moments_, tests_, first_);
   if (!archive.loads()) return;
   const std::size_t count = mixture_.weights.size();
-  bool is_sound = prior_variance_ >= 0 && samples_ >= 0 && since_merge_ >= 0 &&
+  bool is_sound = near_variance_ >= 0 && far_variance_ >= 0 && samples_ >= 0 && since_merge_ >= 0 &&
                   mixture_.components.size() == count && moments_.size() == count &&
                   tests_.size() == count;
   for (std::size_t k = 0; is_sound && k < count; ++k) {

@@ -35,7 +35,9 @@ class CellMixture {
   friend class CellUpdate;
 
   statistics::Vector<3> pivot_ = statistics::Vector<3>::Zero();  ///< origin of all positions
-  double prior_variance_ = 0;  ///< variance of the first samples [scene units^2]
+  /// Variances of the first samples, on surfaces and in media, and on the environment [scene
+  /// units^2].
+  double near_variance_ = 0, far_variance_ = 0;
   double samples_ = 0;
   double since_merge_ = 0;  ///< number of samples since the last merge
   Mixture mixture_;

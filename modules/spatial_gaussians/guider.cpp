@@ -24,11 +24,10 @@ class SeenDistribution final : public GuidingDistribution {
 
 /// Returns the rule for the cosine at a vertex. In media there is no normal, so weights stay
 /// unchanged.
-CosineRule rule_at(const GuidingQuery& query, const SeenSettings& settings) {
-  CosineRule rule{.least = settings.least_cosine};
-  if (!settings.reweight || query.current.kind != VertexKind::surface) return rule;
-  const Vec3 n = query.current.shading_normal;
-  rule.normal = dot(n, query.towards_previous) < 0 ? -n : n;
+FactorRule cosine_rule(const GuidingQuery& query, float least) {
+  FactorRule rule{.least = least};
+  if (query.current.kind != VertexKind::surface) return rule;
+  rule.normal = normal_towards_path(query);
   rule.both_sides = contains(query.scattering->events(), Event::smooth_transmit);
   return rule;
 }
@@ -36,22 +35,35 @@ CosineRule rule_at(const GuidingQuery& query, const SeenSettings& settings) {
 }  // namespace
 
 void SeenSettings::describe(Schema<SeenSettings>& s) {
-  s.field("reweight", &SeenSettings::reweight,
-          "Multiply the weight of each component by the cosine between the normal and the "
-          "direction to its mean");
-  s.field("least_cosine", &SeenSettings::least_cosine,
-          "Lower bound of this cosine, so that components that are partly visible keep some weight")
+  s.field("product", &SeenSettings::product,
+          "Factor by which the weight of each component is multiplied: nothing, the cosine between "
+          "the normal and the direction to its mean, or its integral over lobes that are fitted to "
+          "the BSDF or phase function");
+  s.field(
+       "least_factor", &SeenSettings::least_factor,
+       "Lower bound of the cosine, or of the integral relative to scattering that is the same in "
+       "all directions, so that components that are partly visible keep some weight")
       .at_least(1e-6)
       .at_most(1);
+  describe_scattering_fit(s);
+  s.example("{ product: none }");
+  s.example("{ product: bsdf }");
 }
 
 const GuidingDistribution* MixtureGuider::query(const SpatialMixture& model,
                                                 const GuidingQuery& query, Arena& arena) const {
   const std::span<const SpatialGaussian> components = model.mixture_at(query, arena);
   if (components.empty()) return nullptr;
-  const SeenMixture* seen =
-      SeenMixture::make(components, query.current.position, rule_at(query, settings_), technique_,
-                        arena, model.whitened_at(query));
+  FactorRule rule{.least = settings_.least_factor};
+  ScatteringLobes lobes;
+  if (settings_.product == ProductFactor::cosine) {
+    rule = cosine_rule(query, settings_.least_factor);
+  } else if (settings_.product == ProductFactor::bsdf) {
+    lobes = fit_scattering(*query.scattering, settings_);
+    rule.lobes = {lobes.lobes.data(), lobes.count};
+  }
+  const SeenMixture* seen = SeenMixture::make(components, query.current.position, rule, technique_,
+                                              arena, model.whitened_at(query));
   return seen == nullptr ? nullptr : arena.make<SeenDistribution>(*seen);
 }
 

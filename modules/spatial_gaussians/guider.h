@@ -5,15 +5,16 @@
 #include <pharos/config/schema.h>
 #include <pharos/guiding/contract/guider.h>
 #include <pharos/guiding/contract/spatial_mixture.h>
+#include <pharos/guiding/toolkit/scattering_lobes.h>
 
 #include "seen_mixture.h"
 
 namespace pharos::spatial_gaussians {
 
 /// Settings of the three guiders.
-struct SeenSettings {
-  bool reweight = true;
-  float least_cosine = 0.01f;
+struct SeenSettings : ScatteringFit {
+  ProductFactor product = ProductFactor::cosine;
+  float least_factor = 0.01f;
   static void describe(Schema<SeenSettings>& schema);
 };
 

@@ -13,7 +13,7 @@ void SpatialGaussiansSettings::describe(Schema<SpatialGaussiansSettings>& s) {
       .above(0);
   s.field("prior_strength", &S::prior_strength,
           "Prior number of samples that say that a component is round, with the variance of the "
-          "cell's first samples (inverse Wishart prior)")
+          "cell's first samples of their kind (inverse Wishart prior)")
       .above(0);
   s.field("largest_concentration", &S::largest_concentration,
           "Upper bound of the squared ratio of a component's distance to its smallest standard "
@@ -24,7 +24,7 @@ void SpatialGaussiansSettings::describe(Schema<SpatialGaussiansSettings>& s) {
       .above(0);
   s.field("environment_distance", &S::environment_distance,
           "Distance at which the environment is placed, relative to the diagonal of the scene")
-      .above(0);
+      .at_least(2);
 }
 
 SpatialGaussiansLearner::SpatialGaussiansLearner(const Settings& settings) : settings_(settings) {

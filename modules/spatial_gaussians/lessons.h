@@ -18,11 +18,12 @@ class SpatialGaussiansLessons {
   using Sample = spatial_gaussians::Sample;
   using Cell = CellMixture;
   static constexpr const char* kHeading = "spatial_gaussians_learning";
-  static constexpr std::uint32_t kVersion = 1;
+  static constexpr std::uint32_t kVersion = 2;
 
   SpatialGaussiansLessons(const SpatialGaussiansSettings& settings, const LearningContext& context);
 
   const SpatialGaussiansSettings& settings() const { return settings_; }
+  std::uint64_t seed() const { return seed_; }
   void extract(const PathView& path, std::vector<Sample>& samples) {
     extract_samples(path, rule_, incident_, samples);
   }

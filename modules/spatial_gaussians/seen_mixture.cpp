@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <pharos/core/warp.h>
+#include <pharos/guiding/toolkit/lobe_products.h>
 #include <pharos/guiding/toolkit/ray_integrals.h>
 
 namespace pharos::spatial_gaussians {
@@ -11,9 +12,44 @@ namespace {
 
 constexpr std::size_t kGroup = WhitenedGroup::kLanes;
 
-Float8 cosine_factor(const CosineRule& rule, const SeenGroup& group) {
+Float8 cosine_factor(const FactorRule& rule, const SeenGroup& group) {
   const Float8 cosine = dot(group.aim, all8(rule.normal));
   return larger(rule.both_sides ? absolute(cosine) : cosine, all8(rule.least));
+}
+
+/// Returns the concentration of the von Mises-Fisher lobe that resembles the directions to a
+/// Gaussian: the squared distance of the mean over the mean variance across the line of sight.
+float concentration_of(const SpatialGaussian& g, Point3 origin) {
+  const float* l = g.cholesky;
+  const Vec3 mu = g.mean - origin;
+  const float squared = length_squared(mu);
+  if (!(squared > 0)) return von_mises_fisher::kLeastKappa;
+  const float trace =
+      square(l[0]) + square(l[1]) + square(l[2]) + square(l[3]) + square(l[4]) + square(l[5]);
+  const Vec3 turned{l[0] * mu.x + l[1] * mu.y + l[3] * mu.z, l[2] * mu.y + l[4] * mu.z,
+                    l[5] * mu.z};
+  const float across = 0.5f * (trace - length_squared(turned) / squared);
+  constexpr float kMostKappa = 1e6f;
+  return across * kMostKappa > squared ? std::max(squared / across, von_mises_fisher::kLeastKappa)
+                                       : kMostKappa;
+}
+
+/// Returns the integrals of the components' directions times the lobes, relative to scattering that
+/// is the same in all directions.
+Float8 scattering_factor(const FactorRule& rule, std::span<const SpatialGaussian> components,
+                         Point3 origin, const SeenGroup& group) {
+  Float8 kappa = all8(1);
+  for (std::size_t i = 0; i < std::min(components.size(), kGroup); ++i) {
+    kappa[i] = concentration_of(components[i], origin);
+  }
+  const Float8 mode = mode_density8(kappa);
+  Float8 factor{};
+  float total = 0;  // integral of the lobes over all directions
+  for (const ScatteringLobe& lobe : rule.lobes) {
+    factor += multiply(group.aim, kappa, mode, lobe).integral;
+    total += lobe.peak / static_cast<float>(von_mises_fisher::mode_density(lobe.kappa));
+  }
+  return larger(factor * (1 / (total * warp::sphere_pdf())), all8(rule.least));
 }
 
 /// Sets the aims, the directions to the means, and returns the reciprocal distances of the means, 0
@@ -48,7 +84,7 @@ struct WhitenedMeans8 {
 };
 
 /// Prepares eight components for the origin.
-void see_group(const WhitenedGroup& c, Point3 origin, const CosineRule& rule, Technique technique,
+void see_group(const WhitenedGroup& c, Point3 origin, const FactorRule& rule, Technique technique,
                SeenGroup& group) {
   const Lanes3<Double8> mu{widened(c.mean.x) - all_doubles8(origin.x),
                            widened(c.mean.y) - all_doubles8(origin.y),
@@ -142,7 +178,7 @@ Vec3 normal_numbers(Vec2 u, float v) {
 }  // namespace
 
 const SeenMixture* SeenMixture::make(std::span<const SpatialGaussian> components, Point3 origin,
-                                     const CosineRule& rule, Technique technique, Arena& arena,
+                                     const FactorRule& rule, Technique technique, Arena& arena,
                                      std::span<const WhitenedGroup> whitened) {
   const std::size_t count = (components.size() + kGroup - 1) / kGroup;
   SeenGroup* groups = arena.make_array<SeenGroup>(count);
@@ -152,6 +188,9 @@ const SeenMixture* SeenMixture::make(std::span<const SpatialGaussian> components
       see_group(WhitenedGroup(components.subspan(i * kGroup)), origin, rule, technique, groups[i]);
     } else {
       see_group(whitened[i], origin, rule, technique, groups[i]);
+    }
+    if (!rule.lobes.empty()) {
+      groups[i].share *= scattering_factor(rule, components.subspan(i * kGroup), origin, groups[i]);
     }
     total += sum(groups[i].share);
   }

@@ -9,6 +9,7 @@
 #include <pharos/core/vec.h>
 #include <pharos/guiding/contract/spatial_gaussian.h>
 #include <pharos/guiding/contract/whitened_group.h>
+#include <pharos/guiding/toolkit/scattering_lobes.h>
 
 namespace pharos::spatial_gaussians {
 
@@ -20,11 +21,16 @@ enum class Technique {
             ///< orthogonal to the line from the origin to the mean
 };
 
-/// How components are reweighted at a surface.
-struct CosineRule {
-  Vec3 normal;              ///< unit, on the side of the path; zero: weights stay unchanged
+/// How components are reweighted at a vertex. The weight of each component is multiplied by the
+/// cosine between the normal and the direction to its mean (Lelyakin et al. 2025, section 2), or by
+/// the integral of its directions times lobes in place of BSDF and cosine. This integral takes the
+/// component for a von Mises-Fisher lobe.
+struct FactorRule {
+  Vec3 normal;              ///< unit, on the side of the path; zero: no cosine
   bool both_sides = false;  ///< true for surfaces that transmit: the absolute cosine counts
-  float least = 0.01f;      ///< lower bound of the cosine, also below the horizon
+  float least = 0.01f;  ///< lower bound of cosines, and of integrals relative to even scattering
+  /// The lobes of the BSDF or phase function; none: it does not count.
+  std::span<const ScatteringLobe> lobes = {};
 };
 
 /// Eight components as seen from one point. A direction omega is whitened as omega - aim, so that
@@ -44,16 +50,15 @@ struct SeenGroup {
   Float8 far;               ///< e^(-reach^2 / 2)
 };
 
-/// A mixture of Gaussians as seen from one point: a distribution over directions. The weight of
-/// each component is multiplied by the cosine between the normal and the direction to its mean
-/// (Lelyakin et al. 2025, section 2).
+/// A mixture of Gaussians as seen from one point: a distribution over directions. The weights of
+/// components are multiplied as FactorRule says.
 class SeenMixture {
  public:
   /// Makes the mixture in `arena`. It is valid as long as the arena and the components are. Returns
   /// null if nothing can be sampled: for `plane`, if all components are seen from their own means.
   /// `whitened` holds the same components; if it is empty, they are whitened here.
   static const SeenMixture* make(std::span<const SpatialGaussian> components, Point3 origin,
-                                 const CosineRule& rule, Technique technique, Arena& arena,
+                                 const FactorRule& rule, Technique technique, Arena& arena,
                                  std::span<const WhitenedGroup> whitened = {});
 
   explicit SeenMixture(std::span<const SpatialGaussian> components, Point3 origin,

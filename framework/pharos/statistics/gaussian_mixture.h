@@ -80,6 +80,9 @@ struct MixtureFit {
   /// Moments of points seen earlier, one for each component. They are added unchanged. Empty: none.
   std::span<const Moments<D>> frozen;
   MixturePrior prior;
+  /// The variance of the prior for each component, in place of prior.variance [unit^2]. Empty: it
+  /// is the same for all.
+  std::span<const double> prior_variances = {};
   /// The smallest eigenvalue of each component's covariance [unit^2]. Empty: no limit.
   std::span<const double> floors;
   /// The indices of the components that change. The other components keep their weights. Empty: all
@@ -89,6 +92,13 @@ struct MixtureFit {
   /// The fit ends when a step raises objective() by less than this value per point. (A tolerance
   /// relative to objective() would depend on the unit of length.)
   double tolerance = 0.005;
+
+  /// Returns the prior of component `k`.
+  MixturePrior prior_of(std::size_t k) const {
+    MixturePrior own = prior;
+    if (!prior_variances.empty()) own.variance = prior_variances[k];
+    return own;
+  }
 };
 
 /// The result of an E step: the assignment of points to components, and the likelihood of the
@@ -318,7 +328,7 @@ void maximize(std::span<const Moments<D>> moments, const MixtureFit<D>& fit,
     mixture.weights[k] = (all ? 1 : share) * (moments[k].weight + fit.prior.counts) / seen;
     if (!(moments[k].weight > 0)) continue;
     const double floor = fit.floors.empty() ? 0 : fit.floors[k];
-    mixture.components[k] = {moments[k].mean(), map_covariance(moments[k], fit.prior, floor)};
+    mixture.components[k] = {moments[k].mean(), map_covariance(moments[k], fit.prior_of(k), floor)};
   }
 }
 
@@ -335,7 +345,7 @@ double objective(const GaussianMixture<D>& mixture, double log_likelihood,
     const Eigen::LLT<Matrix<D>> factor(g.covariance);
     const double log_determinant = 2 * Matrix<D>(factor.matrixL()).diagonal().array().log().sum();
     const Matrix<D> believed =
-        old.scatter(g.mean) + fit.prior.strength * fit.prior.variance * Matrix<D>::Identity();
+        old.scatter(g.mean) + fit.prior.strength * fit.prior_of(k).variance * Matrix<D>::Identity();
     const double counts = old.weight + fit.prior.counts;
     if (counts > 0) value += counts * std::log(mixture.weights[k]);
     value -= 0.5 * (old.weight + fit.prior.strength) * log_determinant;

@@ -1,6 +1,7 @@
 #include <sstream>
 
 #include <doctest/doctest.h>
+#include <tbb/global_control.h>
 
 #include <pharos/core/error.h>
 #include <pharos/core/random.h>
@@ -128,6 +129,30 @@ TEST_CASE("a first lesson that divides is learned once, by the halves") {
   cells.learn(steps, {.cell_samples = 300, .decay = 0.25}, count);
   CHECK(cells.size() == 4);
   CHECK(total(cells) == 1000);
+}
+
+TEST_CASE("splatted steps teach neighbors, and each counts once, always the same") {
+  const auto learned = [](int threads) {
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+    Counters cells;
+    auto steps = steps_along_x(100);
+    cells.learn(steps, {.cell_samples = 150}, count);
+    steps = steps_along_x(100);
+    cells.learn(steps, {.cell_samples = 150, .decay = 0}, count);
+    REQUIRE(cells.size() == 2);
+    for (std::size_t i = 0; i < 2; ++i) cells[i].seen = 0;
+    // All steps begin in the first half, evenly.
+    steps = steps_along_x(20'000);
+    steps.resize(10'000);
+    cells.learn(steps, {.cell_samples = 1'000'000, .splats = true, .seed = 5}, count);
+    return cells[cells.tree().cell_at({0.75f, 0, 0})].seen;
+  };
+  const double beyond = learned(1);
+  // A step at a distance d from the plane leaves its half, of width w, with a probability of
+  // 1/2 - d / w.
+  CHECK(beyond == doctest::Approx(10'000 / 8.0).epsilon(0.1));
+  CHECK(learned(2) == beyond);
+  CHECK(learned(7) == beyond);
 }
 
 TEST_CASE("cells that know nothing, or lie at one place, or are deep enough, stay whole") {

@@ -4,7 +4,6 @@
 #include <doctest/doctest.h>
 #include <tbb/global_control.h>
 
-#include "../vmf.h"
 #include "../vmf_fit.h"
 #include "test_lobes.h"
 
@@ -77,7 +76,8 @@ TEST_CASE("the E step is the one of a direct computation, for any number of dire
       double total = 0;
       for (const Lobe& lobe : mixture) {
         const double versine = 1 - lobe.mean.dot(to_direction(d.direction));
-        terms.push_back(lobe.weight * mode_density(lobe.kappa) * std::exp(-lobe.kappa * versine));
+        terms.push_back(lobe.weight * von_mises_fisher::mode_density(lobe.kappa) *
+                        std::exp(-lobe.kappa * versine));
         total += terms.back();
       }
       log_likelihood += d.weight * std::log(total);

@@ -33,10 +33,10 @@ TEST_CASE("merging adds weights and resultants") {
   const Lobe a{0.3, Direction::UnitX(), 100}, b{0.1, Direction::UnitZ(), 5};
   const Lobe whole = merged(a, b);
   CHECK(whole.weight == doctest::Approx(0.4));
-  const Direction expected =
-      (0.3 * mean_cosine(100) * Direction::UnitX() + 0.1 * mean_cosine(5) * Direction::UnitZ()) /
-      0.4;
-  CHECK((whole.mean * mean_cosine(whole.kappa) - expected).norm() < 1e-9);
+  const Direction expected = (0.3 * von_mises_fisher::mean_cosine(100) * Direction::UnitX() +
+                              0.1 * von_mises_fisher::mean_cosine(5) * Direction::UnitZ()) /
+                             0.4;
+  CHECK((whole.mean * von_mises_fisher::mean_cosine(whole.kappa) - expected).norm() < 1e-9);
 }
 
 TEST_CASE("halves merge to the lobe that they come from") {

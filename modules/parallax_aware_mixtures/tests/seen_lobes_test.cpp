@@ -19,14 +19,14 @@ std::vector<LobeGroup> groups_of(const Mixture& mixture, double inverse_distance
 }
 
 /// Returns the factors that the tests multiply mixtures by: none, one lobe, two lobes.
-std::vector<std::vector<Factor>> factor_lists() {
+std::vector<std::vector<ScatteringLobe>> factor_lists() {
   return {{}, {{{0, 0, 1}, 2.18853f, 1}}, {{{0.6f, 0, 0.8f}, 300, 0.7f}, {{0, 0, 1}, 1.5f, 0.3f}}};
 }
 
-double factor_at(const std::vector<Factor>& factors, Vec3 w) {
+double factor_at(const std::vector<ScatteringLobe>& factors, Vec3 w) {
   if (factors.empty()) return 1;
   double sum = 0;
-  for (const Factor& f : factors) {
+  for (const ScatteringLobe& f : factors) {
     sum += f.peak * std::exp(f.kappa * (to_direction(f.mean).dot(to_direction(w)) - 1));
   }
   return sum;
@@ -82,7 +82,8 @@ TEST_CASE("lobes point at their place from wherever they are seen") {
   for (const Point3 vertex : {Point3{1, 1, 1}, {4, 1, 1}, {1, -2, 1}, {2, 3, 9}}) {
     const SeenLobes* seen = SeenLobes::make(groups, Point3{1, 1, 1} - vertex, {}, arena);
     const Vec3 expected = normalize(Point3{1, 1, 5} - vertex);
-    CHECK(seen->density(expected) == doctest::Approx(mode_density(2000)).epsilon(1e-4));
+    CHECK(seen->density(expected) ==
+          doctest::Approx(von_mises_fisher::mode_density(2000)).epsilon(1e-4));
     CHECK(dot(seen->sample(0.5f, {0.5f, 0.5f}), expected) == doctest::Approx(1).epsilon(1e-5));
   }
   // At the position of the light any direction is correct.
@@ -92,7 +93,7 @@ TEST_CASE("lobes point at their place from wherever they are seen") {
 TEST_CASE("opposite lobes of the same concentration leave a flat one") {
   Arena arena;
   const std::vector<LobeGroup> groups = groups_of({{1, Direction::UnitZ(), 2}});
-  const Factor opposite{{0, 0, -1}, 2, 1};
+  const ScatteringLobe opposite{{0, 0, -1}, 2, 1};
   const SeenLobes* seen = SeenLobes::make(groups, {}, {&opposite, 1}, arena);
   CHECK(seen->density({0, 0, 1}) == doctest::Approx(warp::sphere_pdf()).epsilon(1.1e-3));
   CHECK(seen->density({1, 0, 0}) == doctest::Approx(warp::sphere_pdf()).epsilon(2e-3));
@@ -105,7 +106,7 @@ TEST_CASE("where almost nothing is left, densities are finite or there is no dis
       CAPTURE(peak);
       CAPTURE(kappa);
       const std::vector<LobeGroup> groups = groups_of({{1, Direction::UnitZ(), kappa}});
-      const Factor opposite{{0, 0, -1}, kappa, peak};
+      const ScatteringLobe opposite{{0, 0, -1}, kappa, peak};
       const SeenLobes* seen = SeenLobes::make(groups, {}, {&opposite, 1}, arena);
       if (seen != nullptr) CHECK(seen->density({1, 0, 0}) == doctest::Approx(warp::sphere_pdf()));
     }
@@ -115,7 +116,7 @@ TEST_CASE("where almost nothing is left, densities are finite or there is no dis
 TEST_CASE("where nothing is left there is no distribution") {
   Arena arena;
   const std::vector<LobeGroup> groups = groups_of({{1, Direction::UnitZ(), 30'000}});
-  const Factor opposite{{0, 0, -1}, 30'000, 1};
+  const ScatteringLobe opposite{{0, 0, -1}, 30'000, 1};
   CHECK(SeenLobes::make(groups, {}, {&opposite, 1}, arena) == nullptr);
   CHECK(SeenLobes::make({}, {}, {}, arena) == nullptr);
 }

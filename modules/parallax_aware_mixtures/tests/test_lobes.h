@@ -5,9 +5,9 @@
 
 #include <pharos/core/random.h>
 #include <pharos/core/warp.h>
+#include <pharos/statistics/von_mises_fisher.h>
 
 #include "../lobe_mixture.h"
-#include "../vmf.h"
 
 namespace pharos::parallax_aware_mixtures::testing {
 
@@ -27,7 +27,7 @@ inline double log_uniform(double low, double high, RandomStream& random) {
 /// Returns the density of a lobe [1/sr], in double precision.
 inline double density_of(const Lobe& lobe, Vec3 w) {
   const Direction d = to_direction(w);
-  return mode_density(lobe.kappa) * std::exp(lobe.kappa * (lobe.mean.dot(d) - 1));
+  return von_mises_fisher::mode_density(lobe.kappa) * std::exp(lobe.kappa * (lobe.mean.dot(d) - 1));
 }
 inline double density_of(const Mixture& mixture, Vec3 w) {
   double sum = 0;
@@ -53,7 +53,8 @@ inline Vec3 draw_from(const Mixture& mixture, RandomStream& random) {
   double choice = random.next_1d();
   std::size_t k = 0;
   while (k + 1 < mixture.size() && choice >= mixture[k].weight) choice -= mixture[k++].weight;
-  return sample(to_vec(mixture[k].mean), static_cast<float>(mixture[k].kappa), random.next_2d());
+  return von_mises_fisher::sample(to_vec(mixture[k].mean), static_cast<float>(mixture[k].kappa),
+                                  random.next_2d());
 }
 
 }  // namespace pharos::parallax_aware_mixtures::testing

@@ -1,14 +1,17 @@
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 #include <boost/math/quadrature/gauss.hpp>
 #include <doctest/doctest.h>
 
+#include <pharos/core/warp.h>
 #include <pharos/guiding/toolkit/ray_integrals.h>
 #include <pharos/guiding/toolkit/seen_gaussian.h>
 #include <pharos/statistics/goodness_of_fit.h>
 #include <pharos/statistics/quadrature.h>
+#include <pharos/statistics/von_mises_fisher.h>
 
 #include "../seen_mixture.h"
 #include "test_gaussians.h"
@@ -275,12 +278,65 @@ TEST_CASE("draws follow their density: mixtures, weighted by cosines or not") {
         CAPTURE(count);
         CAPTURE(static_cast<int>(technique));
         arena.reset();
-        const CosineRule rule{any_direction(random), both_sides, 0.01f};
+        const FactorRule rule{any_direction(random), both_sides, 0.01f};
         const SeenMixture* seen = SeenMixture::make(components, kOrigin, rule, technique, arena);
         REQUIRE(seen != nullptr);
         check_fit(*seen, 9);
       }
     }
+  }
+}
+
+TEST_CASE("draws follow their density: mixtures, weighted by lobes of the BSDF") {
+  RandomStream random(12);
+  Arena arena;
+  for (const std::size_t count : {3u, 13u}) {
+    const std::vector<SpatialGaussian> components = mixed_components(count, random);
+    const ScatteringLobe lobes[] = {{any_direction(random), 50, 2}, {any_direction(random), 1, 1}};
+    const FactorRule rule{.lobes = lobes};
+    const SeenMixture* seen = SeenMixture::make(components, kOrigin, rule, Technique::exact, arena);
+    REQUIRE(seen != nullptr);
+    check_fit(*seen, 9);
+  }
+}
+
+TEST_CASE("weights by lobes are the integrals of the products, for small components") {
+  // Balls at different distances, whose directions resemble von Mises-Fisher lobes.
+  std::vector<SpatialGaussian> components;
+  for (const Vec3 to : {Vec3{0, 0, 3}, {2, 0, 2}, {-1, 1, 0.5f}, {0, -2, -1}}) {
+    components.push_back({0.25f, kOrigin + to, {0.2f, 0, 0.2f, 0, 0, 0.2f}});
+  }
+  // The narrow lobe is a hundred times as high as the wide one, which still counts.
+  const ScatteringLobe lobes[] = {{normalize(Vec3{0.2f, 0, 1}), 200, 100}, {{0, 0, 1}, 2, 1}};
+  std::vector<double> shares;
+  RandomStream random(5);
+  for (const SpatialGaussian& g : components) {
+    double sum = 0;
+    constexpr int kDraws = 20'000;
+    for (int i = 0; i < kDraws; ++i) {
+      const Vec3 w = normalize(point_of(g, kOrigin, random));
+      for (const ScatteringLobe& lobe : lobes) {
+        sum += lobe.peak * std::exp(lobe.kappa * (dot(lobe.mean, w) - 1)) / kDraws;
+      }
+    }
+    double even = 0;
+    for (const ScatteringLobe& lobe : lobes) {
+      even += lobe.peak / von_mises_fisher::mode_density(lobe.kappa) * double{warp::sphere_pdf()};
+    }
+    shares.push_back(std::max(sum / even, 0.01) * g.weight);
+  }
+  const double total = std::accumulate(shares.begin(), shares.end(), 0.0);
+  Arena arena;
+  const SeenMixture* seen =
+      SeenMixture::make(components, kOrigin, {.lobes = lobes}, Technique::exact, arena);
+  REQUIRE(seen != nullptr);
+  for (std::size_t k = 0; k < components.size(); ++k) {
+    const Vec3 w = normalize(components[k].mean - kOrigin);
+    double expected = 0;
+    for (std::size_t j = 0; j < components.size(); ++j) {
+      expected += shares[j] / total * exact_density(components[j], kOrigin, w);
+    }
+    CHECK(seen->density(w) == doctest::Approx(expected).epsilon(0.05));
   }
 }
 

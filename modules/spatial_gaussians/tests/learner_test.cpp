@@ -241,6 +241,73 @@ TEST_CASE("splits and merges keep the weight of all") {
   }
 }
 
+/// Returns paths from a point to one of the targets. Each step has the same density.
+template <class TargetOf>
+PathLog paths_to(int count, TargetOf&& target_of) {
+  RandomStream random(21);
+  PathLog log;
+  for (int i = 0; i < count; ++i) {
+    const RecordedVertex end = target_of(i, random);
+    const Point3 from = 0.01f * any_direction(random);
+    log.begin_path({}, Transport::radiance);
+    log.add(RecordedVertex{.throughput = Rgb(1)});
+    log.add(RecordedVertex{.position = from,
+                           .event = Event::smooth_reflect,
+                           .guidable = true,
+                           .parent = 0,
+                           .direction = normalize(end.position - from),
+                           .pdf = 10});
+    RecordedVertex target = end;
+    target.parent = 1;
+    target.emission = Rgb(1);
+    log.add(target);
+  }
+  return log;
+}
+
+TEST_CASE("a lamp that few samples have found stays small beside the sky") {
+  SpatialGaussiansSettings settings = small_settings();
+  settings.spatial = SpatialCells::single;
+  settings.components = 4;
+  const auto state = SpatialGaussiansLearner(settings).begin(context());
+  state->absorb(paths_to(40, [](int i, RandomStream& random) {
+    if (i % 10 == 0)
+      return RecordedVertex{.position = Point3{1, 1, 0} + 0.02f * any_direction(random)};
+    const Vec3 up = normalize(Vec3{0, 1, 0} + 0.3f * any_direction(random));
+    return RecordedVertex{.position = 5.0f * up, .kind = VertexKind::environment};
+  }));
+  const auto model = state->update({0, 0}).model;
+  const SpatialGaussian* lamp = nullptr;
+  for (const SpatialGaussian& g : as_gaussians(model).mixture_at(Point3{})) {
+    if (length(g.mean - Point3{1, 1, 0}) < 0.1f) lamp = &g;
+  }
+  REQUIRE(lamp != nullptr);
+  // The prior has a weight of 0.2 samples. With the variance of all targets, the lamp would be some
+  // ten times as wide.
+  CHECK(std::abs(lamp->cholesky[0]) < 0.1f);
+}
+
+TEST_CASE("a pair that directions want apart is not merged") {
+  SpatialGaussiansSettings settings = small_settings();
+  settings.spatial = SpatialCells::single;
+  settings.components = 2;
+  settings.most_components = 2;
+  settings.merge_samples = 100;
+  const auto learned = [&](double merge_threshold, double split_threshold) {
+    settings.merge_threshold = merge_threshold;
+    settings.split_threshold = split_threshold;
+    const auto state = SpatialGaussiansLearner(settings).begin(context());
+    state->absorb(paths_to(4000, [](int i, RandomStream& random) {
+      return RecordedVertex{.position = Point3{i % 2 == 0 ? -0.115f : 0.115f, 1, 0} +
+                                        0.1f * any_direction(random)};
+    }));
+    return saved(*state->update({0, 0}).model);
+  };
+  // Over space, a merge costs 0.3. A pair that is merged and split again would differ.
+  CHECK(learned(0.5, 1e9) != learned(0, 1e9));
+  CHECK(learned(0.5, 0.05) == learned(0, 0.05));
+}
+
 TEST_CASE("components that do the same are merged") {
   SpatialGaussiansSettings settings = small_settings();
   settings.spatial = SpatialCells::single;

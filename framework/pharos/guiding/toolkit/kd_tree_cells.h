@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <numeric>
 #include <span>
@@ -8,21 +9,28 @@
 
 #include <pharos/core/archive.h>
 #include <pharos/core/counting_sort.h>
+#include <pharos/core/random.h>
 #include <pharos/guiding/toolkit/kd_tree.h>
 
 namespace pharos {
 
-/// The rule that divides cells: a cell is divided at the mean of its samples' origins, across the
-/// axis of their largest variance.
+/// The rules by which cells are divided and taught. A cell is divided at the mean of its samples'
+/// origins, across the axis of their largest variance.
 struct CellDivision {
   bool divides = true;
   std::uint32_t cell_samples = 32768;  ///< a cell with more samples is divided
   int max_depth = 32;                  ///< largest number of planes above a cell
   double decay = 0.25;  ///< factor by which each half weights what the cell has learned
+  /// Samples also teach neighbors: each goes to the cell at a random point of a box around it. An
+  /// even distribution over this box has the variances of the origins in the sample's own cell. In
+  /// its first lesson, a cell learns from its own samples alone.
+  bool splats = false;
+  std::uint64_t seed = 0;  ///< key of these points
 };
 
-/// The cells of a kd-tree. Each cell learns from the samples that begin in it, and cells with many
-/// samples are divided. The result is the same for any number of threads.
+/// The cells of a kd-tree. Each cell learns from the samples that begin in it, or near it if they
+/// are splatted, and cells with many samples are divided. The result is the same for any number of
+/// threads.
 ///
 /// `Sample` has a Point3 `origin`. `Cell` is a value with
 ///
@@ -41,7 +49,11 @@ class KdTreeCells {
     teach_cells(samples, first, true, teach);
     const std::size_t undivided = cells_.size();
     divide_cells(samples, first, rule);
-    if (cells_.size() > undivided) first = sort_by_cell(samples);
+    if (rule.splats) {
+      first = splat(samples, rule.seed);
+    } else if (cells_.size() > undivided) {
+      first = sort_by_cell(samples);
+    }
     teach_cells(samples, first, false, teach);
     for (Place& place : cells_) place.is_done = false;
     samples.clear();
@@ -75,11 +87,11 @@ class KdTreeCells {
         squares[axis] += double{p[axis]} * p[axis];
       }
     }
+    double variance(int axis) const {
+      const double mean = sums[axis] / count;
+      return squares[axis] / count - mean * mean;
+    }
     int widest_axis() const {
-      const auto variance = [&](int axis) {
-        const double mean = sums[axis] / count;
-        return squares[axis] / count - mean * mean;
-      };
       int widest = 0;
       for (const int axis : {1, 2}) {
         if (variance(axis) > variance(widest)) widest = axis;
@@ -102,6 +114,21 @@ class KdTreeCells {
   std::vector<std::size_t> sort_by_cell(std::vector<Sample>& samples) const {
     return sort_by_key(samples, cells_.size(),
                        [&](std::size_t i) { return tree_.cell_at(samples[i].origin); });
+  }
+
+  /// Sorts samples as sort_by_cell() does, but by the cells to which they are splatted.
+  std::vector<std::size_t> splat(std::vector<Sample>& samples, std::uint64_t seed) const {
+    return sort_by_key(samples, cells_.size(), [&](std::size_t i) {
+      Point3 p = samples[i].origin;
+      const Positions& around = cells_[tree_.cell_at(p)].positions;
+      RandomStream random(seed, i);
+      for (int axis = 0; axis < 3; ++axis) {
+        // An even distribution has the standard deviation edge / sqrt(12).
+        const double edge = std::sqrt(12 * std::max(around.variance(axis), 0.0));
+        p[axis] += static_cast<float>(edge) * (random.next_1d() - 0.5f);
+      }
+      return tree_.cell_at(p);
+    });
   }
 
   /// Calls `teach` for the cells that have not yet learned from the current samples. The samples of

@@ -34,7 +34,8 @@ struct EnumNames<SpatialCells> {
 ///     using Sample = …;  using Cell = …;    // as in KdTreeCells; samples also have archive()
 ///     static constexpr const char* kHeading;  static constexpr std::uint32_t kVersion;
 ///     const Settings& settings() const;     // with spatial, cell_samples, max_depth,
-///                                           // batch_samples, decay, division_decay
+///                                           // batch_samples, decay, division_decay, splat
+///     std::uint64_t seed() const;
 ///     void extract(const PathView&, std::vector<Sample>& samples);
 ///     void teach(Cell&, std::span<const Sample>, std::uint64_t lesson, std::size_t cell) const;
 ///     std::shared_ptr<const GuidingModel> model(const KdTreeCells<Sample, Cell>&) const;
@@ -72,7 +73,9 @@ class KdTreeLearning final : public LearningState {
     const CellDivision division{.divides = settings.spatial == SpatialCells::kdtree,
                                 .cell_samples = settings.cell_samples,
                                 .max_depth = settings.max_depth,
-                                .decay = settings.division_decay};
+                                .decay = settings.division_decay,
+                                .splats = settings.splat,
+                                .seed = hash_combine(lessons_.seed(), lesson_)};
     cells_.learn(samples_, division,
                  [&](Cell& cell, std::span<const Sample> samples, std::size_t number) {
                    lessons_.teach(cell, samples, lesson_, number);

@@ -35,6 +35,7 @@ struct MixtureLearningSettings {
   double merge_threshold = 0.025;
   std::uint32_t merge_samples = 8192;
   double decay = 1, division_decay = 0.25;
+  bool splat = false;
   float least_pdf = 0.1f;
 
   /// Throws InputError if `components` is larger than `most_components`.
@@ -102,6 +103,9 @@ void describe_mixture_learning(Schema<Settings>& s) {
           "Share of the learned data that each half keeps when a cell is divided")
       .at_least(0)
       .at_most(1);
+  s.field("splat", &S::splat,
+          "Also teach neighbors: each sample goes to the cell at a random point of a box around it "
+          "that is as large as its own cell");
   s.field("least_pdf", &S::least_pdf,
           "Lower bound to which smaller densities of samples are raised")
       .unit("1/sr")

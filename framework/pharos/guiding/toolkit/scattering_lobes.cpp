@@ -1,11 +1,10 @@
-#include "scattering_lobes.h"
-
 #include <algorithm>
 #include <cmath>
 
-#include "vmf.h"
+#include <pharos/guiding/toolkit/scattering_lobes.h>
+#include <pharos/statistics/von_mises_fisher.h>
 
-namespace pharos::parallax_aware_mixtures {
+namespace pharos {
 namespace {
 
 constexpr float kMostKappa = 1e4f;
@@ -23,15 +22,15 @@ struct Heap {
     weight += other.weight;
     count += other.count;
   }
-  Factor lobe(float total) const {
+  ScatteringLobe lobe(float total) const {
     const float size = length(resultant);
     // Directions are closer to their own mean than to the mean of their distribution. The factor
     // n / (n - 1) corrects this.
     const auto n = static_cast<float>(count);
     const float apart = std::min(1.0f, (1 - size / weight) * n / (n - 1));
     const float kappa = (1 - apart) * (3 - square(1 - apart)) / (apart * (2 - apart));
-    const float bounded = std::clamp(kappa, kLeastKappa, kMostKappa);
-    const auto mode = static_cast<float>(mode_density(bounded));
+    const float bounded = std::clamp(kappa, von_mises_fisher::kLeastKappa, kMostKappa);
+    const auto mode = static_cast<float>(von_mises_fisher::mode_density(bounded));
     return {resultant / size, bounded, mode * weight / total};
   }
 };
@@ -61,8 +60,8 @@ ScatteringLobes fit_scattering(const LocalScattering& scattering, const Scatteri
   std::size_t count = 0;
   float peak = 0;
   Heap all;
-  for (std::uint32_t i = 0; i < rule.samples; ++i) {
-    const FixedNumbers numbers = fixed_numbers(i, rule.samples);
+  for (std::uint32_t i = 0; i < rule.bsdf_samples; ++i) {
+    const FixedNumbers numbers = fixed_numbers(i, rule.bsdf_samples);
     const auto drawn = scattering.sample(numbers.choice, numbers.u, EventMask::smooth);
     if (!drawn || !(mean(drawn->weight) > 0)) continue;
     const float weight = mean(drawn->weight);
@@ -72,7 +71,7 @@ ScatteringLobes fit_scattering(const LocalScattering& scattering, const Scatteri
   }
   std::array<Heap, 2> heaps;
   for (std::size_t i = 0; i < count; ++i) {
-    heaps[draws[i].pdf < rule.tail * peak ? 1 : 0].add(draws[i].heap);
+    heaps[draws[i].pdf < rule.bsdf_tail * peak ? 1 : 0].add(draws[i].heap);
   }
   ScatteringLobes result;
   const auto append = [&](const Heap& heap) {
@@ -87,4 +86,14 @@ ScatteringLobes fit_scattering(const LocalScattering& scattering, const Scatteri
   return result;
 }
 
-}  // namespace pharos::parallax_aware_mixtures
+Vec3 normal_towards_path(const GuidingQuery& query) {
+  const Vec3 n = query.current.shading_normal;
+  return dot(n, query.towards_previous) < 0 ? -n : n;
+}
+
+bool is_opaque_surface(const GuidingQuery& query) {
+  return query.current.kind == VertexKind::surface &&
+         !contains(query.scattering->events(), Event::smooth_transmit);
+}
+
+}  // namespace pharos

@@ -9,7 +9,10 @@
 /// The von Mises-Fisher distribution of directions, kappa / (2 pi (1 - e^(-2 kappa)))
 /// e^(kappa (cos theta - 1)) [1/sr]. This form is numerically stable for any concentration
 /// kappa >= 0.
-namespace pharos::parallax_aware_mixtures {
+namespace pharos::von_mises_fisher {
+
+/// Lower bound of concentrations where quotients of their differences must stay numerically stable.
+inline constexpr float kLeastKappa = 1e-3f;
 
 inline constexpr double kTwoPi = 6.28318530717958648;
 
@@ -68,4 +71,4 @@ inline Vec3 sample(Vec3 mean, float kappa, Vec2 u) {
   return Frame::from_normal(mean).to_world({sine * p.direction.x, sine * p.direction.y, 1 - v});
 }
 
-}  // namespace pharos::parallax_aware_mixtures
+}  // namespace pharos::von_mises_fisher
