@@ -33,8 +33,8 @@ class VertexTripletsLearningState final : public LearningState {
   /// Inserts the waiting samples into the reservoirs of their cells.
   void insert();
   std::uint32_t jittered_cell(const Sample& sample, std::uint64_t number) const;
-  /// Returns the numbers of samples by which cells are compared: of new ones, or effective numbers
-  /// of kept ones.
+  /// Returns the number of each cell by which cells are compared: the number of its new samples, or
+  /// the effective number of the samples that it keeps.
   std::vector<double> counts() const;
   void collapse(double threshold);
   void divide(double threshold);

@@ -20,7 +20,7 @@ struct GuideGain {
   bool is_off = false;   ///< neither suffices, see TrainingSettings: the image is not guided
 };
 
-/// What a training iteration has taken.
+/// The cost of a training iteration.
 struct IterationCost {
   double spent = 0;    ///< share of the budget that is spent after it [1]
   double samples = 0;  ///< per pixel; 0: not known
