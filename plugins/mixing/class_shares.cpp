@@ -64,11 +64,12 @@ Simplex restricted(Simplex shares, const TechniqueSet& in_use) {
 }
 
 /// Returns `part` times new shares plus the rest of the known ones. Methods without a new share get
-/// none.
+/// none if new shares count for more than half.
 Simplex blended(const Simplex& found, double part, const Simplex& known) {
   Simplex shares{};
   for (std::size_t i = 0; i < shares.size(); ++i) {
-    if (found[i] > 0 || i == 0) shares[i] = part * found[i] + (1 - part) * known[i];
+    const bool is_dropped = i > 0 && found[i] == 0 && part > 0.5;
+    if (!is_dropped) shares[i] = part * found[i] + (1 - part) * known[i];
   }
   return normalized(shares);
 }

@@ -172,8 +172,11 @@ TEST_CASE("guide trial: guides of little gain stay if they lower the noise enoug
     CHECK_FALSE(may_end(state, 0.5, 0.1, 1));
     state.update({0, 3});
     CHECK_FALSE(may_end(state, 0.8, 0.2, 2));
-    CHECK(state.worthwhile_share() == doctest::Approx(most > 0 ? 1 : 0.5 - 0.2));
-    state.update({1, 0});
+    CHECK(state.worthwhile_share() == doctest::Approx(0.5 - 0.2));  // once is not enough
+    state.update({1, 2});
+    CHECK_FALSE(may_end(state, 0.8, 0.25, 3));
+    CHECK(state.worthwhile_share() == doctest::Approx(most > 0 ? 1 : 0.5 - 0.25));
+    state.update({2, 0});
     CHECK((state.frame() == nullptr) == (most == 0));
     REQUIRE(state.gain());
     CHECK(state.gain()->is_off == (most == 0));
@@ -198,9 +201,11 @@ TEST_CASE("guide trial: the time of guided paths counts") {
     state.update({0, 3});
     load_from(saved(state), resumed);
     for (GuidingState* each : {&state, &resumed}) {
-      may_end(*each, std::array{0.6}, {.spent = 0.2, .samples = 5, .seconds = 10 * cost}, 2);
-      CHECK((each->worthwhile_share() == 1) == (cost * ratio < 1));
-      each->update({1, 0});
+      for (const std::uint32_t i : {1u, 2u}) {
+        may_end(*each, std::array{0.6}, {.spent = 0.2, .samples = 5, .seconds = 10 * cost}, i + 1);
+        CHECK((each->worthwhile_share() == 1) == (i == 2 && cost * ratio < 1));
+        each->update({i, 2 - i});
+      }
       CHECK(each->gain()->is_off == (cost * ratio > 1));
     }
   }
@@ -254,6 +259,34 @@ TEST_CASE(
   CHECK(ends(1.1 / (fall * fall * fall)));
 }
 
+TEST_CASE("guide trial: while hardly any light is found, training goes on in larger iterations") {
+  GuidingSettings own = tiny_settings();
+  own.training.least_gain = 10;
+  own.training.most_noise = 1;
+  own.training.tolerance = 0.05;
+  GuidingState state(own, {}), resumed(own, {});
+  const auto find_little = [](GuidingState& each, double spent) {
+    for (std::uint64_t unit = 0; unit < 100; ++unit) {
+      each.absorb(test::guided_paths(std::array{0.5}, 2, unit));
+    }
+    return each.may_end_training({.spent = spent});
+  };
+  CHECK_FALSE(find_little(state, 0.1));
+  CHECK(state.worthwhile_share() == doctest::Approx(0.1));
+  state.update({0, 9});
+  CHECK_FALSE(find_little(state, 0.15));
+  CHECK(state.worthwhile_share() == doctest::Approx(2 * 0.05));
+  state.update({1, 9});
+  load_from(saved(state), resumed);
+  for (GuidingState* each : {&state, &resumed}) {
+    CHECK(each->worthwhile_share() == doctest::Approx(2 * 0.05));
+    CHECK_FALSE(find_little(*each, 0.3));
+    each->update({2, 0});
+    CHECK(each->frame() != nullptr);  // there is no verdict
+    CHECK_FALSE(each->gain());
+  }
+}
+
 TEST_CASE("guide trial: a guide that hardly helps is off after training, which ends early") {
   GuidingSettings own = tiny_settings();
   for (const double least : {0.1, 0.2}) {
@@ -262,7 +295,7 @@ TEST_CASE("guide trial: a guide that hardly helps is off after training, which e
     own.training.trial = 0.15;
     GuidingState state(own, {});
     CHECK_FALSE(may_end(state, 0.5, 0.1, 1));
-    CHECK(state.worthwhile_share() == 1);  // nothing is known: no guide had a model
+    CHECK(state.worthwhile_share() == 0.1);  // as much as the iteration without guides
     state.update({0, 3});
     CHECK_FALSE(may_end(state, 0.5, 0.2, 2));     // there is nothing to compare with
     CHECK(state.worthwhile_share() == 0.15 / 2);  // all of the trial is spent

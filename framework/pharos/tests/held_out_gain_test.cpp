@@ -38,7 +38,7 @@ TEST_CASE("held-out gain: it may rise by as much again, and by a standard error"
   CHECK(gain.possible_rise() == doctest::Approx(rise).epsilon(0.05));
   iterate(gain, 0.9, 1000, 3);
   CHECK(std::abs(gain.possible_rise()) < 0.02);
-  iterate(gain, 0.9, 1, 4);  // too few paths for an estimate
+  iterate(gain, 0.9, 5, 4);  // few paths make an uncertain estimate
   CHECK(gain.possible_rise() > 0.02);
   iterate(gain, 0.9, 1000, 5);
   iterate(gain, 0.5, 1000, 6);
@@ -74,7 +74,7 @@ TEST_CASE("held-out gain: the part of a method that is almost the whole density"
   log.set_techniques(0, std::array{Technique{0.5f, 1}, Technique{0.5f, 1e9f}});
   log.add(RecordedVertex{.parent = 0, .emission = Rgb(1)});
   HeldOutGain gain;
-  for (int unit = 0; unit < 2; ++unit) gain.absorb(log);
+  for (int unit = 0; unit < 300; ++unit) gain.absorb(log);
   gain.end_iteration();
   CHECK(gain.parts()[0].nats == doctest::Approx(std::log(0.5e9)));
 }
@@ -107,6 +107,18 @@ TEST_CASE("held-out gain: iterations without light tell nothing") {
   CHECK(std::isinf(gain.possible_rise()));
   iterate(gain, 0.9, 1000, 3);
   CHECK(std::abs(gain.possible_rise()) < 0.02);
+}
+
+TEST_CASE("held-out gain: an iteration in which few paths found light tells nothing") {
+  HeldOutGain gain;
+  CHECK(gain.may_be_below(-100));
+  for (const int count : {2, 3}) {  // 200 paths or 300
+    iterate(gain, 0.9, count, 1);
+    CHECK(gain.is_known() == (count == 3));
+    CHECK(gain.is_below(100) == (count == 3));
+    CHECK(gain.may_be_below(-100) == (count == 2));
+    CHECK(gain.parts().empty() == (count == 2));
+  }
 }
 
 TEST_CASE("held-out gain: saved in the middle of an iteration, it ends the same") {

@@ -204,6 +204,24 @@ TEST_CASE("simplex mixing: a single bright step counts as one step") {
   CHECK(ask(*state).shares[0] == doctest::Approx((0.1 + 8 * scene) / 9).epsilon(1e-3));
 }
 
+TEST_CASE("simplex mixing: a single step that a guide cannot draw does not drop the guide") {
+  // Elsewhere only the guide finds light, and nothing was found here.
+  constexpr World kDark{{1, 0, 0}, {0, 1, 0}, {0, 0, 0}};
+  const auto state = begun({.cell_steps = 64});
+  const auto here = vertex_at({0, 0, 0}), there = vertex_at({100, 0, 0});
+  absorb(*state, kOnlyGuideFinds, 2000, 1, here);
+  absorb(*state, kDark, 2000, 2, there);
+  state->update(1, {}, false);
+  absorb(*state, kOnlyGuideFinds, 2000, 3, here);
+  PathLog log;
+  const Answer now = ask(*state, there);
+  add_path(log, now.key, std::array{Technique{now.shares[0], 1}, Technique{now.shares[1], 0}}, 1,
+           there.current.position);
+  state->absorb(log);
+  state->update(1, {}, true);
+  CHECK(ask(*state, there).shares[1] > 0.5);
+}
+
 TEST_CASE("simplex mixing: what a model knows of a place scales the odds of its method") {
   const auto state = begun({.unguided = 0.5, .evidence = 32});
   CHECK(ask(*state, {}, 1e9f).shares[1] == doctest::Approx(0.5));

@@ -16,6 +16,7 @@ void GuideTrial::absorb(const PathLog& log, bool is_guided) {
 
 bool GuideTrial::end_iteration(const IterationCost& cost, bool is_guided) {
   spent_before_ = std::exchange(spent_, cost.spent);
+  was_guided_ = is_guided;
   noise_.end_iteration(is_guided);
   // Iterations without guides say nothing about guides.
   if (!is_guided) {
@@ -54,12 +55,18 @@ bool GuideTrial::is_useless() const {
 }
 
 bool GuideTrial::may_be_useless() const {
-  return settings_.least_gain > 0 && gain_.may_be_below(settings_.least_gain) && !lowers_noise();
+  // A single ratio is not enough, nor is one of hardly any light: it may be far too low.
+  const bool surely_lowers_noise = gain_.is_known() && noise_.fall() && lowers_noise();
+  return settings_.least_gain > 0 && gain_.may_be_below(settings_.least_gain) &&
+         !surely_lowers_noise;
 }
 
 double GuideTrial::worthwhile_share() const {
   if (!may_be_useless()) return 1;
-  return std::max(settings_.trial - spent_, 0.5 * settings_.trial);
+  const double short_share = std::max(settings_.trial - spent_, 0.5 * settings_.trial);
+  if (gain_.is_known()) return short_share;
+  const double last = spent_ - spent_before_;
+  return std::max(short_share, was_guided_ ? 2 * last : last);
 }
 
 double GuideTrial::next_share() const {

@@ -56,7 +56,9 @@ class GuideTrial {
   bool end_iteration(const IterationCost& cost, bool is_guided);
   /// Returns the largest share of the budget that the next training iteration is worth [1]: all of
   /// it. If the guides may be useless, it is the rest of the share TrainingSettings::trial or half
-  /// of that share, whichever is larger.
+  /// of that share, whichever is larger. As long as the gain is unknown, it is at least twice the
+  /// share of the last iteration, because light that is hard to find needs more and more samples,
+  /// or once if the last iteration had no guides, because it does not tell how long guides take.
   double worthwhile_share() const;
   /// Returns whether the guides do not help enough to be used. False as long as it is unknown.
   bool is_useless() const;
@@ -65,12 +67,13 @@ class GuideTrial {
   /// the one with the smallest part. None if no other method took part, before the share `trial` of
   /// the budget was spent, and if the guides do not suffice.
   std::optional<std::size_t> dispensable_method() const;
-  /// Returns how much the guides help, without a verdict; none if no guided iteration found light.
+  /// Returns how much the guides help, without a verdict; none if the last iteration
+  /// found too little light to tell.
   std::optional<GuideGain> gain() const;
 
   void archive(Archive& archive) {
     archive(gain_, noise_, parts_before_, spent_before_, spent_, unguided_samples_,
-            unguided_seconds_, guided_seconds_);
+            unguided_seconds_, guided_seconds_, was_guided_);
   }
 
  private:
@@ -92,7 +95,8 @@ class GuideTrial {
   double spent_before_ = 0, spent_ = 0;                 ///< shares of the budget
   double unguided_samples_ = 0, unguided_seconds_ = 0;  ///< of iterations without guides
   double guided_seconds_ =
-      0;  ///< for each sample per pixel of the last guided iteration; 0: unknown
+      0;                     ///< for each sample per pixel of the last guided iteration; 0: unknown
+  bool was_guided_ = false;  ///< the last iteration
 };
 
 }  // namespace pharos

@@ -213,7 +213,7 @@ std::size_t GuidingState::model_bytes() const {
 }
 
 void GuidingState::archive(Archive& archive) {
-  archive.heading("guiding", 7);
+  archive.heading("guiding", 8);
   for (Source& source : sources_) {
     if (source.state != nullptr) source.state->archive(archive);
   }

@@ -29,6 +29,7 @@ void HeldOutGain::absorb(const PathLog& log) {
     const PathView path = log[i];
     if (path.transport != Transport::radiance) continue;
     estimate_incident_radiance(path, incident_);
+    bool found_light = false;
     for (std::size_t k = 0; k < path.vertices.size(); ++k) {
       const RecordedVertex& vertex = path.vertices[k];
       const auto techniques = path.techniques(vertex);
@@ -37,6 +38,7 @@ void HeldOutGain::absorb(const PathLog& log) {
       const double log_ratio =
           std::log(double{vertex.pdf}) - std::log(double{techniques[0].density});
       if (!std::isfinite(log_ratio) || !std::isfinite(weight)) continue;
+      found_light = true;
       weights += weight;
       logs += weight * log_ratio;
       parts_.resize(std::max(parts_.size(), techniques.size() - 1));
@@ -46,6 +48,7 @@ void HeldOutGain::absorb(const PathLog& log) {
         parts_[t - 1].is_known = true;
       }
     }
+    if (found_light) ++sums_.found;
   }
   sums_.weight += weights;
   sums_.log += logs;
@@ -69,6 +72,7 @@ HeldOutGain::Gain HeldOutGain::gain() const {
 void HeldOutGain::end_iteration() {
   before_ = std::exchange(last_, gain());
   has_before_ = std::exchange(has_last_, is_measured());
+  if (!has_last_) parts_.clear();
   for (Part& part : parts_) part.nats /= sums_.weight;
   last_parts_ = std::exchange(parts_, {});
   sums_ = {};
@@ -80,7 +84,7 @@ double HeldOutGain::possible_rise() const {
 }
 
 bool HeldOutGain::may_be_below(double least) const {
-  return has_last_ && last_.mean - std::sqrt(last_.variance) < least;
+  return !has_last_ || last_.mean - std::sqrt(last_.variance) < least;
 }
 
 }  // namespace pharos
