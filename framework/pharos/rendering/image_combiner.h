@@ -10,9 +10,9 @@ namespace pharos {
 
 /// Combines images of the same scene that were rendered one after another, while guides learned.
 ///
-/// Sample number s of a pixel, of N in all, has the weight min(1, 16 s / N). Guides that have
-/// learned from less than a sixteenth of all samples may make much noisier images, so these count
-/// less. If all images are equally noisy, the variance is 2 % larger than with equal weights.
+/// Sample number s of a pixel, of N in all, has the weight min(1, 4 s / N). Guides that have learned
+/// from less than a quarter of all samples may make much noisier images, so these count less. If
+/// all images are equally noisy, the variance is up to 9 % larger than with equal weights.
 ///
 /// The weights depend on nothing that an image shows, so the combination is unbiased. As long as no
 /// image is left out, this holds even if the iterations end where their paths decide, because the

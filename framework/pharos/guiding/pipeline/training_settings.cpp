@@ -13,7 +13,7 @@ void TrainingSettings::describe(Schema<TrainingSettings>& s) {
       .below(1);
   s.field("images", &TrainingSettings::images,
           "Use of the images of training iterations: discarded, or combined with the final image, "
-          "weighted by their numbers of samples; the first sixteenth of all samples counts less");
+          "weighted by their numbers of samples; the first quarter of all samples counts less");
   s.field("recorded_samples", &TrainingSettings::recorded_samples,
           "Largest number of samples per pixel of an iteration from which the guides learn; the "
           "rest only adds to its image, which `images: discard` would waste; 0: all");
