@@ -15,9 +15,10 @@ double FocalDensity::directional_density(Point3 from, Vec3 direction) const {
   return ahead.value() + behind.value();
 }
 
-std::optional<Vec3> FocalDensity::sample_direction(Point3 from, float sign, Vec2 u, float v) const {
+std::optional<Vec3> FocalDensity::sample_direction(Point3 from, float sign,
+                                                   const Double3& u) const {
   const bool away = sign * (converging.mass() + diverging.mass()) >= converging.mass();
-  const Double3 point = (away ? diverging : converging).sample({u.x, u.y, v});
+  const Double3 point = (away ? diverging : converging).sample(u);
   Double3 offset;
   double squared = 0;
   for (int axis = 0; axis < 3; ++axis) {

@@ -21,8 +21,9 @@ struct FocalDensity {
   double directional_density(Point3 from, Vec3 direction) const;
 
   /// Samples a direction toward a converging point or away from a diverging point, from random
-  /// numbers in [0, 1) (eq. 3 and 13). Returns nothing if the sampled point is `from` itself.
-  std::optional<Vec3> sample_direction(Point3 from, float sign, Vec2 u, float v) const;
+  /// numbers in [0, 1) (eq. 3 and 13). Cells of small mass need the digits of `u` beyond a float.
+  /// Returns nothing if the sampled point is `from` itself.
+  std::optional<Vec3> sample_direction(Point3 from, float sign, const Double3& u) const;
 
   std::size_t size_bytes() const { return converging.size_bytes() + diverging.size_bytes(); }
 };

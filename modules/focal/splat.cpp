@@ -5,6 +5,8 @@
 #include <numeric>
 #include <utility>
 
+#include <pharos/guiding/toolkit/guidable_steps.h>
+
 namespace pharos::focal {
 namespace {
 
@@ -129,28 +131,23 @@ std::pair<Technique, Technique> techniques_of(const PathView& path, const Record
 
 void extract_segments(const PathView& path, const ExtentRule& rule, std::vector<Rgb>& incident,
                       std::vector<Segment>& segments) {
-  estimate_incident_radiance(path, incident);
-  for (std::size_t i = 1; i < path.vertices.size(); ++i) {
-    const RecordedVertex& end = path.vertices[i];
-    if (end.parent == kNoVertex || end.parent == 0) continue;
-    const RecordedVertex& vertex = path.vertices[end.parent];
-    if (!vertex.guidable || is_discrete(vertex.event)) continue;
-    const float contribution = mean(vertex.throughput * vertex.local_weight * incident[end.parent]);
-    if (!(contribution > 0) || !std::isfinite(contribution)) continue;
-    const bool escapes = end.kind == VertexKind::environment;
-    // In a medium, the recorded density is also over distances. The factor of the direction alone
-    // is not known.
-    const bool directional = end.kind != VertexKind::volume;
-    const auto [unguided, guided] = techniques_of(path, vertex);
-    segments.push_back({.origin = vertex.position,
-                        .direction = vertex.direction,
-                        .length = escapes ? kInfinity : length(end.position - vertex.position),
-                        .contribution = contribution,
-                        .unguided_pdf = directional ? unguided.density : 0.0f,
-                        .guided_pdf = directional ? guided.density : 0.0f,
-                        .unguided_share = unguided.share,
-                        .whole_line = meets_whole_line(end, rule)});
-  }
+  for_each_guidable_step(path, incident, [&](const GuidableStep& step) {
+    const float contribution = mean(step.from.throughput * step.reflected);
+    if (!(contribution > 0) || !std::isfinite(contribution)) return;
+    const bool escapes = step.to.kind == VertexKind::environment;
+    // Recorded densities contain the medium's factor, and densities of focal points do not.
+    const float medium = step.from.medium_density;
+    const auto [unguided, guided] = techniques_of(path, step.from);
+    segments.push_back(
+        {.origin = step.from.position,
+         .direction = step.from.direction,
+         .length = escapes ? kInfinity : length(step.to.position - step.from.position),
+         .contribution = contribution,
+         .unguided_pdf = unguided.density / medium,
+         .guided_pdf = guided.density / medium,
+         .unguided_share = unguided.share,
+         .whole_line = meets_whole_line(step.to, rule)});
+  });
 }
 
 void Segment::archive(Archive& archive) {

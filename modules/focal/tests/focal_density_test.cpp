@@ -41,7 +41,7 @@ TEST_CASE("focal density: directions fit their density, which integrates to one"
       const auto draw = [&](RandomStream& random) {
         const float sign = random.next_1d();
         const Vec2 u = random.next_2d();
-        return named.density.sample_direction(origin.point, sign, u, random.next_1d());
+        return named.density.sample_direction(origin.point, sign, {u.x, u.y, random.next_1d()});
       };
       const auto density = [&](Vec3 direction) {
         return named.density.directional_density(origin.point, direction);
@@ -60,7 +60,7 @@ TEST_CASE("focal density: directions fit their density, which integrates to one"
 TEST_CASE("focal density: a diverging point is aimed away from") {
   FocalDensity density{Octree(test_box(), {Octree::Node{}}), one_hot_tree()};
   const Point3 from{-1, 0.5f, 3}, hot{0.3f, 1.1f, 4.2f};
-  const auto direction = density.sample_direction(from, 0.5f, {0.3f, 0.6f}, 0.2f);
+  const auto direction = density.sample_direction(from, 0.5f, {0.3, 0.6, 0.2});
   REQUIRE(direction);
   CHECK(dot(*direction, normalize(from - hot)) == doctest::Approx(1).epsilon(1e-5));
   CHECK(density.directional_density(from, *direction) > 1);

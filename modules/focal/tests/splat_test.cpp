@@ -91,6 +91,30 @@ TEST_CASE("segments: the full-path contribution of guidable steps that found lig
   CHECK(found[0].whole_line);
 }
 
+TEST_CASE("segments: densities are of directions, without the medium's factor") {
+  TestPath path;
+  path[1].medium_density = 0.25f;
+  for (const VertexKind kind : {VertexKind::surface, VertexKind::volume}) {
+    path[2].kind = kind;
+    const std::vector<Segment> found = path.segments();
+    REQUIRE(found.size() == 1);
+    CHECK(found[0].unguided_pdf == doctest::Approx(4 * 0.7));
+    CHECK(found[0].guided_pdf == doctest::Approx(4 * (0.5 * 2 + 0.25 * 5) / 0.75));
+  }
+}
+
+TEST_CASE("segments: a step to a vertex that branches counts once") {
+  TestPath path;
+  RecordedVertex end = path[2];
+  end.guidable = true;
+  end.event = Event::smooth_reflect;
+  end.local_weight = Rgb(1);
+  path.log.add(end);  // the same vertex once more, for its second step
+  const std::vector<Segment> found = path.segments();
+  REQUIRE(found.size() == 1);
+  CHECK(found[0].origin == path[1].position);
+}
+
 TEST_CASE("segments: what cannot be guided, found nothing or is not a number is left out") {
   const auto count = [](auto&& change) {
     TestPath path;
