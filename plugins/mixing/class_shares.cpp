@@ -63,8 +63,8 @@ Simplex restricted(Simplex shares, const TechniqueSet& in_use) {
   return normalized(shares);
 }
 
-/// Returns `part` times new shares plus the rest of the known ones. Methods without a new share get
-/// none if new shares count for more than half.
+/// Returns `part` times new shares plus the rest of the known ones. A method whose new share is 0
+/// keeps its part of the known one, unless the new shares count for more than half.
 Simplex blended(const Simplex& found, double part, const Simplex& known) {
   Simplex shares{};
   for (std::size_t i = 0; i < shares.size(); ++i) {
@@ -114,8 +114,9 @@ void ClassShares::learn(const Settings& settings, std::size_t count, const Techn
     });
     const ShareSearch search(steps, settings, count, in_use);
     const double worth = weights_ * weights_ / squares_;
-    own_.final = search.best(search.worthwhile());
-    own_.training = blended(search.best(), worth / (worth + before), own_.training);
+    const double part = worth / (worth + before);
+    own_.final = blended(search.best(search.worthwhile()), part, own_.final);
+    own_.training = blended(search.best(), part, own_.training);
     certainty_ += worth;
   }
   drop_steps();

@@ -20,6 +20,16 @@ Method gaussians(const char* guider, float unguided_fraction, const char* spatia
            fmt::format("training={{ schedule: geometric, images: {} }}", images)}};
 }
 
+/// Choices between guide and BSDF that keep the numbers of both evenly spread.
+Method focal_with_ordered_choices() {
+  Method method = focal(0.5f, "line", "combine");
+  method.name += ", ordered choices";
+  method.integrator = {
+      "sampler={ type: aligned, angles: [30], samples: 64, purposes: [bsdf_direction], "
+      "ordered_choice: true }"};
+  return method;
+}
+
 Method gaussians_learned() {
   return {"p0 learned",
           {"learner=spatial_gaussians", "guider=p0", "mixing=learned",
@@ -70,7 +80,8 @@ std::vector<Method> focal_methods() {
           focal(0.1f, "roughness_gated", "combine"),
           focal(0.5f, "line", "combine"),
           focal(0.9f, "roughness_gated", "discard"),
-          focal_learned()};
+          focal_learned(),
+          focal_with_ordered_choices()};
 }
 
 std::vector<Method> gaussian_methods() {
@@ -83,6 +94,8 @@ std::vector<Method> gaussian_methods() {
           gaussians("projected", 0.1f, "kdtree", "combine"),
           gaussians("projected", 0.5f, "single", "discard"),
           gaussians("projected", 0.9f, "kdtree", "discard"),
+          gaussians("{ type: p0, product: bsdf }", 0.25f, "kdtree, splat: true", "combine"),
+          gaussians("{ type: p1, product: none }", 0.25f, "kdtree, splat: true", "discard"),
           gaussians_learned()};
 }
 
@@ -102,18 +115,20 @@ std::vector<Method> sd_tree_methods() {
 }
 
 std::vector<Method> lobe_methods() {
-  const char *tree = "spatial: kdtree, cell_samples: 8192", *single = "spatial: single",
-             *plain = "parallax: false";
+  const char *tree = "spatial: kdtree, cell_samples: 8192",
+             *splatted = "spatial: kdtree, cell_samples: 8192, splat: true",
+             *single = "spatial: single", *plain = "parallax: false";
   const char *few = "{ type: fixed, unguided_fraction: 0.1 }", *half = "fixed",
              *learned = "learned";
-  return {lobes(tree, "cosine", half, "discard"), lobes(single, "bsdf", few, "discard"),
-          lobes(plain, "none", few, "combine"),   lobes(tree, "bsdf", learned, "combine"),
-          lobes(single, "none", half, "combine"), lobes(plain, "cosine", learned, "discard"),
-          lobes(single, "cosine", few, "combine")};
+  return {lobes(tree, "cosine", half, "discard"),  lobes(single, "bsdf", few, "discard"),
+          lobes(plain, "none", few, "combine"),    lobes(tree, "bsdf", learned, "combine"),
+          lobes(single, "none", half, "combine"),  lobes(plain, "cosine", learned, "discard"),
+          lobes(single, "cosine", few, "combine"), lobes(splatted, "bsdf", few, "combine")};
 }
 
-/// Variants: pairs, triplets, triplets that learn from light paths, and triplets that also render
-/// with light paths.
+/// Variants: pairs, whose cells are divided by counts; triplets, whose cells are divided by
+/// effective numbers; triplets that learn from light paths, and triplets that also render with
+/// light paths.
 Method triplets(Triplets variant, const char* surfaces, float unguided_fraction, bool guide_camera,
                 const char* images) {
   constexpr std::array kNames{"pairs", "triplets", "triplets, light in training",
@@ -124,8 +139,8 @@ Method triplets(Triplets variant, const char* surfaces, float unguided_fraction,
       fmt::format("{} {} {} {} {}", kNames[static_cast<std::size_t>(variant)], surfaces,
                   unguided_fraction, guide_camera ? "camera" : "pixels", images),
       {fmt::format("learner={{ type: vertex_triplets, vertices: {}, light_paths: {}, cells: 16, "
-                   "components: 16, reservoir: 512 }}",
-                   pairs ? "pairs" : "triplets", light),
+                   "components: 16, reservoir: 512, least_effective: {} }}",
+                   pairs ? "pairs" : "triplets", light, pairs ? 0 : 64),
        fmt::format("guider={{ type: vertex_triplets, surfaces: {}, guide_camera: {} }}", surfaces,
                    guide_camera),
        fmt::format("mixing={{ type: fixed, unguided_fraction: {} }}", unguided_fraction),

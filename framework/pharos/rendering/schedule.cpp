@@ -88,6 +88,7 @@ std::uint32_t Schedule::largest(const Spending& spending) const {
     const double rendering = std::max(spending.largest_share * *budget_.seconds - update, update);
     samples = rendering / std::max(spending.seconds_per_sample, 1e-9);
   }
+  samples *= 1 + 1e-9;  // a share of whole samples may have been rounded down
   return std::max(static_cast<std::uint32_t>(std::clamp(samples, 1.0, double{kMostSamples})),
                   spending.region_minimum);
 }

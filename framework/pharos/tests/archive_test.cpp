@@ -6,9 +6,12 @@
 #include <doctest/doctest.h>
 
 #include <pharos/core/archive.h>
+#include <pharos/tests/fixtures.h>
 
 namespace pharos {
 namespace {
+
+using test::saved;
 
 enum class Kind : std::uint8_t { one = 1, two = 2 };
 
@@ -52,12 +55,6 @@ Thing example() {
               .triple = {5, 6, 7}};
   thing.lists = {{{1, 2}, {3, 4}}, {}, {{5, 6}}};
   return thing;
-}
-
-std::string saved(const Thing& thing) {
-  std::ostringstream out;
-  save(out, thing);
-  return out.str();
 }
 
 Thing loaded(const std::string& bytes) {

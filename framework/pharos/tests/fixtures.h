@@ -3,10 +3,12 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <unistd.h>
 
+#include <pharos/core/archive.h>
 #include <pharos/core/error.h>
 
 namespace pharos::test {
@@ -42,6 +44,14 @@ class TemporaryFolder {
 inline std::string bytes_of(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// Returns the saved form of an object.
+template <class T>
+std::string saved(const T& object) {
+  std::ostringstream out;
+  save(out, object);
+  return out.str();
 }
 
 /// Returns the message of the InputError that `run` throws, or "no error" if it throws none.

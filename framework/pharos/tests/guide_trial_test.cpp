@@ -267,7 +267,7 @@ TEST_CASE("guide trial: while hardly any light is found, training goes on in lar
   GuidingState state(own, {}), resumed(own, {});
   const auto find_little = [](GuidingState& each, double spent) {
     for (std::uint64_t unit = 0; unit < 100; ++unit) {
-      each.absorb(test::guided_paths(std::array{0.5}, 2, unit));
+      each.absorb(test::guided_paths(std::array{0.5}, 1, unit));
     }
     return each.may_end_training({.spent = spent});
   };
@@ -285,6 +285,41 @@ TEST_CASE("guide trial: while hardly any light is found, training goes on in lar
     CHECK(each->frame() != nullptr);  // there is no verdict
     CHECK_FALSE(each->gain());
   }
+}
+
+TEST_CASE("guide trial: few paths with light make no noise ratio, and change no verdict") {
+  GuidingSettings own = tiny_settings();
+  own.training.least_gain = 10;
+  own.training.most_noise = 1;
+  own.training.least_part = 1;
+  own.training.trial = 0.3;
+  GuidingState state(own, {});
+  may_end(state, 0.5, 0.1, 1);
+  state.update({0, 9});
+  const auto find = [&](int paths, double guide) {
+    for (std::uint64_t unit = 0; unit < 100; ++unit) {
+      state.absorb(test::guided_paths(std::array{guide, 0.5, -1.0}, paths / 100, unit));
+    }
+    return state.may_end_training({.spent = 0.2});
+  };
+  // Better guides than before lower the noise, but the first of them are too few to tell.
+  for (const std::uint32_t i : {1u, 2u}) {
+    CHECK_FALSE(find(100, 0.9));
+    state.update({i, 9 - i});
+    CHECK_FALSE(state.gain());
+  }
+  CHECK_FALSE(find(100'000, 0.9));
+  CHECK(state.worthwhile_share() < 1);  // one ratio is not enough
+  state.update({3, 5});
+  CHECK_FALSE(find(100'000, 0.9));
+  CHECK(state.worthwhile_share() == 1);
+  state.update({4, 4});
+  const double before = state.gain()->nats;
+  CHECK_FALSE(find(100, 0.1));
+  CHECK(state.worthwhile_share() == 1);
+  state.update({5, 0});
+  CHECK(state.gain()->nats == before);
+  CHECK_FALSE(state.gain()->is_off);
 }
 
 TEST_CASE("guide trial: a guide that hardly helps is off after training, which ends early") {

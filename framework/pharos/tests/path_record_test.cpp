@@ -10,10 +10,13 @@
 #include <pharos/core/random.h>
 #include <pharos/guiding/record/path_record.h>
 #include <pharos/guiding/toolkit/guidable_steps.h>
+#include <pharos/tests/fixtures.h>
 #include <pharos/transport/scatter_step.h>
 
 namespace pharos {
 namespace {
+
+using test::saved;
 
 using Indices = std::vector<std::uint32_t>;
 
@@ -130,12 +133,6 @@ PathLog example() {
   log.add(RecordedVertex{.kind = VertexKind::sensor});
   add_light_path(log, numbers);
   return log;
-}
-
-std::string saved(const PathLog& log) {
-  std::ostringstream out;
-  save(out, log);
-  return out.str();
 }
 
 PathLog loaded(const std::string& bytes) {

@@ -190,6 +190,18 @@ TEST_CASE("a small share of the budget: no iteration is tiny because little is l
   CHECK(run({.spp = 128}, geometric, 64, regions).total() == 128);
 }
 
+TEST_CASE("a small share of the budget: a share of whole samples is not rounded down") {
+  Schedule schedule({.spp = 100}, {.schedule = ScheduleKind::geometric, .share = 0.9}, 1);
+  Spending spent;
+  for (const std::uint32_t samples : {1u, 2u, 4u, 8u}) {
+    CHECK(schedule.next(spent)->samples == samples);
+    const double before = schedule.fraction(spent.samples, 0);
+    spent.samples += samples;
+    spent.largest_share = 2 * (schedule.fraction(spent.samples, 0) - before);
+  }
+  CHECK(schedule.next(spent)->samples == 16);
+}
+
 TEST_CASE("a small share of the budget: uniform training is shorter") {
   CHECK(run({.spp = 96}, {.iterations = 3}, 1, {.largest_share = 1.0 / 16}).samples ==
         std::vector<std::uint32_t>{16, 6, 6, 68});

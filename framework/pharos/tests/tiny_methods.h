@@ -12,6 +12,7 @@
 
 #include <pharos/core/warp.h>
 #include <pharos/guiding/pipeline/guiding_state.h>
+#include <pharos/tests/fixtures.h>
 
 /// The smallest methods and the smallest policy that a render can learn with.
 namespace pharos::test {
@@ -185,14 +186,6 @@ inline Methods asked_methods(const GuidingState& state) {
     methods.push_back(part.method);
   }
   return methods;
-}
-
-/// Returns the bytes of a saved object.
-template <class T>
-std::string saved(const T& object) {
-  std::ostringstream out;
-  save(out, object);
-  return out.str();
 }
 
 /// Loads what saved() returned.

@@ -17,6 +17,7 @@ namespace pharos::focal {
 namespace {
 
 using namespace testing;
+using test::saved;
 
 /// Half of the width of the hole through which all light passes, and the hole's center.
 constexpr float kHole = 0.01f;
@@ -81,14 +82,6 @@ std::shared_ptr<const FocalModel> trained(const FocalSettings& settings, float s
     model = state->update({i, iterations - 1 - i}).model;
   }
   return std::dynamic_pointer_cast<const FocalModel>(model);
-}
-
-/// The saved form of a model or a state.
-template <class T>
-std::string saved(const T& object) {
-  std::ostringstream out;
-  save(out, object);
-  return out.str();
 }
 
 /// Returns the share of sampled directions from the canvas that pass through the hole.

@@ -8,10 +8,13 @@
 
 #include <pharos/core/random.h>
 #include <pharos/core/warp.h>
+#include <pharos/tests/fixtures.h>
 
 #include "../learner.h"
 
 namespace pharos::open_pgl::testing {
+
+using test::saved;
 
 inline constexpr Bounds3 kRegion{{-2, -2, -1}, {2, 2, 3}};
 inline constexpr Point3 kLamp{0, 0, 2};
@@ -72,14 +75,6 @@ inline std::string answers(const GuidingModel& model) {
     const Vec3 w = warp::sphere_from_square(random.next_2d());
     out << std::hexfloat << density(model, at, w) << ' ';
   }
-  return out.str();
-}
-
-/// Returns the saved form of a model or a state.
-template <class T>
-std::string saved(const T& object) {
-  std::ostringstream out;
-  save(out, object);
   return out.str();
 }
 

@@ -7,6 +7,7 @@
 #include <tbb/global_control.h>
 
 #include <pharos/core/error.h>
+#include <pharos/tests/fixtures.h>
 
 #include "../model.h"
 #include "../sample.h"
@@ -17,6 +18,7 @@ namespace pharos::parallax_aware_mixtures {
 namespace {
 
 using namespace testing;
+using test::saved;
 
 constexpr Point3 kLamp{0, 0, 1};
 
@@ -71,14 +73,6 @@ Learned trained(LearningState& state, std::uint32_t iterations = 4) {
 
 Learned trained(const ParallaxAwareMixturesSettings& settings) {
   return trained(*ParallaxAwareMixturesLearner(settings).begin({.seed = 7}));
-}
-
-/// Returns the saved form of a model or a state.
-template <class T>
-std::string saved(const T& object) {
-  std::ostringstream out;
-  save(out, object);
-  return out.str();
 }
 
 /// Returns the model that was saved. Throws InputError if it is damaged.

@@ -9,11 +9,14 @@
 #include <pharos/core/error.h>
 #include <pharos/core/random.h>
 #include <pharos/core/warp.h>
+#include <pharos/tests/fixtures.h>
 
 #include "../model.h"
 
 namespace pharos::practical_path_guiding {
 namespace {
+
+using test::saved;
 
 constexpr Point3 kLamp{0, 0, 1};
 
@@ -76,14 +79,6 @@ Learned trained(const PracticalPathGuidingSettings& settings, std::uint32_t iter
 
 const PracticalPathGuidingModel& as_tree(const std::shared_ptr<const GuidingModel>& model) {
   return dynamic_cast<const PracticalPathGuidingModel&>(*model);
-}
-
-/// Returns the saved form of a model or a state.
-template <class T>
-std::string saved(const T& object) {
-  std::ostringstream out;
-  save(out, object);
-  return out.str();
 }
 
 /// Returns the model that was saved. Throws InputError if it is damaged.

@@ -10,9 +10,12 @@
 #include <pharos/core/random.h>
 #include <pharos/core/warp.h>
 #include <pharos/statistics/goodness_of_fit.h>
+#include <pharos/tests/fixtures.h>
 
 namespace pharos::practical_path_guiding {
 namespace {
+
+using test::saved;
 
 /// Returns a tree for a density with a narrow peak at `peak`, refined twice.
 QuadTree peaked(Vec2 peak, LeafMass kind = LeafMass::sum) {
@@ -222,12 +225,6 @@ struct TreeAndDensity {
     archive.expect(is_density(nodes), "the density");
   }
 };
-
-std::string saved(const TreeAndDensity& both) {
-  std::ostringstream out;
-  save(out, both);
-  return out.str();
-}
 
 TreeAndDensity loaded(const std::string& text) {
   std::istringstream in(text);

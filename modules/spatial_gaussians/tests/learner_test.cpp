@@ -10,6 +10,7 @@
 
 #include <pharos/core/error.h>
 #include <pharos/core/warp.h>
+#include <pharos/tests/fixtures.h>
 
 #include "../model.h"
 #include "../seen_mixture.h"
@@ -19,6 +20,7 @@ namespace pharos::spatial_gaussians {
 namespace {
 
 using namespace testing;
+using test::saved;
 
 /// The ends of a thin tube of light above a square floor.
 constexpr Point3 kTubeBegin{-1, 1, 0.5f}, kTubeEnd{1, 1.2f, 0.5f};
@@ -93,14 +95,6 @@ const SpatialGaussiansModel& as_gaussians(const std::shared_ptr<const GuidingMod
 /// Returns the density that the model expects from a direction at a point.
 double density(const GuidingModel& model, Point3 at, Vec3 direction) {
   return model.density(at, &direction);
-}
-
-/// Returns the saved form of a model or a state.
-template <class T>
-std::string saved(const T& object) {
-  std::ostringstream out;
-  save(out, object);
-  return out.str();
 }
 
 /// Returns the share of the model's directions at a point that pass the tube within this distance.

@@ -8,6 +8,7 @@
 
 #include <pharos/core/error.h>
 #include <pharos/core/random.h>
+#include <pharos/tests/fixtures.h>
 
 #include "../model.h"
 #include "../sample.h"
@@ -15,6 +16,8 @@
 
 namespace pharos::vertex_triplets {
 namespace {
+
+using test::saved;
 
 const SampleRule kRule{.environment = {100}};
 
@@ -303,14 +306,6 @@ TEST_CASE("learning: knows nothing of nothing") {
   const auto later = VertexTripletsLearner({}).begin(context());
   later->absorb(mirror_paths(1, 1));
   CHECK(later->update({0, 1}).model != nullptr);
-}
-
-/// The saved form of a model or a state.
-template <class T>
-std::string saved(const T& object) {
-  std::ostringstream out;
-  save(out, object);
-  return out.str();
 }
 
 VertexTripletsModel loaded_model(const std::string& bytes) {

@@ -205,21 +205,32 @@ TEST_CASE("simplex mixing: a single bright step counts as one step") {
 }
 
 TEST_CASE("simplex mixing: a single step that a guide cannot draw does not drop the guide") {
-  // Elsewhere only the guide finds light, and nothing was found here.
+  // Only the guide finds light, `here` in many steps and `there` in none or in 30.
   constexpr World kDark{{1, 0, 0}, {0, 1, 0}, {0, 0, 0}};
-  const auto state = begun({.cell_steps = 64});
   const auto here = vertex_at({0, 0, 0}), there = vertex_at({100, 0, 0});
-  absorb(*state, kOnlyGuideFinds, 2000, 1, here);
-  absorb(*state, kDark, 2000, 2, there);
-  state->update(1, {}, false);
-  absorb(*state, kOnlyGuideFinds, 2000, 3, here);
-  PathLog log;
-  const Answer now = ask(*state, there);
-  add_path(log, now.key, std::array{Technique{now.shares[0], 1}, Technique{now.shares[1], 0}}, 1,
-           there.current.position);
-  state->absorb(log);
-  state->update(1, {}, true);
-  CHECK(ask(*state, there).shares[1] > 0.5);
+  for (const bool has_history : {false, true}) {
+    CAPTURE(has_history);
+    const auto state = begun({.cell_steps = 64});
+    absorb(*state, kOnlyGuideFinds, 2000, 1, here);
+    absorb(*state, kDark, 2000, 2, there);
+    state->update(1, {}, false);
+    absorb(*state, kOnlyGuideFinds, 2000, 3, here);
+    if (has_history) absorb(*state, kOnlyGuideFinds, 60, 4, there);
+    state->update(1, {}, false);
+    const auto find_by_chance = [&](int steps) {
+      PathLog log;
+      const Answer now = ask(*state, there);
+      const std::array techniques{Technique{now.shares[0], 1}, Technique{now.shares[1], 0}};
+      for (int i = 0; i < steps; ++i) {
+        add_path(log, now.key, techniques, 1, there.current.position);
+      }
+      state->absorb(log);
+      state->update(1, {}, true);
+      return ask(*state, there).shares[1];
+    };
+    CHECK(find_by_chance(1) > 0.5);
+    CHECK(find_by_chance(1000) == 0);
+  }
 }
 
 TEST_CASE("simplex mixing: what a model knows of a place scales the odds of its method") {

@@ -16,17 +16,18 @@ void GuideTrial::absorb(const PathLog& log, bool is_guided) {
 
 bool GuideTrial::end_iteration(const IterationCost& cost, bool is_guided) {
   spent_before_ = std::exchange(spent_, cost.spent);
-  was_guided_ = is_guided;
-  noise_.end_iteration(is_guided);
-  // Iterations without guides say nothing about guides.
+  std::vector<HeldOutGain::Part> parts(gain_.parts().begin(), gain_.parts().end());
+  has_measured_ = is_guided && gain_.end_iteration();
+  // Few paths with light say nothing about guides, and iterations without guides do not either.
+  noise_.end_iteration(has_measured_);
   if (!is_guided) {
     unguided_samples_ += cost.samples;
     unguided_seconds_ += cost.seconds;
-    return false;
+  } else if (cost.samples > 0) {
+    guided_seconds_ = cost.seconds / cost.samples;
   }
-  if (cost.samples > 0) guided_seconds_ = cost.seconds / cost.samples;
-  parts_before_.assign(gain_.parts().begin(), gain_.parts().end());
-  gain_.end_iteration();
+  if (!has_measured_) return false;
+  parts_before_ = std::move(parts);
   if (spent_ < settings_.trial) return false;
   if (!is_useless()) return settings_.tolerance > 0 && !may_pay();
   return !gain_.may_reach(settings_.least_gain) && !(settings_.most_noise > 0 && may_pay());
@@ -55,8 +56,8 @@ bool GuideTrial::is_useless() const {
 }
 
 bool GuideTrial::may_be_useless() const {
-  // A single ratio is not enough, nor is one of hardly any light: it may be far too low.
-  const bool surely_lowers_noise = gain_.is_known() && noise_.fall() && lowers_noise();
+  // One ratio is not enough, because it may be far too low by chance.
+  const bool surely_lowers_noise = noise_.fall() && lowers_noise();
   return settings_.least_gain > 0 && gain_.may_be_below(settings_.least_gain) &&
          !surely_lowers_noise;
 }
@@ -65,8 +66,8 @@ double GuideTrial::worthwhile_share() const {
   if (!may_be_useless()) return 1;
   const double short_share = std::max(settings_.trial - spent_, 0.5 * settings_.trial);
   if (gain_.is_known()) return short_share;
-  const double last = spent_ - spent_before_;
-  return std::max(short_share, was_guided_ ? 2 * last : last);
+  const bool is_first = spent_before_ == 0;
+  return std::max(short_share, (is_first ? 1 : 2) * (spent_ - spent_before_));
 }
 
 double GuideTrial::next_share() const {
@@ -93,7 +94,8 @@ bool GuideTrial::may_pay() const {
 }
 
 std::optional<std::size_t> GuideTrial::dispensable_method() const {
-  if (!(settings_.least_part > 0) || spent_ < settings_.trial || is_useless()) return std::nullopt;
+  const bool may_leave_out = settings_.least_part > 0 && spent_ >= settings_.trial;
+  if (!may_leave_out || !has_measured_ || is_useless()) return std::nullopt;
   const std::span<const HeldOutGain::Part> parts = gain_.parts();
   const auto took_part = std::count_if(parts.begin(), parts.end(),
                                        [](const HeldOutGain::Part& part) { return part.is_known; });

@@ -56,24 +56,26 @@ class GuideTrial {
   bool end_iteration(const IterationCost& cost, bool is_guided);
   /// Returns the largest share of the budget that the next training iteration is worth [1]: all of
   /// it. If the guides may be useless, it is the rest of the share TrainingSettings::trial or half
-  /// of that share, whichever is larger. As long as the gain is unknown, it is at least twice the
-  /// share of the last iteration, because light that is hard to find needs more and more samples,
-  /// or once if the last iteration had no guides, because it does not tell how long guides take.
+  /// of that share, whichever is larger. As long as the gain is unknown, light is hard to find and
+  /// needs more and more samples: then it is at least twice the share of the last iteration. The
+  /// second iteration is worth no more than the first one, which does not tell how long guides
+  /// take.
   double worthwhile_share() const;
   /// Returns whether the guides do not help enough to be used. False as long as it is unknown.
   bool is_useless() const;
-  /// Returns a method that the guides can do without: in the last two iterations it took part, and
-  /// its part in the gain was less than TrainingSettings::least_part. Of several such methods it is
-  /// the one with the smallest part. None if no other method took part, before the share `trial` of
-  /// the budget was spent, and if the guides do not suffice.
+  /// Returns a method that the guides can do without: in the last two measurements of the gain it
+  /// took part, and its part was less than TrainingSettings::least_part. Of several such methods it
+  /// is the one with the smallest part. None if the last iteration has measured nothing, if no
+  /// other method took part, before the share `trial` of the budget was spent, and if the guides do
+  /// not suffice.
   std::optional<std::size_t> dispensable_method() const;
-  /// Returns how much the guides help, without a verdict; none if the last iteration
-  /// found too little light to tell.
+  /// Returns how much the guides help, without a verdict; none if too few paths have
+  /// found light to tell.
   std::optional<GuideGain> gain() const;
 
   void archive(Archive& archive) {
     archive(gain_, noise_, parts_before_, spent_before_, spent_, unguided_samples_,
-            unguided_seconds_, guided_seconds_, was_guided_);
+            unguided_seconds_, guided_seconds_, has_measured_);
   }
 
  private:
@@ -91,12 +93,12 @@ class GuideTrial {
   TrainingSettings settings_;
   HeldOutGain gain_;
   NoiseRatio noise_;
-  std::vector<HeldOutGain::Part> parts_before_;         ///< in the iteration before the last
+  std::vector<HeldOutGain::Part> parts_before_;         ///< of the measurement before the last
   double spent_before_ = 0, spent_ = 0;                 ///< shares of the budget
   double unguided_samples_ = 0, unguided_seconds_ = 0;  ///< of iterations without guides
   double guided_seconds_ =
-      0;                     ///< for each sample per pixel of the last guided iteration; 0: unknown
-  bool was_guided_ = false;  ///< the last iteration
+      0;  ///< for each sample per pixel of the last guided iteration; 0: unknown
+  bool has_measured_ = false;  ///< the last iteration has measured the gain
 };
 
 }  // namespace pharos

@@ -61,7 +61,6 @@ void HeldOutGain::absorb(const PathLog& log) {
 /// Returns the ratio of the sums, and the variance of a ratio of two means over work units, to
 /// first order.
 HeldOutGain::Gain HeldOutGain::gain() const {
-  if (!is_measured()) return {};
   const double ratio = sums_.log / sums_.weight;
   const double squares =
       sums_.log_squared - 2 * ratio * sums_.product + ratio * ratio * sums_.weight_squared;
@@ -69,17 +68,18 @@ HeldOutGain::Gain HeldOutGain::gain() const {
   return {ratio, units / (units - 1) * std::max(squares, 0.0) / (sums_.weight * sums_.weight)};
 }
 
-void HeldOutGain::end_iteration() {
+bool HeldOutGain::end_iteration() {
+  if (!is_measured()) return false;
   before_ = std::exchange(last_, gain());
-  has_before_ = std::exchange(has_last_, is_measured());
-  if (!has_last_) parts_.clear();
+  has_before_ = std::exchange(has_last_, true);
   for (Part& part : parts_) part.nats /= sums_.weight;
   last_parts_ = std::exchange(parts_, {});
   sums_ = {};
+  return true;
 }
 
 double HeldOutGain::possible_rise() const {
-  if (!has_before_ || !has_last_) return std::numeric_limits<double>::infinity();
+  if (!has_before_) return std::numeric_limits<double>::infinity();
   return rise() + std::sqrt(before_.variance + last_.variance);
 }
 
