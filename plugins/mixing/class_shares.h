@@ -36,8 +36,9 @@ class ClassShares {
   void learn(const SimplexMixing::Settings& settings, std::size_t count, const TechniqueSet& in_use,
              const StagedShares& prior);
 
-  /// Returns the shares for the next iteration. In the final iteration, methods that are not worth
-  /// their cost have the share 0. A class that has found no light yet has the shares of its prior.
+  /// Returns the shares for the next iteration. In the final iteration, methods that are surely not
+  /// worth their cost have the share 0. A class that has found no light yet has the shares of its
+  /// prior.
   const StagedShares& shares() const { return shares_; }
 
   void archive(Archive& archive);

@@ -24,7 +24,7 @@ Method gaussians(const char* guider, float unguided_fraction, const char* spatia
 Method focal_with_ordered_choices() {
   Method method = focal(0.5f, "line", "combine");
   method.name += ", ordered choices";
-  method.integrator = {
+  method.others = {
       "sampler={ type: aligned, angles: [30], samples: 64, purposes: [bsdf_direction], "
       "ordered_choice: true }"};
   return method;
@@ -146,9 +146,9 @@ Method triplets(Triplets variant, const char* surfaces, float unguided_fraction,
        fmt::format("mixing={{ type: fixed, unguided_fraction: {} }}", unguided_fraction),
        fmt::format("training={{ schedule: geometric, images: {} }}", images)}};
   if (light) {
-    method.integrator = {"integrator.type=bidirectional",
-                         fmt::format("integrator.light_paths={}",
-                                     variant == Triplets::light_always ? "always" : "training")};
+    method.others = {"integrator.type=bidirectional",
+                     fmt::format("integrator.light_paths={}",
+                                 variant == Triplets::light_always ? "always" : "training")};
   }
   return method;
 }

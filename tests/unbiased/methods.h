@@ -6,13 +6,13 @@
 
 namespace pharos::testing {
 
-/// A guiding method: settings of the integrator's `guiding`, and further settings of the
-/// integrator. A setting of `guiding` begins with the separator that follows `integrator.guiding`,
+/// A guiding method: settings of the integrator's `guiding`, and further settings of the config. A
+/// setting of `guiding` begins with the separator that follows `integrator.guiding`,
 /// "." if it has none.
 struct Method {
   std::string name;
   std::vector<std::string> settings;
-  std::vector<std::string> integrator = {};
+  std::vector<std::string> others = {};
 };
 
 /// Focal guiding.

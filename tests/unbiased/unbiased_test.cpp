@@ -41,7 +41,7 @@ void compare(const std::filesystem::path& config, std::span<const Method> method
   options.family_level /= static_cast<double>(methods.size());
   for (std::size_t i = 0; i < methods.size(); ++i) {
     std::vector<std::string> changed = overrides;
-    changed.insert(changed.end(), methods[i].integrator.begin(), methods[i].integrator.end());
+    changed.insert(changed.end(), methods[i].others.begin(), methods[i].others.end());
     const Renders guided =
         render_seeds(load(config, methods[i].settings, changed), kRenders, 1000 * (i + 1));
     const auto result = statistics::compare_images(guided.side(), reference, options);

@@ -54,7 +54,8 @@ void TrainingSettings::describe(Schema<TrainingSettings>& s) {
        "be "
        "worth its time. Nothing is decided before. Until they surely suffice, an iteration takes "
        "at "
-       "most the rest of this share or half of it, whichever is larger")
+       "most the rest of this share or half of it, whichever is larger; as long as the gain is "
+       "unknown, it may take more")
       .at_least(0)
       .at_most(1);
 }
