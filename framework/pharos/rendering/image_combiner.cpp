@@ -6,7 +6,7 @@ namespace pharos {
 namespace {
 
 /// The share of all samples from which guides must have learned for images of full weight.
-constexpr double kYoung = 0.25;
+constexpr double kYoung = 1.0 / 8;
 
 /// Returns the sum of the weights of the first `samples` of `total` samples.
 double weight_up_to(double samples, double total) {

@@ -10,9 +10,9 @@ namespace pharos {
 
 /// Combines images of the same scene that were rendered one after another, while guides learned.
 ///
-/// Sample number s of a pixel, of N in all, has the weight min(1, 4 s / N). Guides that have
-/// learned from less than a quarter of all samples may make much noisier images, so these count
-/// less. If all images are equally noisy, the variance is up to 9 % larger than with equal weights.
+/// Sample number s of a pixel, of N in all, has the weight min(1, 8 s / N). Guides that have
+/// learned from less than an eighth of all samples may make much noisier images, so these count
+/// less. If all images are equally noisy, the variance is up to 4 % larger than with equal weights.
 ///
 /// With a budget of samples, the weights depend on nothing that an image shows, so the combination
 /// is unbiased. With a budget of time, N depends a little on how long the paths were. As long as no

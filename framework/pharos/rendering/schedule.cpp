@@ -7,6 +7,9 @@ namespace pharos {
 namespace {
 
 constexpr std::uint32_t kMostSamples = 1u << 30;
+/// The share of a time budget with which `geometric` training begins. A single sample per pixel may
+/// take so little time that it does not tell how long others will take.
+constexpr double kFirstShare = 0.01;
 
 /// Doubles a number of samples without overflow.
 std::uint32_t doubled(std::uint32_t samples) {
@@ -47,6 +50,8 @@ std::optional<Iteration> Schedule::next(const Spending& spending) {
     over_ = true;
     return final_image(spending);
   }
+  const bool first_was_timed = budget_.seconds && kind_ == ScheduleKind::geometric && index_ == 1;
+  if (first_was_timed) size_ = spending.samples;
   // Learners were told that this iteration follows, so there is one even if nothing is left for it.
   const std::uint32_t count = std::max(1u, fitting(spending)), most = largest(spending);
   const bool is_last = count == 1;
@@ -58,6 +63,8 @@ std::optional<Iteration> Schedule::next(const Spending& spending) {
   } else if (kind_ == ScheduleKind::uniform) {
     if (!is_last) iteration.least_samples = spending.region_minimum;
     iteration.deadline = training_seconds_ - (count - 1) * cost(wanted(spending), spending);
+  } else if (iteration.index == 0 && !is_last) {
+    iteration.deadline = spending.seconds + kFirstShare * *budget_.seconds;
   } else {
     if (!is_last) iteration.samples = wanted(spending);
     iteration.deadline = training_seconds_ - spending.update_seconds;

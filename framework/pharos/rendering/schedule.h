@@ -52,8 +52,9 @@ struct Spending {
 ///
 /// - `uniform` training has `iterations` parts of equal size.
 /// - `geometric` training doubles the samples from one iteration to the next. With a time budget it
-///   begins with one sample per pixel. If another iteration of twice the size would not fit after
-///   an iteration, that iteration is the last one and uses all the time left for training.
+///   begins with a hundredth of the time, and at least one sample per pixel. If another iteration
+///   of twice the size would not fit after an iteration, that iteration is the last one and uses
+///   all the time left for training.
 ///
 /// An iteration that would give the models' regions too few samples is longer, so there are fewer.
 /// An iteration that may take only a small share of the budget is shorter, so there may be more, up

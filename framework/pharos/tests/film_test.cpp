@@ -207,8 +207,8 @@ TEST_CASE("images combine by when their samples were taken, whatever their varia
     }
     CHECK(image.pixel(4, 4)[image.channel_index("samples.N")] == 64);
   }
-  // The first 16 of 64 samples have half of the full weight on average.
-  constexpr double kVariance = (40.0 * 40 / 48 * 1.0 + 16 * 0.25) / (56 * 56);
+  // The first 8 of 64 samples have half of the full weight on average.
+  constexpr double kVariance = (44.0 * 44 / 48 * 1.0 + 16 * 0.25) / (60 * 60);
   CHECK(mean_value == doctest::Approx(1).epsilon(0.03));
   CHECK(squares == doctest::Approx(kVariance).epsilon(0.1).scale(0));
   CHECK(stated == doctest::Approx(kVariance).epsilon(0.1).scale(0));
@@ -224,17 +224,17 @@ Film flat(float value, std::uint64_t passes) {
 }
 
 TEST_CASE("images of guides that know little count less, and only the latest are combined") {
-  // Sample s of 16 has the weight min(1, s / 4). The sums of the images' weights are 0.5, 1.5 and
-  // 12.
+  // Sample s of 32 has the weight min(1, s / 4). The sums of the images' weights are 0.5, 1.5 and
+  // 28.
   const auto combined = [](std::uint32_t latest) {
     ImageCombiner combiner(latest);
     combiner.add(flat(1, 2), 0);
     combiner.add(flat(2, 2), 2);
-    combiner.add(flat(3, 12), 4);
+    combiner.add(flat(3, 28), 4);
     return combiner.combine().rgb(2, 3).r;
   };
-  CHECK(combined(3) == doctest::Approx((0.5 + 1.5 * 2 + 12 * 3) / 14));
-  CHECK(combined(2) == doctest::Approx((1.5 * 2 + 12 * 3) / 13.5));
+  CHECK(combined(3) == doctest::Approx((0.5 + 1.5 * 2 + 28 * 3) / 30));
+  CHECK(combined(2) == doctest::Approx((1.5 * 2 + 28 * 3) / 29.5));
   CHECK(combined(1) == doctest::Approx(3));
 }
 
@@ -247,7 +247,7 @@ TEST_CASE("an image of a single pass has the variance of the last image per samp
   const int variance = image.channel_index("variance.R");
   CHECK(std::isinf(single.layers().pixel(4, 4)[variance]));
   const double per_sample = 15.0 * last.pixel(4, 4)[variance];
-  const double first_weight = 0.125, total_weight = 14;
+  const double first_weight = 0.25, total_weight = 15;
   const double expected = (first_weight * first_weight +
                            (total_weight - first_weight) * (total_weight - first_weight) / 15) *
                           per_sample / (total_weight * total_weight);

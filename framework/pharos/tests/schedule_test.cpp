@@ -116,16 +116,17 @@ TEST_CASE(
     "geometric training in seconds counts whole passes, and its last iteration takes the rest") {
   const Run all =
       run({.seconds = 40.0}, {.schedule = ScheduleKind::geometric, .iterations = 15, .share = 0.5});
-  // 1, 2, 4 and 8 samples take 4.25 s with their updates. 16 and 32 samples would take 12.25 s,
-  // which leaves 3.5 s: not enough for 64, and 16 alone would leave room for 32.
-  REQUIRE(all.samples.size() == 7);
-  for (std::size_t i = 0; i < 5; ++i) CHECK(all.samples[i] == 1u << i);
-  CHECK(all.samples[5] > 32);
-  CHECK(all.samples[5] < 64);
-  CHECK(all.iterations[5].deadline == doctest::Approx(20 - kUpdateSeconds));
-  CHECK(all.iterations[5].training_left == 0);
-  CHECK(all.iterations[4].training_left == 1);
-  CHECK_FALSE(all.iterations[6].training);
+  // Two samples take a hundredth of the time. They and 4, 8 and 16 samples take 8 s with their
+  // updates. 32 samples would take 8.125 s, which leaves 3.9 s: not enough for 64.
+  REQUIRE(all.samples.size() == 6);
+  CHECK(all.iterations[0].deadline == doctest::Approx(0.4));
+  for (std::size_t i = 0; i < 4; ++i) CHECK(all.samples[i] == 2u << i);
+  CHECK(all.samples[4] > 32);
+  CHECK(all.samples[4] < 64);
+  CHECK(all.iterations[4].deadline == doctest::Approx(20 - kUpdateSeconds));
+  CHECK(all.iterations[4].training_left == 0);
+  CHECK(all.iterations[3].training_left == 1);
+  CHECK_FALSE(all.iterations[5].training);
 }
 
 TEST_CASE("slow scenes and long updates still leave an image") {

@@ -30,7 +30,7 @@ bool GuideTrial::end_iteration(const IterationCost& cost, bool is_guided) {
   parts_before_ = std::move(parts);
   if (spent_ < settings_.trial) return false;
   if (!is_useless()) return settings_.tolerance > 0 && !may_pay();
-  return !gain_.may_reach(settings_.least_gain) && !(settings_.most_noise > 0 && may_pay());
+  return settings_.most_noise > 0 ? !may_pay() : !gain_.may_reach(settings_.least_gain);
 }
 
 double GuideTrial::path_cost() const {

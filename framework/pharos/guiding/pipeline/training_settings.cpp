@@ -13,7 +13,7 @@ void TrainingSettings::describe(Schema<TrainingSettings>& s) {
       .below(1);
   s.field("images", &TrainingSettings::images,
           "Use of the images of training iterations: discarded, or combined with the final image, "
-          "weighted by their numbers of samples; the first quarter of all samples counts less");
+          "weighted by their numbers of samples; the first eighth of all samples counts less");
   s.field("recorded_samples", &TrainingSettings::recorded_samples,
           "Largest number of samples per pixel of an iteration from which the guides learn; the "
           "rest only adds to its image, which `images: discard` would waste; 0: all");
@@ -50,12 +50,10 @@ void TrainingSettings::describe(Schema<TrainingSettings>& s) {
   s.field(
        "trial", &TrainingSettings::trial,
        "Once this share of the budget is spent, training ends if the guides do not suffice, unless "
-       "the gain may reach `least_gain` in another iteration, or the noise may fall by enough to "
-       "be "
-       "worth its time. Nothing is decided before. Until they surely suffice, an iteration takes "
-       "at "
-       "most the rest of this share or half of it, whichever is larger; as long as the gain is "
-       "unknown, it may take more")
+       "the noise may fall by enough to be worth the time of another iteration, or, with "
+       "`most_noise: 0`, the gain may reach `least_gain` in it. Nothing is decided before. Until "
+       "they surely suffice, an iteration takes at most the rest of this share or half of it, "
+       "whichever is larger; as long as the gain is unknown, it may take more")
       .at_least(0)
       .at_most(1);
 }
