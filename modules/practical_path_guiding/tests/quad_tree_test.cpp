@@ -245,7 +245,7 @@ TEST_CASE("a density is one even where it is so small that floats lose digits") 
 
 TEST_CASE("trees and densities survive being saved; damage is found") {
   const QuadTree tree = peaked({0.3f, 0.7f});
-  const std::string file = saved({tree, tree.density(LeafMass::sum)});
+  const std::string file = saved(TreeAndDensity{tree, tree.density(LeafMass::sum)});
   const TreeAndDensity same = loaded(file);
   CHECK(saved(same) == file);
   CHECK(same.tree.node_count() == tree.node_count());
