@@ -15,9 +15,9 @@ namespace pharos {
 /// less. If all images are equally noisy, the variance is up to 4 % larger than with equal weights.
 ///
 /// With a budget of samples, the weights depend on nothing that an image shows, so the combination
-/// is unbiased. With a budget of time, N depends a little on how long the paths were. As long as no
-/// image is left out, this holds even if the iterations end where their paths decide, because the
-/// sum of all weights stays the same. Weights by inverse variance would be biased: when an image
+/// is unbiased. As long as no image is left out, this holds even if the iterations end where their
+/// paths decide, because the sum of all weights stays the same. With a budget of time, N depends a
+/// little on how long the paths were. Weights by inverse variance would be biased: when an image
 /// happens to find light, the guides learn from it, and the variance of later images is lower.
 class ImageCombiner {
  public:

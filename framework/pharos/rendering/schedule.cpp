@@ -64,7 +64,8 @@ std::optional<Iteration> Schedule::next(const Spending& spending) {
     if (!is_last) iteration.least_samples = spending.region_minimum;
     iteration.deadline = training_seconds_ - (count - 1) * cost(wanted(spending), spending);
   } else if (iteration.index == 0 && !is_last) {
-    iteration.deadline = spending.seconds + kFirstShare * *budget_.seconds;
+    iteration.deadline =
+        std::min(spending.seconds + kFirstShare * *budget_.seconds, training_seconds_);
   } else {
     if (!is_last) iteration.samples = wanted(spending);
     iteration.deadline = training_seconds_ - spending.update_seconds;

@@ -205,7 +205,7 @@ TEST_CASE("simplex mixing: a single bright step counts as one step") {
 }
 
 TEST_CASE("simplex mixing: a single step that a guide cannot draw does not drop the guide") {
-  // Only the guide finds light, `here` in many steps and `there` in none or in 30.
+  // Only the guide finds light, `here` in many steps and `there` in none or in few.
   constexpr World kDark{{1, 0, 0}, {0, 1, 0}, {0, 0, 0}};
   const auto here = vertex_at({0, 0, 0}), there = vertex_at({100, 0, 0});
   for (const bool has_history : {false, true}) {

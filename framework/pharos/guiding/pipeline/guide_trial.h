@@ -56,10 +56,9 @@ class GuideTrial {
   bool end_iteration(const IterationCost& cost, bool is_guided);
   /// Returns the largest share of the budget that the next training iteration is worth [1]: all of
   /// it. If the guides may be useless, it is the rest of the share TrainingSettings::trial or half
-  /// of that share, whichever is larger. As long as the gain is unknown, light is hard to find and
-  /// needs more and more samples: then it is at least twice the share of the last iteration. The
-  /// second iteration is worth no more than the first one, which does not tell how long guides
-  /// take.
+  /// of that share, whichever is larger. As long as the gain is unknown, it is at least twice the
+  /// share of the last iteration, because it takes more and more samples to find light. After the
+  /// first iteration it is at least that iteration's share: nothing tells how long guides take.
   double worthwhile_share() const;
   /// Returns whether the guides do not help enough to be used. False as long as it is unknown.
   bool is_useless() const;

@@ -86,8 +86,7 @@ class HeldOutGain {
   Sums sums_;           ///< since the last measurement
   Gain last_, before_;  ///< the last measurement and the one before
   bool has_last_ = false, has_before_ = false;
-  std::vector<Part>
-      parts_;  ///< since the last measurement: sums of w log(p / p without the method)
+  std::vector<Part> parts_;  ///< sums of w log(p / p without the method), like `sums_`
   std::vector<Part> last_parts_;
   std::vector<Rgb> incident_;  ///< of one path; a member, so that it keeps its memory
 };

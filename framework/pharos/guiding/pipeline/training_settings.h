@@ -48,7 +48,7 @@ struct TrainingSettings {
   /// has after the same time to this part or less [1]; see GuideTrial. 0: it does not.
   double most_noise = 0;
   /// A method is left out of the rest of the render if, without it, the gain would have been lower
-  /// by less than this in each of the last two iterations [nats]. 0: none is left out.
+  /// by less than this in each of its last two measurements [nats]. 0: none is left out.
   double least_part = 0;
   /// Once this share of the budget is spent, training ends if the guides do not suffice, unless the
   /// noise may fall by enough to be worth the time of another iteration, or, with `most_noise` 0,
