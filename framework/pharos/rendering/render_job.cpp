@@ -354,7 +354,7 @@ class RenderJob::Implementation {
   }
 
   void archive_state(Archive& archive) {
-    archive.heading("render", 1);
+    archive.heading("render", 2);
     double watch_seconds = watch_.seconds();
     archive(watch_seconds, result_.times.training, result_.times.update, result_.times.rendering,
             result_.counters, result_.samples_per_pixel, result_.first_invalid, *schedule_,

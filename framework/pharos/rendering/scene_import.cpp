@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -11,6 +12,7 @@ namespace pharos {
 namespace {
 
 namespace fs = std::filesystem;
+using namespace std::string_view_literals;
 
 /// Returns the name of the importer: the extension without the dot and in lower case.
 std::string importer_name(const fs::path& file) {
@@ -19,6 +21,19 @@ std::string importer_name(const fs::path& file) {
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return extension;
+}
+
+/// Returns whether a node states members of a plugin, but not which plugin it is.
+bool lacks_type(const ConfigNode& node) {
+  return node.is_mapping() && node.find("type") == nullptr;
+}
+
+/// Returns a plugin as a mapping, also if only its name is stated.
+ConfigNode with_type(ConfigNode plugin) {
+  if (!plugin.is_scalar()) return plugin;
+  ConfigNode mapping = ConfigNode::mapping();
+  mapping.set("type", std::move(plugin));
+  return mapping;
 }
 
 }  // namespace
@@ -60,8 +75,14 @@ std::vector<ImportNote> expand_import(ConfigNode& config, const Registry& regist
   Import import = import_scene(file, registry);
   config.set("scene", import.config.take("scene"), config.where_key("scene"));
   for (const char* key : {"sampler", "integrator", "budget"}) {
-    ConfigNode stated = import.config.take(key);
-    if (config.find(key) == nullptr && !stated.is_null()) config.set(key, std::move(stated));
+    ConfigNode imported = import.config.take(key);
+    if (imported.is_null()) continue;
+    const ConfigNode* stated = config.find(key);
+    if (stated == nullptr) {
+      config.set(key, std::move(imported));
+    } else if (key != "budget"sv && lacks_type(*stated)) {
+      config.set(key, merged(with_type(std::move(imported)), *stated));
+    }
   }
   if (ConfigNode film = import.config.take("film"); film.is_mapping()) {
     const ConfigNode* stated = config.find("film");

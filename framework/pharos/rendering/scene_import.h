@@ -22,8 +22,9 @@ ConfigNode read_config_or_scene(const std::filesystem::path& file, const Registr
                                 std::vector<std::filesystem::path>* files = nullptr);
 
 /// Replaces an importable file that `config` names as its `scene` by the imported scene. Members of
-/// `film` that the config does not state come from the file. So do `sampler`, `integrator` and
-/// `budget` if the config does not state them at all. Returns notes on what was approximated.
+/// `film` that the config does not state come from the file. So do members of `sampler` and
+/// `integrator` if the config does not state their `type`, and `budget` if the config does not
+/// state it at all. Returns notes on what was approximated.
 std::vector<ImportNote> expand_import(ConfigNode& config, const Registry& registry);
 
 }  // namespace pharos

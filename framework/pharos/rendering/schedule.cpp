@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <pharos/rendering/schedule.h>
 
@@ -50,8 +51,8 @@ std::optional<Iteration> Schedule::next(const Spending& spending) {
     over_ = true;
     return final_image(spending);
   }
-  const bool first_was_timed = budget_.seconds && kind_ == ScheduleKind::geometric && index_ == 1;
-  if (first_was_timed) size_ = spending.samples;
+  if (budget_.seconds && index_ > 0) size_ = spending.samples - samples_before_;
+  samples_before_ = spending.samples;
   // Learners were told that this iteration follows, so there is one even if nothing is left for it.
   const std::uint32_t count = std::max(1u, fitting(spending)), most = largest(spending);
   const bool is_last = count == 1;
@@ -62,13 +63,19 @@ std::optional<Iteration> Schedule::next(const Spending& spending) {
         is_last ? std::min(most, training_samples_ - spending.samples) : wanted(spending);
   } else if (kind_ == ScheduleKind::uniform) {
     if (!is_last) iteration.least_samples = spending.region_minimum;
-    iteration.deadline = training_seconds_ - (count - 1) * cost(wanted(spending), spending);
+    iteration.deadline =
+        std::min(training_seconds_ - (count - 1) * cost(wanted(spending), spending),
+                 spending.seconds + most_seconds(spending));
   } else if (iteration.index == 0 && !is_last) {
     iteration.deadline =
         std::min(spending.seconds + kFirstShare * *budget_.seconds, training_seconds_);
   } else {
     if (!is_last) iteration.samples = wanted(spending);
-    iteration.deadline = training_seconds_ - spending.update_seconds;
+    // Samples may take longer than in the last iteration, so a limited iteration has a limited
+    // time.
+    if (!is_last && is_limited(spending)) iteration.least_samples = spending.region_minimum;
+    iteration.deadline = std::min(training_seconds_ - spending.update_seconds,
+                                  spending.seconds + most_seconds(spending));
   }
   size_ = wanted(spending);
   training_over_ = is_last;
@@ -85,17 +92,18 @@ double Schedule::left(const Spending& spending) const {
                      : training_seconds_ - spending.seconds;
 }
 
+double Schedule::most_seconds(const Spending& spending) const {
+  if (!is_limited(spending)) return std::numeric_limits<double>::infinity();
+  // Where updates are dear, rendering takes at least half of the time.
+  const double update = spending.update_seconds;
+  return std::max(spending.largest_share * *budget_.seconds - update, update);
+}
+
 std::uint32_t Schedule::largest(const Spending& spending) const {
-  if (spending.largest_share >= 1) return kMostSamples;
-  double samples = spending.largest_share;
-  if (budget_.spp) {
-    samples *= *budget_.spp;
-  } else {
-    // Where updates are dear, rendering takes at least half of the time.
-    const double update = spending.update_seconds;
-    const double rendering = std::max(spending.largest_share * *budget_.seconds - update, update);
-    samples = rendering / std::max(spending.seconds_per_sample, 1e-9);
-  }
+  if (!is_limited(spending)) return kMostSamples;
+  double samples = budget_.spp
+                       ? spending.largest_share * *budget_.spp
+                       : most_seconds(spending) / std::max(spending.seconds_per_sample, 1e-9);
   samples *= 1 + 1e-9;  // a share of whole samples may have been rounded down
   return std::max(static_cast<std::uint32_t>(std::clamp(samples, 1.0, double{kMostSamples})),
                   spending.region_minimum);

@@ -58,7 +58,8 @@ struct Spending {
 ///
 /// An iteration that would give the models' regions too few samples is longer, so there are fewer.
 /// An iteration that may take only a small share of the budget is shorter, so there may be more, up
-/// to `iterations`; what training then does not use goes to the final image.
+/// to `iterations`; what training then does not use goes to the final image. With a time budget,
+/// it ends in time even if its samples take longer than in the last iteration.
 /// If the budget does not suffice, there are fewer iterations, too. The samples that training
 /// leaves over go to the final image in whole granules of `granule` samples (the preferred number
 /// of a sampler), and the rest go to the last training iteration. Without training, the budget is
@@ -80,11 +81,14 @@ class Schedule {
   /// Returns the fraction of the budget that was spent, in [0, 1].
   double fraction(double samples, double seconds) const;
 
-  void archive(Archive& archive) { archive(index_, size_, training_over_, over_); }
+  void archive(Archive& archive) { archive(index_, size_, samples_before_, training_over_, over_); }
 
  private:
   /// Returns the part of the budget that is left for training [spp or seconds].
   double left(const Spending& spending) const;
+  static bool is_limited(const Spending& spending) { return spending.largest_share < 1; }
+  /// Returns how long the next training iteration may render, with a time budget [s].
+  double most_seconds(const Spending& spending) const;
   /// Returns the largest size that the next training iteration may have [spp].
   std::uint32_t largest(const Spending& spending) const;
   /// Returns the size of the next training iteration if enough is left for it [spp].
@@ -101,9 +105,10 @@ class Schedule {
   std::uint32_t training_samples_ = 0;  ///< of a sample budget [spp]
   double training_seconds_ = 0;         ///< of a time budget
 
-  std::uint32_t index_ = 0;     ///< of the next iteration
-  std::uint32_t size_ = 0;      ///< of the last training iteration, as wanted [spp]
-  bool training_over_ = false;  ///< no training iteration follows
+  std::uint32_t index_ = 0;           ///< of the next iteration
+  std::uint32_t size_ = 0;            ///< of the last training iteration [spp]
+  std::uint32_t samples_before_ = 0;  ///< of all iterations before the last one [spp]
+  bool training_over_ = false;        ///< no training iteration follows
   bool over_ = false;
 };
 

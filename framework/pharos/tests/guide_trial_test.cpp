@@ -140,7 +140,7 @@ TEST_CASE("guide trial: no method is left out on trial, by useless guides, or if
     return asked_methods(state);
   };
   CHECK(asked(0.01, 0, 0.1) == Methods{0, 1});
-  CHECK(asked(0.01, 0, 0.05) == Methods{0, 1, 2});
+  CHECK(asked(0.01, 0, 0.02) == Methods{0, 1, 2});
   CHECK(asked(0.01, 0.5, 0.1) == Methods{0, 1, 2});
   CHECK(asked(0, 0, 0.1) == Methods{0, 1, 2});
 }
@@ -259,6 +259,91 @@ TEST_CASE(
   CHECK(ends(1.1 / (fall * fall * fall)));
 }
 
+TEST_CASE("guide trial: guides that are far from useful give up after one measurement") {
+  GuidingSettings own = tiny_settings();
+  own.training.least_gain = 10;
+  own.training.most_noise = 1;
+  const auto ends = [&](double cost) {
+    GuidingState state(own, {});
+    may_end(state, std::array{0.5}, {.spent = 0, .samples = 1, .seconds = 1}, 1);
+    state.update({0, 9});
+    return may_end(state, std::array{0.5}, {.spent = 0.06, .samples = 1, .seconds = cost}, 2);
+  };
+  // The noise may fall to e^-0.5 of what it is now.
+  CHECK_FALSE(ends(1.4));
+  CHECK(ends(1.7));
+}
+
+TEST_CASE("guide trial: useless guides whose noise does not fall go on if the gain may suffice") {
+  GuidingSettings own = tiny_settings();
+  own.training.most_noise = 1;
+  // All paths also find flashes that no guide draws, and that make almost all of the noise.
+  const auto absorb_flashes = [](GuidingState& state) {
+    PathLog flashes;
+    for (int i = 0; i < 100'000; ++i) {
+      flashes.begin_path({}, Transport::radiance);
+      flashes.add(RecordedVertex{.throughput = Rgb(1), .emission = Rgb(i % 100 ? 0.0f : 60.0f)});
+    }
+    state.absorb(flashes);
+  };
+  const double gain = test::expected_gain(0.75);
+  for (const double least : {1.5 * gain, 5 * gain}) {
+    own.training.least_gain = least;
+    GuidingState state(own, {});
+    for (const std::uint32_t i : {0u, 1u, 2u}) {
+      absorb_flashes(state);
+      const std::array guide{i == 2 ? 0.75 : 0.5};
+      const double cost = i == 0 ? 1 : 1.04;
+      const bool ended =
+          may_end(state, guide, {.spent = 0.05 * i, .samples = 1, .seconds = cost}, i);
+      CHECK(ended == (i == 2 && least > 2 * gain));
+      // In the same time, the noise is higher than without guides.
+      if (i == 2) CHECK(*state.gain()->noise_ratio > 0.99);
+      state.update({i, 9 - i});
+    }
+  }
+}
+
+TEST_CASE("guide trial: a noise ratio that differs from tile to tile is uncertain") {
+  GuidingSettings own = tiny_settings();
+  own.training.least_gain = 10;
+  own.training.trial = 0.5;
+  // One tile has the ratio r, the other one 1. A budget of samples takes the cost 1.5.
+  const double mean = 0.5 * (1 + test::expected_ratio(0.9));
+  own.training.most_noise = 1.5 * (1 + mean) / 2;
+  for (const bool is_uncertain : {false, true}) {
+    GuidingState state(own, {.window = {0, 0, 16, 8}});
+    for (const std::uint32_t i : {0u, 1u, 2u}) {
+      for (const float x : {0.0f, 8.0f}) {
+        const double guide = i == 0 || (is_uncertain && x > 0) ? 0.5 : 0.9;
+        for (std::uint64_t unit = 0; unit < 10; ++unit) {
+          state.absorb(test::guided_paths(guide, 5000, 10 * i + unit, {x, 0}));
+        }
+      }
+      state.may_end_training({.spent = 0.1 * (i + 1)});
+      if (i == 2) CHECK((state.worthwhile_share() < 1) == is_uncertain);
+      state.update({i, 9 - i});
+    }
+  }
+}
+
+TEST_CASE("guide trial: a fall that is expected of the noise makes no guide surely useful") {
+  GuidingSettings own = tiny_settings();
+  own.training.least_gain = 10;
+  own.training.trial = 0.5;
+  const double last = test::expected_ratio(0.7);
+  // The last ratio does not suffice. After another fall, it would.
+  own.training.most_noise = 1.5 * 0.8 * last;
+  REQUIRE(last < 0.8);
+  GuidingState state(own, {});
+  for (const std::uint32_t i : {0u, 1u, 2u}) {
+    may_end(state, i == 2 ? 0.7 : 0.5, 0.1 * (i + 1), i + 1);
+    if (i == 2) CHECK(state.worthwhile_share() < 1);
+    state.update({i, 2 - i});
+  }
+  CHECK_FALSE(state.gain()->is_off);
+}
+
 TEST_CASE("guide trial: while hardly any light is found, training goes on in larger iterations") {
   GuidingSettings own = tiny_settings();
   own.training.least_gain = 10;
@@ -341,7 +426,9 @@ TEST_CASE("guide trial: a guide that hardly helps is off after training, which e
     CHECK(state.frame() != nullptr);         // it may still improve
     CHECK(test::expected_gain(0.8) < 0.11);  // less than before, so the gain does not rise
     CHECK(may_end(state, 0.8, 0.3, 4) == (least > 0.125));
+    const std::string before = saved(*state.model(0));
     state.update({3, 0});
+    CHECK((saved(*state.model(0)) == before) == (least > 0.125));  // useless guides learn no more
     CHECK((state.frame() == nullptr) == (least > 0.125));
     REQUIRE(state.gain().has_value());
     CHECK(state.gain()->is_off == (least > 0.125));

@@ -61,6 +61,50 @@ TEST_CASE("noise ratio: the quotient of the variances") {
   }
 }
 
+TEST_CASE("noise ratio: the standard error is how much the ratio scatters") {
+  constexpr PixelRect kTiles{0, 0, 64, 64};
+  constexpr int kRepeats = 100;
+  double sum = 0, squares = 0, errors = 0;
+  for (std::uint64_t repeat = 0; repeat < kRepeats; ++repeat) {
+    NoiseRatio ratio(kTiles);
+    for (const std::uint64_t iteration : {0u, 1u}) {
+      for (std::uint64_t tile = 0; tile < 64; ++tile) {
+        const Vec2 film(8.0f * static_cast<float>(tile % 8), 8.0f * static_cast<float>(tile / 8));
+        const std::uint64_t seed = (2 * repeat + iteration) * 64 + tile;
+        ratio.absorb(guided_paths(0.75, 50, seed, film));
+      }
+      CHECK(ratio.relative_error() == 0);
+      ratio.end_iteration(true);
+    }
+    REQUIRE(ratio.value());
+    sum += *ratio.value() / kRepeats;
+    squares += *ratio.value() * *ratio.value() / kRepeats;
+    errors += ratio.relative_error() / kRepeats;
+  }
+  CHECK(sum == doctest::Approx(expected_ratio(0.75)).epsilon(0.03));
+  const double deviation = std::sqrt(squares - sum * sum) / sum;
+  CHECK(errors == doctest::Approx(deviation).epsilon(0.25));
+}
+
+TEST_CASE("noise ratio: what it may fall by") {
+  NoiseRatio ratio({0, 0, 16, 8});
+  const auto end = [&](double left, double right, std::uint64_t seed) {
+    ratio.absorb(guided_paths(left, 50'000, 2 * seed, {0, 0}));
+    ratio.absorb(guided_paths(right, 50'000, 2 * seed + 1, {8, 0}));
+    ratio.end_iteration(true);
+  };
+  end(0.5, 0.5, 1);
+  end(0.5, 0.5, 2);
+  CHECK_FALSE(ratio.possible_fall());
+  end(0.75, 0.75, 3);
+  CHECK(*ratio.possible_fall() == doctest::Approx(*ratio.fall()).epsilon(0.1));
+  end(0.75, 0.5, 4);
+  // One tile has the ratio r and the other one 1, so the error is (1 - r) / (1 + r).
+  const double r = expected_ratio(0.75);
+  CHECK(ratio.relative_error() == doctest::Approx((1 - r) / (1 + r)).epsilon(0.1));
+  CHECK(*ratio.possible_fall() == doctest::Approx(*ratio.fall() + (1 - r) / (1 + r)).epsilon(0.1));
+}
+
 TEST_CASE("noise ratio: light that all paths find makes no noise") {
   for (const double common : {0.0, 3.0}) {
     NoiseRatio ratio(kPixel);

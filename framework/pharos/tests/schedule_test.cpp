@@ -12,6 +12,7 @@ constexpr double kSecondsPerSample = 0.25, kUpdateSeconds = 0.125;
 /// What rendering an iteration shows.
 struct Machine {
   double seconds_per_sample = kSecondsPerSample;
+  double guided_cost = 1;  ///< time of a sample of later iterations over one of the first
   double update_seconds = kUpdateSeconds;
   std::uint32_t region_minimum = 1;  ///< after the first iteration
   double largest_share = 1;          ///< after the first iteration
@@ -38,16 +39,18 @@ Run run(const Budget& budget, const TrainingSettings& training, std::uint32_t gr
   Run result;
   Spending spent;
   while (const auto iteration = schedule.next(spent)) {
+    const double per_sample =
+        machine.seconds_per_sample * (iteration->index > 0 ? machine.guided_cost : 1);
     std::uint32_t done = 0;
     double taken = 0;
     while (done < iteration->samples &&
            (done < iteration->least_samples || spent.seconds + taken < iteration->deadline)) {
       ++done;
-      taken += machine.seconds_per_sample;
+      taken += per_sample;
     }
     spent.samples += done;
     spent.seconds += taken;
-    spent.seconds_per_sample = machine.seconds_per_sample;
+    spent.seconds_per_sample = per_sample;
     if (iteration->training) {
       spent.update_seconds = machine.update_seconds;
       spent.seconds += machine.update_seconds;
@@ -209,6 +212,9 @@ TEST_CASE("a small share of the budget: uniform training is shorter") {
   const Run timed = run({.seconds = 40.0}, {.iterations = 4}, 1, {.largest_share = 1.0 / 16});
   REQUIRE(timed.seconds.size() == 5);
   for (std::size_t i = 1; i < 4; ++i) CHECK(timed.seconds[i] + kUpdateSeconds <= 2.5);
+  // The second iteration ends with the first sample after 2.375 seconds.
+  const Machine slow{.guided_cost = 8, .largest_share = 1.0 / 16};
+  CHECK(run({.seconds = 40.0}, {.iterations = 4}, 1, slow).seconds[1] == 4);
 }
 
 TEST_CASE("a small share of the budget: doubling goes on where it stopped") {
@@ -222,6 +228,37 @@ TEST_CASE("a small share of the budget: long updates do not take most of the tim
   const Run timed =
       run({.seconds = 40.0}, geometric, 1, {.update_seconds = 1, .largest_share = 1.0 / 64});
   for (std::size_t i = 3; i + 1 < timed.seconds.size(); ++i) CHECK(timed.seconds[i] == 1);
+}
+
+TEST_CASE("a small share of the budget: samples that take longer than before are fewer") {
+  const TrainingSettings geometric{.schedule = ScheduleKind::geometric};
+  const Machine machine{.guided_cost = 8, .largest_share = 1.0 / 16};
+  // The second iteration was to have four samples of a quarter of a second each.
+  const Run timed = run({.seconds = 40.0}, geometric, 1, machine);
+  CHECK(timed.samples[0] == 2);
+  CHECK(timed.samples[1] == 2);
+  CHECK(timed.seconds[1] == 4);  // it ends with the first sample after 2.375 seconds
+  // All regions of the models get enough samples nevertheless.
+  const Machine regions{.guided_cost = 8, .region_minimum = 3, .largest_share = 1.0 / 16};
+  CHECK(run({.seconds = 40.0}, geometric, 1, regions).samples[1] == 3);
+}
+
+TEST_CASE("doubling goes on from what the last iteration had time for") {
+  const TrainingSettings geometric{.schedule = ScheduleKind::geometric};
+  const Machine machine{.guided_cost = 8, .largest_share = 1.0 / 16, .limited = 2};
+  const Run timed = run({.seconds = 400.0}, geometric, 1, machine);
+  CHECK(timed.samples[0] == 16);
+  CHECK(timed.samples[1] == 13);  // of 32 that were wanted, in 24.875 seconds
+  CHECK(timed.samples[2] == 26);
+  CHECK(timed.iterations[2].training_left > 0);
+}
+
+TEST_CASE("a region minimum does not keep training from ending in time") {
+  const TrainingSettings geometric{.schedule = ScheduleKind::geometric};
+  const Machine machine{.guided_cost = 8, .region_minimum = 20};
+  const Run timed = run({.seconds = 40.0}, geometric, 1, machine);
+  CHECK(timed.seconds[1] <= 20);
+  CHECK(timed.seconds.back() >= 18);
 }
 
 TEST_CASE("the number of training iterations is limited, however short they are") {

@@ -18,7 +18,8 @@ inline constexpr std::array<double, 2> kLight{0.75, 0.25};
 /// Returns `count` paths of one step each. Unguided sampling has half of the samples, and the
 /// guides divide the rest evenly. Guide i chooses the first direction with probability `guides[i]`;
 /// if that is negative, it takes no part.
-inline PathLog guided_paths(std::span<const double> guides, int count, std::uint64_t seed) {
+inline PathLog guided_paths(std::span<const double> guides, int count, std::uint64_t seed,
+                            Vec2 film = {}) {
   const auto takes_part = [](double guide) { return guide >= 0; };
   const auto parts = std::count_if(guides.begin(), guides.end(), takes_part);
   const auto share = static_cast<float>(0.5 / static_cast<double>(parts));
@@ -35,7 +36,7 @@ inline PathLog guided_paths(std::span<const double> guides, int count, std::uint
     }
     const double probability = chosen == 0 ? first : 1 - first;
     const Rgb found(static_cast<float>(kLight[chosen] / probability));
-    log.begin_path({}, Transport::radiance);
+    log.begin_path(film, Transport::radiance);
     log.add(
         RecordedVertex{.kind = VertexKind::sensor, .throughput = Rgb(1), .local_weight = Rgb(1)});
     log.add(RecordedVertex{.guidable = true,
@@ -48,8 +49,8 @@ inline PathLog guided_paths(std::span<const double> guides, int count, std::uint
   }
   return log;
 }
-inline PathLog guided_paths(double guide, int count, std::uint64_t seed) {
-  return guided_paths(std::array{guide}, count, seed);
+inline PathLog guided_paths(double guide, int count, std::uint64_t seed, Vec2 film = {}) {
+  return guided_paths(std::array{guide}, count, seed, film);
 }
 
 /// Returns the exact gain of the guide; see HeldOutGain.

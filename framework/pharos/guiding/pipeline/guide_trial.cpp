@@ -28,9 +28,13 @@ bool GuideTrial::end_iteration(const IterationCost& cost, bool is_guided) {
   }
   if (!has_measured_) return false;
   parts_before_ = std::move(parts);
-  if (spent_ < settings_.trial) return false;
+  if (is_on_trial()) return false;
   if (!is_useless()) return settings_.tolerance > 0 && !may_pay();
   return settings_.most_noise > 0 ? !may_pay() : !gain_.may_reach(settings_.least_gain);
+}
+
+bool GuideTrial::is_on_trial() const {
+  return spent_ + 0.5 * next_share() < settings_.trial;
 }
 
 double GuideTrial::path_cost() const {
@@ -51,15 +55,21 @@ bool GuideTrial::lowers_noise() const {
   return noise && *noise <= settings_.most_noise;
 }
 
+bool GuideTrial::surely_lowers_noise() const {
+  // One ratio is not enough, because it may be far too low by chance. The expected ratio is not
+  // enough either, because it may have fallen by chance.
+  if (!noise_.fall() || !lowers_noise()) return false;
+  const double highest = *noise_.value() * (1 + noise_.relative_error());
+  return highest * path_cost() <= settings_.most_noise;
+}
+
 bool GuideTrial::is_useless() const {
   return settings_.least_gain > 0 && gain_.is_below(settings_.least_gain) && !lowers_noise();
 }
 
 bool GuideTrial::may_be_useless() const {
-  // One ratio is not enough, because it may be far too low by chance.
-  const bool surely_lowers_noise = noise_.fall() && lowers_noise();
   return settings_.least_gain > 0 && gain_.may_be_below(settings_.least_gain) &&
-         !surely_lowers_noise;
+         !surely_lowers_noise();
 }
 
 double GuideTrial::worthwhile_share() const {
@@ -79,8 +89,16 @@ double GuideTrial::next_share() const {
   return std::min(next, worthwhile_share());
 }
 
+double GuideTrial::possible_fall() const {
+  if (!is_useless()) return std::max(gain_.possible_rise(), noise_.fall().value_or(0));
+  constexpr double kFirst = 0.5;  // -0.1 to 2.7 were measured where guides suffice in the end
+  if (!gain_.was_measured_twice()) return kFirst;
+  const double rise = gain_.may_reach(settings_.least_gain) ? gain_.possible_rise() : 0;
+  return std::max(rise, noise_.possible_fall().value_or(0));
+}
+
 bool GuideTrial::may_pay() const {
-  const double fall = std::max(gain_.possible_rise(), noise_.fall().value_or(0));
+  const double fall = possible_fall();
   if (!(fall >= settings_.tolerance)) return false;
   const double now = noise_in_time().value_or(path_cost());
   const bool may_be_off = is_useless();
@@ -94,7 +112,7 @@ bool GuideTrial::may_pay() const {
 }
 
 std::optional<std::size_t> GuideTrial::dispensable_method() const {
-  const bool may_leave_out = settings_.least_part > 0 && spent_ >= settings_.trial;
+  const bool may_leave_out = settings_.least_part > 0 && !is_on_trial();
   if (!may_leave_out || !has_measured_ || is_useless()) return std::nullopt;
   const std::span<const HeldOutGain::Part> parts = gain_.parts();
   const auto took_part = std::count_if(parts.begin(), parts.end(),

@@ -42,9 +42,11 @@ struct IterationCost {
 /// the final image, because all guides are asked and learn (0.35 to 0.6 of them were measured). If
 /// it goes on, the rest is worth t / 2q (nothing if the images of training are discarded) plus
 /// (1 - s - t) / q', or plus 1 - s - t if the guides are off then. The noise is expected to fall
-/// from q to q' by as much as in the last iteration, or by e^-g if the gain may rise by g. The
-/// noise ratio was measured in the last iteration. The guides have learned since, so the ratio of
-/// an image that is made now is expected to be lower, by as much as in that iteration.
+/// from q to q' by as much as in the last iteration, or by e^-g if the gain may rise by g. The gain
+/// of guides that do not suffice counts only if it may reach TrainingSettings::least_gain; if not,
+/// the fall of the last iteration and a standard error count, and after a single measurement
+/// e^-0.5. The noise ratio was measured in the last iteration. The guides have learned since, so
+/// the ratio of an image that is made now is expected to be lower, by as much as in that iteration.
 class GuideTrial {
  public:
   GuideTrial(const TrainingSettings& settings, PixelRect window);
@@ -65,8 +67,7 @@ class GuideTrial {
   /// Returns a method that the guides can do without: in the last two measurements of the gain it
   /// took part, and its part was less than TrainingSettings::least_part. Of several such methods it
   /// is the one with the smallest part. None if the last iteration has measured nothing, if no
-  /// other method took part, before the share `trial` of the budget was spent, and if the guides do
-  /// not suffice.
+  /// other method took part, on trial, and if the guides do not suffice.
   std::optional<std::size_t> dispensable_method() const;
   /// Returns how much the guides help, without a verdict; none if too few paths have
   /// found light to tell.
@@ -82,8 +83,14 @@ class GuideTrial {
   double path_cost() const;
   /// Returns q of an image that is made now; none if the noise ratio is unknown.
   std::optional<double> noise_in_time() const;
+  /// Returns whether the next iteration would end nearer to TrainingSettings::trial.
+  bool is_on_trial() const;
   bool lowers_noise() const;
+  /// Returns whether the ratio of the last iteration, a standard error above, would suffice.
+  bool surely_lowers_noise() const;
   bool may_be_useless() const;
+  /// Returns by how much the logarithm of the noise may fall in the next iteration [nats].
+  double possible_fall() const;
   /// Returns whether another iteration may be worth more than the time that it takes.
   bool may_pay() const;
   /// Returns the share of the budget that the next training iteration will probably take [1].

@@ -15,7 +15,7 @@ struct GuidingState::Source {
   std::unique_ptr<LearningState> state;  ///< null: the model was read from a file
   std::shared_ptr<const GuidingModel> model;
   std::uint32_t regions = 1;
-  bool is_idle = false;  ///< all guiders of its model are left out: it learns no more
+  bool is_idle = false;  ///< no guider of its model is asked any more, so it learns no more
 
   void take(std::shared_ptr<const GuidingModel> next) {
     model = std::move(next);
@@ -121,12 +121,15 @@ void GuidingState::leave_out_dispensable_method() {
 void GuidingState::mark_idle_sources() {
   for (std::size_t i = 0; i < sources_.size(); ++i) {
     sources_[i].is_idle = std::all_of(users_.begin(), users_.end(), [&](const User& user) {
-      return user.source != i || user.is_out;
+      return user.source != i || user.is_out || is_off_;
     });
   }
 }
 
 void GuidingState::update(const TrainingStage& stage) {
+  is_final_ = stage.is_last();
+  is_off_ = is_final_ && frame_ != nullptr && trial_ && trial_->is_useless();
+  mark_idle_sources();
   leave_out_dispensable_method();
   std::vector<std::uint32_t> origins;
   std::uint32_t first = 0;
@@ -137,8 +140,6 @@ void GuidingState::update(const TrainingStage& stage) {
   }
   mixing_->update(static_cast<std::uint32_t>(origins.size()), origins, stage.is_last());
   last_samples_ = std::exchange(samples_, 0);
-  is_final_ = stage.is_last();
-  is_off_ = is_final_ && frame_ != nullptr && trial_ && trial_->is_useless();
   rebuild_frame();
 }
 
@@ -213,7 +214,7 @@ std::size_t GuidingState::model_bytes() const {
 }
 
 void GuidingState::archive(Archive& archive) {
-  archive.heading("guiding", 8);
+  archive.heading("guiding", 9);
   for (Source& source : sources_) {
     if (source.state != nullptr) source.state->archive(archive);
   }
@@ -226,10 +227,10 @@ void GuidingState::archive_guides(Archive& archive) {
   archive.heading("guides", 1);
   for (Source& source : sources_) source.archive_model(archive);
   for (User& user : users_) archive(user.is_out);
-  mark_idle_sources();
   if (archive.loads()) mixing_->update(regions(), {}, false);
   mixing_->archive(archive);
   archive(is_final_, is_off_);
+  mark_idle_sources();
   if (archive.loads()) rebuild_frame();
 }
 

@@ -89,8 +89,11 @@ void NoiseRatio::add(const PathView& path) {
   unguided.add_to(tile.unguided);
 }
 
-std::optional<double> NoiseRatio::ratio() const {
+/// Takes the ratio as one of two means over tiles, and computes its error to first order.
+auto NoiseRatio::ratio() const -> std::optional<Ratio> {
   double guided = 0, unguided = 0;
+  double guided_squared = 0, unguided_squared = 0, product = 0;
+  int count = 0;
   for (const Tile& tile : tiles_) {
     const double n = tile.new_paths;
     if (!(n > 1) || !(tile.limit > 0)) continue;
@@ -100,11 +103,20 @@ std::optional<double> NoiseRatio::ratio() const {
       const double missing = (sums.missing * sums.missing - sums.missing_squared) / (n * (n - 1));
       return n * (variance + kSamples * missing) / tile.limit;
     };
-    guided += error(tile.guided);
-    unguided += error(tile.unguided);
+    const double g = error(tile.guided), u = error(tile.unguided);
+    guided += g;
+    unguided += u;
+    guided_squared += g * g;
+    unguided_squared += u * u;
+    product += g * u;
+    ++count;
   }
   if (!(unguided > 0)) return std::nullopt;
-  return std::max(guided, 0.0) / unguided;
+  if (!(guided > 0)) return Ratio{};
+  const double mean = guided / unguided;
+  const double squares = guided_squared - 2 * mean * product + mean * mean * unguided_squared;
+  const double scale = count > 1 ? static_cast<double>(count) / (count - 1) : 0;
+  return Ratio{mean, std::sqrt(scale * std::max(squares, 0.0)) / guided};
 }
 
 void NoiseRatio::end_iteration(bool is_guided) {
@@ -128,18 +140,24 @@ void NoiseRatio::end_iteration(bool is_guided) {
 }
 
 std::optional<double> NoiseRatio::fall() const {
-  if (!before_ || !value_ || !(*before_ > 0)) return std::nullopt;
-  return std::log(*before_ / *value_);
+  if (!before_ || !value_ || !(before_->mean > 0)) return std::nullopt;
+  return std::log(before_->mean / value_->mean);
+}
+
+std::optional<double> NoiseRatio::possible_fall() const {
+  if (!fall()) return std::nullopt;
+  return *fall() + std::hypot(before_->relative_error, value_->relative_error);
 }
 
 void NoiseRatio::archive(Archive& archive) {
   const std::size_t count = tiles_.size();
   archive(tiles_);
   archive.expect(tiles_.size() == count, "the measure of guiding");
-  for (std::optional<double>* ratio : {&before_, &value_}) {
-    double value = ratio->value_or(-1);
-    archive(value);
-    *ratio = value >= 0 ? std::optional(value) : std::nullopt;
+  for (std::optional<Ratio>* ratio : {&before_, &value_}) {
+    bool is_known = ratio->has_value();
+    Ratio value = ratio->value_or(Ratio{});
+    archive(is_known, value);
+    *ratio = is_known ? std::optional(value) : std::nullopt;
   }
 }
 

@@ -42,10 +42,19 @@ class NoiseRatio {
   void end_iteration(bool is_guided);
   /// Returns the ratio of the last guided iteration [1]; none if it found no light, or if there was
   /// no light before it.
-  std::optional<double> value() const { return value_; }
+  std::optional<double> value() const {
+    return value_ ? std::optional(value_->mean) : std::nullopt;
+  }
+  /// Returns the standard error of value() over value() [1], as the tiles scatter. It is too high
+  /// where guides help more in some tiles than in others. It is 0 if value() is none or 0, or if
+  /// there is a single tile.
+  double relative_error() const { return value_ ? value_->relative_error : 0; }
   /// Returns by how much the logarithm of the ratio has fallen from the guided iteration before to
   /// the last one [nats]; none if one of them is unknown. It is infinite if the last one is 0.
   std::optional<double> fall() const;
+  /// Returns by how much the logarithm may fall in the next guided iteration [nats]: by as much as
+  /// before, and another standard error. None if fall() is none.
+  std::optional<double> possible_fall() const;
 
   void archive(Archive& archive);
 
@@ -66,15 +75,20 @@ class NoiseRatio {
     }
   };
 
+  struct Ratio {
+    double mean = 0, relative_error = 0;
+    void archive(Archive& archive) { archive(mean, relative_error); }
+  };
+
   Tile& tile_at(Vec2 film);
   void add(const PathView& path);
   /// Returns the ratio of the current iteration.
-  std::optional<double> ratio() const;
+  std::optional<Ratio> ratio() const;
 
   PixelRect window_;
   int tiles_per_row_;
   std::vector<Tile> tiles_;                ///< in rows
-  std::optional<double> before_, value_;   ///< of the iteration before the last and of the last
+  std::optional<Ratio> before_, value_;    ///< of the iteration before the last and of the last
   std::vector<double> found_, quotients_;  ///< of one path; members, so that they keep their memory
 };
 

@@ -49,7 +49,22 @@ void TrainingSettings::describe(Schema<TrainingSettings>& s) {
       .at_least(0);
   s.field(
        "trial", &TrainingSettings::trial,
-       "Once this share of the budget is spent, training ends if the guides do not suffice, unless "
+       "Once about this share of the budget is spent, training ends if the guides do not suffice, "
+       "unless the noise may fall by enough to be worth the time of another iteration, or, with "
+       "`most_noise: 0`, the gain may reach `least_gain` in it. Nothing is decided before. Until "
+       "they surely suffice, an iteration takes at most the rest of this share or half of it, "
+       "whichever is larger; as long as the gain is unknown, it may take more")
+      .at_least(0)
+      .at_most(1);
+  s.field("least_part", &TrainingSettings::least_part,
+          "A method is left out of the rest of the render if, without it, the gain would have been "
+          "lower by less than this in each of the last two iterations; 0: none is left out")
+      .unit("nats")
+      .at_least(0);
+  s.field(
+       "trial", &TrainingSettings::trial,
+       "Once about this share of the budget is spent, training ends if the guides do not suffice, "
+       "unless "
        "the noise may fall by enough to be worth the time of another iteration, or, with "
        "`most_noise: 0`, the gain may reach `least_gain` in it. Nothing is decided before. Until "
        "they surely suffice, an iteration takes at most the rest of this share or half of it, "

@@ -50,12 +50,13 @@ struct TrainingSettings {
   /// A method is left out of the rest of the render if, without it, the gain would have been lower
   /// by less than this in each of its last two measurements [nats]. 0: none is left out.
   double least_part = 0;
-  /// Once this share of the budget is spent, training ends if the guides do not suffice, unless the
-  /// noise may fall by enough to be worth the time of another iteration, or, with `most_noise` 0,
-  /// the gain may reach `least_gain` in it. Nothing is decided before. Until they surely suffice
-  /// (the gain exceeds `least_gain` by a standard error, or the noise is low enough), an iteration
-  /// takes at most the rest of this share or half of the share, whichever is larger, or more as
-  /// long as the gain is unknown; see GuideTrial::worthwhile_share() and Spending::largest_share.
+  /// With the iteration that ends nearest to this share of the budget, training ends if the guides
+  /// do not suffice, unless the noise may fall by enough to be worth the time of another iteration,
+  /// or, with `most_noise` 0, the gain may reach `least_gain` in it. Nothing is decided before.
+  /// Until they surely suffice (the gain exceeds `least_gain` by a standard error, or the noise is
+  /// low enough), an iteration takes at most the rest of this share or half of the share, whichever
+  /// is larger, or more as long as the gain is unknown; see GuideTrial::worthwhile_share() and
+  /// Spending::largest_share.
   double trial = 1.0 / 16;
 
   /// Returns how many of the first `samples` samples per pixel of an iteration are recorded.
