@@ -42,11 +42,15 @@ struct IterationCost {
 /// the final image, because all guides are asked and learn (0.35 to 0.6 of them were measured). If
 /// it goes on, the rest is worth t / 2q (nothing if the images of training are discarded) plus
 /// (1 - s - t) / q', or plus 1 - s - t if the guides are off then. The noise is expected to fall
-/// from q to q' by as much as in the last iteration, or by e^-g if the gain may rise by g. The gain
-/// of guides that do not suffice counts only if it may reach TrainingSettings::least_gain; if not,
-/// the fall of the last iteration and a standard error count, and after a single measurement
-/// e^-0.5. The noise ratio was measured in the last iteration. The guides have learned since, so
-/// the ratio of an image that is made now is expected to be lower, by as much as in that iteration.
+/// from q to q' by as much as in the last iteration, or by e^-g if the gain may rise by g.
+///
+/// Guides that do not suffice must promise more. Their gain counts only if it may rise to
+/// TrainingSettings::least_gain. If it may not, the noise is expected to fall by as much as in the
+/// last iteration and a standard error. After a single measurement, it is expected to fall by
+/// e^-0.5.
+///
+/// The noise ratio was measured in the last iteration. The guides have learned since, so the ratio
+/// of an image that is made now is expected to be lower, by as much as in that iteration.
 class GuideTrial {
  public:
   GuideTrial(const TrainingSettings& settings, PixelRect window);
