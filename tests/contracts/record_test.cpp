@@ -54,23 +54,48 @@ int check_techniques(const PathView& path) {
   return guided;
 }
 
+/// Checks that hitting light weighs less without guides exactly if unguided sampling is less likely
+/// to hit it, and the other way round for light samples. Returns how many weights differ.
+int check_unguided_weights(const PathView& path, bool is_guided) {
+  int different = 0;
+  for (const RecordedVertex& vertex : path.vertices) {
+    const double with = mean(vertex.emission), without = mean(vertex.unguided_emission);
+    if (with == without) continue;
+    ++different;
+    REQUIRE(vertex.parent != kNoVertex);
+    const RecordedVertex& parent = path.vertices[vertex.parent];
+    CHECK((without < with) == (path.techniques(parent)[0].density < parent.pdf));
+  }
+  for (const RecordedLightSample& light : path.light_samples) {
+    CHECK(light.mis_weight > 0);
+    CHECK(light.mis_weight <= 1);
+    CHECK(light.unguided_mis_weight > 0);
+    CHECK(light.unguided_mis_weight <= 1);
+    different += light.unguided_mis_weight != light.mis_weight ? 1 : 0;
+  }
+  if (!is_guided) CHECK(different == 0);
+  return different;
+}
+
 void check_record(const std::string& yaml, const GuidingFrame* guides = nullptr) {
   Unit unit(yaml);
   WorkResult recorded = unit.render(true, guides);
   CHECK(recorded.log.size() == 2u * 32 * 32);
 
-  double sum = 0;
-  int guided = 0;
+  double sum = 0, sum_of_unguided_weights = 0;
+  int guided = 0, different_weights = 0;
   std::vector<Rgb> incident;
   for (std::size_t p = 0; p < recorded.log.size(); ++p) {
     const PathView path = recorded.log[p];
     estimate_incident_radiance(path, incident);
     guided += check_techniques(path);
+    different_weights += check_unguided_weights(path, guides != nullptr);
     const auto& vertices = path.vertices;
     REQUIRE(vertices.front().kind == VertexKind::sensor);
-    Rgb direct;
+    Rgb direct, with_unguided_weights;
     for (std::size_t i = 0; i < vertices.size(); ++i) {
       direct += vertices[i].throughput * vertices[i].emission;
+      with_unguided_weights += vertices[i].throughput * vertices[i].unguided_emission;
       if (i == 0) continue;
       const RecordedVertex& parent = vertices[vertices[i].parent];
       const Rgb arrived = parent.throughput * parent.local_weight;
@@ -79,15 +104,19 @@ void check_record(const std::string& yaml, const GuidingFrame* guides = nullptr)
     }
     for (const RecordedLightSample& light : path.light_samples) {
       direct += vertices[light.vertex].throughput * light.contribution;
-      CHECK(light.mis_weight > 0);
-      CHECK(light.mis_weight <= 1);
+      with_unguided_weights += vertices[light.vertex].throughput * light.contribution *
+                               (light.unguided_mis_weight / light.mis_weight);
     }
     // All light that a camera path finds arrives through its first segment.
     const Rgb through_first = vertices[0].local_weight * incident[0];
     CHECK(mean(through_first) == doctest::Approx(mean(direct)).epsilon(1e-4));
     sum += mean(direct);
+    sum_of_unguided_weights += mean(with_unguided_weights);
   }
+  // MIS weights of unguided paths sum to 1, too, so they estimate the same image.
+  CHECK(sum_of_unguided_weights == doctest::Approx(sum).epsilon(0.05));
   CHECK((guided > 0) == (guides != nullptr));
+  CHECK((different_weights > 0) == (guides != nullptr));
 
   unit.film.merge(recorded.film);
   unit.film.end_pass(2);

@@ -50,7 +50,10 @@ std::uint32_t PassSizes::next(std::uint32_t done, double now) {
   const double pass = done > 0 ? (now - start_) * size_ / done : 0;
   const bool is_late = iteration_.deadline - now < pass / 2;
   if (is_late && done >= iteration_.least_samples) return 0;
-  if (pass * 128 < planned_seconds_) size_ = std::clamp(done, size_, limit(done));
+  if (pass * 128 < planned_seconds_) {
+    // The estimate may fall below the limit late, when `done` would be far too much.
+    size_ = std::clamp(std::min(done, 2 * size_), size_, limit(done));
+  }
   // A pass is recorded as a whole or not at all.
   const std::uint32_t end = done < recorded_ ? recorded_ : iteration_.samples;
   return std::min(size_, end - done);

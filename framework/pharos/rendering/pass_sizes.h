@@ -9,7 +9,8 @@ namespace pharos {
 
 /// Chooses the number of samples per pixel of each pass of an iteration. Passes start small, and
 /// each pass doubles the number of samples done, up to a limit. There is thus soon an image to
-/// show, and the sums are powers of two.
+/// show, and the sums are powers of two. A pass is at most twice as large as the one
+/// before it would have been if it had not been cut where the records end.
 class PassSizes {
  public:
   /// The paths of the first `recorded` samples of the iteration are recorded. The smallest pass has

@@ -79,7 +79,7 @@ TEST_CASE("held-out gain: the part of a method that is almost the whole density"
   CHECK(gain.parts()[0].nats == doctest::Approx(std::log(0.5e9)));
 }
 
-TEST_CASE("held-out gain: whether it suffices, or will if it rises by as much again") {
+TEST_CASE("held-out gain: whether it suffices, or may if it rises by as much again") {
   HeldOutGain gain;
   iterate(gain, 0.5, 1000, 1);
   CHECK(gain.is_below(0.1));
@@ -94,6 +94,15 @@ TEST_CASE("held-out gain: whether it suffices, or will if it rises by as much ag
   iterate(gain, 0.5, 1000, 3);
   CHECK_FALSE(gain.may_reach(expected_gain(0.5) + 0.1));  // a fall counts as no rise
   CHECK(gain.may_reach(expected_gain(0.5) - 0.1));
+}
+
+TEST_CASE("held-out gain: it may rise by a standard error more") {
+  HeldOutGain gain;
+  iterate(gain, 0.5, 5, 4);
+  iterate(gain, 0.9, 5, 5);
+  REQUIRE(gain.possible_rise() > 1.05 * gain.rise());
+  CHECK(gain.may_reach(gain.value() + 0.5 * (gain.rise() + gain.possible_rise())));
+  CHECK_FALSE(gain.may_reach(gain.value() + 1.01 * gain.possible_rise()));
 }
 
 TEST_CASE("held-out gain: iterations without light tell nothing") {

@@ -29,14 +29,15 @@ void iterate(NoiseRatio& ratio, double guide, std::uint64_t seed) {
 /// Returns paths of one step each. Unguided sampling finds the light with the probability `chance`,
 /// and a guide that has half of the samples finds it always. On their way, all paths find light of
 /// brightness `common`, and the mean of the rest is 1.
-PathLog paths_to_rare_light(double chance, double common, int count, std::uint64_t seed) {
+PathLog paths_to_rare_light(double chance, double common, int count, std::uint64_t seed,
+                            Vec2 film = {}) {
   PathLog log;
   RandomStream random(seed);
   const double probability = 0.5 * (1 + chance);
   for (int i = 0; i < count; ++i) {
     const bool finds = random.next_1d() < probability;
     const Rgb found(static_cast<float>(finds ? 1 / probability : 0));
-    log.begin_path({}, Transport::radiance);
+    log.begin_path(film, Transport::radiance);
     log.add(RecordedVertex{.guidable = true,
                            .throughput = Rgb(1),
                            .local_weight = found,
@@ -45,7 +46,8 @@ PathLog paths_to_rare_light(double chance, double common, int count, std::uint64
                                 Technique{0.5f, finds ? 1.0f : 0.0f}};
     log.set_techniques(0, techniques);
     log.add({.vertex = 0, .contribution = Rgb(static_cast<float>(common))});
-    log.add(RecordedVertex{.parent = 0, .throughput = found, .emission = Rgb(1)});
+    log.add(RecordedVertex{
+        .parent = 0, .throughput = found, .emission = Rgb(1), .unguided_emission = Rgb(1)});
   }
   return log;
 }
@@ -118,6 +120,56 @@ TEST_CASE("noise ratio: light that all paths find makes no noise") {
   }
 }
 
+TEST_CASE("noise ratio: what distinguishes pixels makes no noise, if they have enough paths") {
+  constexpr int kPaths = 40'000;
+  const double guided = 1 / 0.625 - 1, unguided = 1 / 0.25 - 1;
+  // Ends an iteration in which pixel x of a row has paths(x) paths and the brightness 100 x.
+  const auto iterate_row = [](NoiseRatio& ratio, std::uint64_t seed, auto&& paths) {
+    for (int x = 0; x < 8; ++x) {
+      const Vec2 film(static_cast<float>(x), 0);
+      ratio.absorb(paths_to_rare_light(0.25, 100 * x, paths(x), 10 * seed + x, film));
+    }
+    ratio.end_iteration(true);
+  };
+  const auto ratio_with = [&](auto&& paths) {
+    NoiseRatio ratio({0, 0, 8, 1});
+    for (const std::uint64_t seed : {1u, 2u}) iterate_row(ratio, seed, paths);
+    REQUIRE(ratio.value());
+    return *ratio.value();
+  };
+  CHECK(ratio_with([](int) { return kPaths; }) == about(guided / unguided));
+  // Otherwise the tile counts as one pixel, and the differences hide the noise.
+  CHECK(ratio_with([](int) { return 1; }) == about(1));
+  CHECK(ratio_with([](int x) { return 100 + x; }) == about(1));
+}
+
+TEST_CASE("noise ratio: unguided paths have their own MIS weights") {
+  // Half of the paths find both lights.
+  NoiseRatio ratio(kPixel);
+  RandomStream random(1);
+  for (int iteration = 0; iteration < 2; ++iteration) {
+    PathLog log;
+    for (int i = 0; i < 100'000; ++i) {
+      const float found = random.next_1d() < 0.5f ? 1 : 0;
+      log.begin_path({}, Transport::radiance);
+      log.add(RecordedVertex{.throughput = Rgb(1)});
+      log.add({.vertex = 0,
+               .contribution = Rgb(0.5f * found),
+               .mis_weight = 0.25f,
+               .unguided_mis_weight = 0.75f});
+      log.add(RecordedVertex{.parent = 0,
+                             .throughput = Rgb(found),
+                             .emission = Rgb(0.6f),
+                             .unguided_emission = Rgb(0.2f)});
+    }
+    ratio.absorb(log);
+    ratio.end_iteration(true);
+  }
+  REQUIRE(ratio.value());
+  const double guided = 0.5 + 0.6, unguided = 1.5 + 0.2;
+  CHECK(*ratio.value() == about(guided * guided / (unguided * unguided)));
+}
+
 TEST_CASE("noise ratio: light that images do not show counts as missing") {
   constexpr double kChance = 1.0 / 1024, kSamples = 128;
   NoiseRatio ratio(kPixel);
@@ -155,7 +207,8 @@ TEST_CASE("noise ratio: paths of several guided steps that find light at each ve
                                .parent = step == 0 ? kNoVertex : step - 1,
                                .throughput = Rgb(static_cast<float>(throughput)),
                                .pdf = static_cast<float>(p),
-                               .emission = Rgb(step == 0 ? 0.0f : 1.0f)});
+                               .emission = Rgb(step == 0 ? 0.0f : 1.0f),
+                               .unguided_emission = Rgb(step == 0 ? 0.0f : 1.0f)});
         log.set_techniques(step, techniques);
         if (step > 0) found += throughput;
         throughput *= lit ? p_u / p * (1 / kUnguided) : 0;
@@ -189,7 +242,7 @@ TEST_CASE("noise ratio: each tile counts by its error over its brightness") {
       dark.begin_path({8, 0}, Transport::radiance);
       for (const RecordedVertex& vertex : source[i].vertices) {
         RecordedVertex copy = vertex;
-        copy.emission = copy.emission * 0.25f;
+        copy.emission = copy.unguided_emission = copy.emission * 0.25f;
         copy.next = copy.twin = kNoVertex;
         const std::uint32_t index = dark.add(copy);
         dark.set_techniques(index, source[i].techniques(vertex));
@@ -228,15 +281,23 @@ TEST_CASE("noise ratio: without light there is none, and unguided iterations cha
 }
 
 TEST_CASE("noise ratio: saved in the middle of an iteration, it ends the same") {
-  NoiseRatio ratio(kPixel), resumed(kPixel);
+  constexpr PixelRect kPixels{0, 0, 2, 1};
+  NoiseRatio ratio(kPixels), resumed(kPixels);
   iterate(ratio, 0.5, 1);
   iterate(ratio, 0.75, 2);
-  ratio.absorb(guided_paths(0.9, 100, 3));
+  const auto absorb_both_pixels = [](NoiseRatio& each, std::uint64_t seed) {
+    each.absorb(guided_paths(0.9, 100, seed));
+    each.absorb(paths_to_rare_light(0.25, 100, 100, seed, {1, 0}));
+  };
+  absorb_both_pixels(ratio, 3);
   std::ostringstream out;
   save(out, ratio);
   std::istringstream in(out.str());
   load(in, resumed);
-  for (NoiseRatio* each : {&ratio, &resumed}) each->end_iteration(true);
+  for (NoiseRatio* each : {&ratio, &resumed}) {
+    absorb_both_pixels(*each, 4);
+    each->end_iteration(true);
+  }
   CHECK(resumed.value() == ratio.value());
   CHECK(resumed.fall() == ratio.fall());
 }

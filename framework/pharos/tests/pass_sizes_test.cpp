@@ -47,5 +47,14 @@ TEST_CASE("pass sizes: a long iteration has longer passes and units, a timed one
   CHECK(timed.next(done, 1e-3 * done) == 64);
 }
 
+TEST_CASE("pass sizes: a timed pass is at most twice as large as the one before") {
+  // A sample takes a little longer than 1/128 of the time, and later a little less.
+  PassSizes sizes({.deadline = 128}, 0, 1, 0);
+  std::uint32_t done = 0;
+  for (int i = 0; i < 50; ++i) done += sizes.next(done, 1.01 * done);
+  CHECK(done == 50);
+  CHECK(sizes.next(done, 0.99 * done) == 2);
+}
+
 }  // namespace
 }  // namespace pharos

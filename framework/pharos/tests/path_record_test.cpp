@@ -84,7 +84,8 @@ RecordedVertex full_vertex(Numbers& numbers, std::uint32_t parent) {
           .transmittance = numbers.color(),
           .medium_density = numbers.next(),
           .emission = numbers.color(),
-          .joint_emission = numbers.color()};
+          .joint_emission = numbers.color(),
+          .unguided_emission = numbers.color()};
 }
 
 RecordedLightSample full_light_sample(Numbers& numbers, std::uint32_t vertex) {
@@ -96,7 +97,8 @@ RecordedLightSample full_light_sample(Numbers& numbers, std::uint32_t vertex) {
           .direction = numbers.vector(),
           .contribution = numbers.color(),
           .joint_contribution = numbers.color(),
-          .mis_weight = numbers.next()};
+          .mis_weight = numbers.next(),
+          .unguided_mis_weight = numbers.next()};
 }
 
 /// Adds a path that goes two ways from its second vertex, with light samples and techniques.
@@ -164,6 +166,7 @@ void check_equal(const RecordedVertex& a, const RecordedVertex& b) {
   CHECK(a.medium_density == b.medium_density);
   CHECK(a.emission == b.emission);
   CHECK(a.joint_emission == b.joint_emission);
+  CHECK(a.unguided_emission == b.unguided_emission);
 }
 
 void check_equal(const RecordedLightSample& a, const RecordedLightSample& b) {
@@ -176,6 +179,7 @@ void check_equal(const RecordedLightSample& a, const RecordedLightSample& b) {
   CHECK(a.contribution == b.contribution);
   CHECK(a.joint_contribution == b.joint_contribution);
   CHECK(a.mis_weight == b.mis_weight);
+  CHECK(a.unguided_mis_weight == b.unguided_mis_weight);
 }
 
 void check_equal(std::span<const Technique> a, std::span<const Technique> b) {

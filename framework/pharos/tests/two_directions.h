@@ -45,7 +45,8 @@ inline PathLog guided_paths(std::span<const double> guides, int count, std::uint
                            .local_weight = found,
                            .pdf = static_cast<float>(2 * probability)});
     log.set_techniques(1, techniques);
-    log.add(RecordedVertex{.parent = 1, .throughput = found, .emission = Rgb(1)});
+    log.add(RecordedVertex{
+        .parent = 1, .throughput = found, .emission = Rgb(1), .unguided_emission = Rgb(1)});
   }
   return log;
 }

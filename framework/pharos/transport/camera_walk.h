@@ -267,7 +267,11 @@ class CameraWalk {
       whole_weight = flight.counterparts.of_emission(light, index, path.here(), sampled);
     }
     flight.found.radiance += whole_weight * path.throughput * radiance;
-    kernel_.recorder().emission(path, radiance, {weight, whole_weight});
+    float unguided_weight = weight;
+    if constexpr (Recorder::kRecords) {
+      if (!alone) unguided_weight = emission_weight(settings_.mis, path.arrival.unguided, sampled);
+    }
+    kernel_.recorder().emission(path, radiance, {weight, whole_weight, unguided_weight});
   }
 
   void add_light_sample(InFlight& flight, const LocalScattering& scattering,
@@ -297,11 +301,13 @@ class CameraWalk {
                                   .event = scattering.smooth_event(light.direction),
                                   .medium_density = passage.medium_density};
     // No step can hit a light without extent.
-    float weight = 1;
+    float weight = 1, unguided_weight = 1;
     if (!light.discrete) {
-      weight = Rules::light_sample_weight(settings_.mis, light.pdf,
-                                          step_density(guidance, resolved, scatter.pdf),
-                                          passage.medium_density);
+      const StepDensity step = step_density(guidance, resolved, scatter.pdf);
+      weight = Rules::light_sample_weight(settings_.mis, light.pdf, step, passage.medium_density);
+      if constexpr (Recorder::kRecords) {
+        unguided_weight = light_sample_weight(settings_.mis, light.pdf, step.unguided);
+      }
     }
     float whole_weight = weight;
     if constexpr (Counterparts::kExist) {
@@ -316,7 +322,7 @@ class CameraWalk {
                                 .direction = light.direction,
                                 .event = resolved.event,
                                 .discrete = light.discrete},
-                               {weight, whole_weight}, value);
+                               {weight, whole_weight, unguided_weight}, value);
   }
 
   // --- Russian roulette -----------------------------------------------------------------------

@@ -12,6 +12,7 @@ namespace pharos {
 struct PathWeight {
   float own_end = 1;    ///< among the techniques of paths from the same end
   float both_ends = 1;  ///< among the techniques of all paths
+  float unguided = 1;   ///< as `own_end` would be without guides; unknown if nothing is recorded
 };
 
 /// The end of a connection from a vertex: a point on a light, or on the lens.
@@ -75,6 +76,7 @@ class LogRecorder {
     RecordedVertex& here = log_.vertex(path.record);
     here.emission += weight.own_end * radiance;
     here.joint_emission += weight.both_ends * radiance;
+    here.unguided_emission += weight.unguided * radiance;
   }
   void leave(const Path& path, const LocalScattering& scattering, const Guidance& guidance) {
     RecordedVertex& here = log_.vertex(path.record);
@@ -92,7 +94,8 @@ class LogRecorder {
                                  .direction = end.direction,
                                  .contribution = weight.own_end * value,
                                  .joint_contribution = weight.both_ends * value,
-                                 .mis_weight = weight.own_end});
+                                 .mis_weight = weight.own_end,
+                                 .unguided_mis_weight = weight.unguided});
   }
   void step(const Path& path, const ScatterStep& step, const Guidance& guidance, Rgb weight,
             const ResolvedVertex& target, Rgb transmittance) {

@@ -1,10 +1,17 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <pharos/guiding/pipeline/guide_trial.h>
 
 namespace pharos {
+namespace {
+
+/// Expected fall of the noise in an iteration, over the fall in the iteration before [1].
+constexpr double kDecline = 0.5;
+
+}  // namespace
 
 GuideTrial::GuideTrial(const TrainingSettings& settings, PixelRect window)
     : settings_(settings), noise_(window) {}
@@ -45,7 +52,7 @@ double GuideTrial::path_cost() const {
 
 std::optional<double> GuideTrial::noise_in_time() const {
   if (!noise_.value()) return std::nullopt;
-  const double fall = noise_.fall() ? *noise_.fall() : gain_.rise();
+  const double fall = kDecline * (noise_.fall() ? *noise_.fall() : gain_.rise());
   constexpr double kLeast = 1e-6;  // rounding may leave a ratio of zero
   return std::max(*noise_.value() * std::exp(-std::max(fall, 0.0)), kLeast) * path_cost();
 }
@@ -90,9 +97,13 @@ double GuideTrial::next_share() const {
 }
 
 double GuideTrial::possible_fall() const {
-  if (!is_useless()) return std::max(gain_.possible_rise(), noise_.fall().value_or(0));
+  const bool is_first = !gain_.was_measured_twice();
+  if (!is_useless()) {
+    if (is_first) return std::numeric_limits<double>::infinity();
+    return kDecline * std::max(gain_.rise(), noise_.fall().value_or(0));
+  }
   constexpr double kFirst = 0.5;  // -0.1 to 2.7 were measured where guides suffice in the end
-  if (!gain_.was_measured_twice()) return kFirst;
+  if (is_first) return kFirst;
   const double rise = gain_.may_reach(settings_.least_gain) ? gain_.possible_rise() : 0;
   return std::max(rise, noise_.possible_fall().value_or(0));
 }

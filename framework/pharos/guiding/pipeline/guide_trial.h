@@ -41,16 +41,19 @@ struct IterationCost {
 /// guides, or 1 - s if they are off. In the same time, training makes about half as many samples as
 /// the final image, because all guides are asked and learn (0.35 to 0.6 of them were measured). If
 /// it goes on, the rest is worth t / 2q (nothing if the images of training are discarded) plus
-/// (1 - s - t) / q', or plus 1 - s - t if the guides are off then. The noise is expected to fall
-/// from q to q' by as much as in the last iteration, or by e^-g if the gain may rise by g.
+/// (1 - s - t) / q', or plus 1 - s - t if the guides are off then. The noise falls less and less
+/// from iteration to iteration: its logarithm is expected to fall from q to q' by half as much as
+/// in the last iteration, or by half of what the gain has risen by, whichever is more.
 ///
 /// Guides that do not suffice must promise more. Their gain counts only if it may rise to
-/// TrainingSettings::least_gain. If it may not, the noise is expected to fall by as much as in the
-/// last iteration and a standard error. After a single measurement, it is expected to fall by
-/// e^-0.5.
+/// TrainingSettings::least_gain, and then it counts in full. If it may not, the noise is expected
+/// to fall by as much as in the last iteration and a standard error. After a single measurement, it
+/// is expected to fall by e^-0.5.
 ///
-/// The noise ratio was measured in the last iteration. The guides have learned since, so the ratio
-/// of an image that is made now is expected to be lower, by as much as in that iteration.
+/// The noise ratio was measured in the last iteration. The guides have learned since, so the
+/// logarithm of the ratio of an image that is made now is expected to be lower, by half as much as
+/// it fell in that iteration. Each of the two steps, to now and from now through the next
+/// iteration, is half of the last fall that was measured.
 class GuideTrial {
  public:
   GuideTrial(const TrainingSettings& settings, PixelRect window);

@@ -214,7 +214,7 @@ std::size_t GuidingState::model_bytes() const {
 }
 
 void GuidingState::archive(Archive& archive) {
-  archive.heading("guiding", 9);
+  archive.heading("guiding", 10);
   for (Source& source : sources_) {
     if (source.state != nullptr) source.state->archive(archive);
   }

@@ -31,10 +31,11 @@ class HeldOutGain {
   /// Returns whether it is uncertain that the gain is at least `least`: it is not one standard
   /// error above, or nothing was measured.
   bool may_be_below(double least) const;
-  /// Returns whether the gain reaches `least` in the next iteration if it rises by as much as
-  /// before. True as long as there is a single measurement, because the gain may rise from there.
+  /// Returns whether the gain may reach `least` in the next iteration: it is at least `least`, or a
+  /// possible_rise() lifts it there. True as long as there is a single measurement, because the
+  /// gain may rise from there.
   bool may_reach(double least) const {
-    return !has_before_ || last_.mean + std::max(0.0, last_.mean - before_.mean) >= least;
+    return last_.mean + std::max(0.0, possible_rise()) >= least;
   }
   /// Returns by how much the gain has risen [nats]; 0 if there are no two measurements.
   double rise() const { return has_before_ ? last_.mean - before_.mean : 0; }

@@ -19,21 +19,26 @@ double density_quotient(const PathView& path, const RecordedVertex& vertex) {
   return double{vertex.pdf} / double{techniques[0].density};
 }
 
+double square(double x) {
+  return x * x;
+}
+
 /// Sums over the vertices of one path. Vertices are added from the last to the first.
 struct Found {
-  double shown = 0, shown_squared = 0, missing = 0;
+  double shown = 0, second_moment = 0, missing = 0;
 
   /// Adds `x`, of which an image shows at most `limit`. `r` is the quotient r_j.
   void add(double x, double limit, double r) {
     const double visible = std::min(x, limit);
-    shown_squared += r * visible * (visible + 2 * shown);
+    second_moment += r * visible * (visible + 2 * shown);
     shown += visible;
     missing += x - visible;
   }
   template <class Sums>
   void add_to(Sums& sums) const {
     sums.shown += shown;
-    sums.shown_squared += shown_squared;
+    sums.second_moment += second_moment;
+    sums.shown_squared += shown * shown;
     sums.missing += missing;
     sums.missing_squared += missing * missing;
   }
@@ -45,12 +50,7 @@ NoiseRatio::NoiseRatio(PixelRect window)
     : window_(window), tiles_per_row_((window.width() + kTileSize - 1) / kTileSize) {
   const int rows = (window.height() + kTileSize - 1) / kTileSize;
   tiles_.resize(static_cast<std::size_t>(tiles_per_row_) * rows);
-}
-
-NoiseRatio::Tile& NoiseRatio::tile_at(Vec2 film) {
-  const int x = std::clamp(static_cast<int>(film.x), window_.x0, window_.x1 - 1) - window_.x0;
-  const int y = std::clamp(static_cast<int>(film.y), window_.y0, window_.y1 - 1) - window_.y0;
-  return tiles_[static_cast<std::size_t>(y / kTileSize) * tiles_per_row_ + x / kTileSize];
+  pixels_.resize(window.area());
 }
 
 void NoiseRatio::absorb(const PathLog& log) {
@@ -59,34 +59,75 @@ void NoiseRatio::absorb(const PathLog& log) {
   }
 }
 
-void NoiseRatio::add(const PathView& path) {
+/// Fills in what the path finds at each of its vertices.
+void NoiseRatio::find(const PathView& path) {
   const std::size_t count = path.vertices.size();
-  found_.assign(count, 0);
-  quotients_.assign(count, 1);
+  steps_.assign(count, {});
   for (const RecordedLightSample& sample : path.light_samples) {
-    const Rgb throughput = path.vertices[sample.vertex].throughput;
-    found_[sample.vertex] += mean(throughput * sample.contribution);
+    Step& step = steps_[sample.vertex];
+    const double found = mean(path.vertices[sample.vertex].throughput * sample.contribution);
+    step.guided += found;
+    if (found > 0) step.unguided += found * sample.unguided_mis_weight / sample.mis_weight;
   }
   for (std::size_t i = 0; i < count; ++i) {
     const RecordedVertex& vertex = path.vertices[i];
-    found_[i] += mean(vertex.throughput * vertex.emission);
+    Step& step = steps_[i];
+    step.guided += mean(vertex.throughput * vertex.emission);
+    step.unguided += mean(vertex.throughput * vertex.unguided_emission);
     if (vertex.parent == kNoVertex) continue;
-    quotients_[i] =
-        quotients_[vertex.parent] * density_quotient(path, path.vertices[vertex.parent]);
+    step.quotient =
+        steps_[vertex.parent].quotient * density_quotient(path, path.vertices[vertex.parent]);
   }
+}
 
-  Tile& tile = tile_at(path.film);
+void NoiseRatio::add(const PathView& path) {
+  find(path);
+  const int x = std::clamp(static_cast<int>(path.film.x), window_.x0, window_.x1 - 1) - window_.x0;
+  const int y = std::clamp(static_cast<int>(path.film.y), window_.y0, window_.y1 - 1) - window_.y0;
+  Tile& tile = tiles_[static_cast<std::size_t>(y / kTileSize) * tiles_per_row_ + x / kTileSize];
   ++tile.new_paths;
   Found guided, unguided;
-  for (std::size_t i = count; i-- > 0;) {
-    const double r = quotients_[i];
-    if (!(found_[i] > 0) || !std::isfinite(found_[i]) || !std::isfinite(r)) continue;
-    tile.new_brightness += found_[i];
-    guided.add(found_[i], tile.limit, 1);
-    unguided.add(found_[i], tile.limit / r, r);
+  for (std::size_t i = steps_.size(); i-- > 0;) {
+    const Step& step = steps_[i];
+    const double r = step.quotient;
+    if (!std::isfinite(step.guided) || !std::isfinite(step.unguided * r)) continue;
+    tile.new_brightness += step.guided;
+    guided.add(step.guided, tile.limit, 1);
+    unguided.add(step.unguided, tile.limit / r, r);
   }
   guided.add_to(tile.guided);
   unguided.add_to(tile.unguided);
+  Pixel& pixel = pixels_[static_cast<std::size_t>(y) * window_.width() + x];
+  ++pixel.paths;
+  pixel.guided += guided.shown;
+  pixel.unguided += unguided.shown;
+}
+
+/// Returns the pixels of a tile, relative to the window.
+PixelRect NoiseRatio::pixels_of(std::size_t tile) const {
+  const int x = kTileSize * static_cast<int>(tile % tiles_per_row_);
+  const int y = kTileSize * static_cast<int>(tile / tiles_per_row_);
+  return {x, y, std::min(x + kTileSize, window_.width()),
+          std::min(y + kTileSize, window_.height())};
+}
+
+auto NoiseRatio::pairs_in(std::size_t tile) const -> Pairs {
+  const PixelRect pixels = pixels_of(tile);
+  const auto at = [&](int x, int y) -> const Pixel& {
+    return pixels_[static_cast<std::size_t>(y) * window_.width() + x];
+  };
+  const std::uint32_t paths = at(pixels.x0, pixels.y0).paths;
+  bool counts_pixels = paths > 1;
+  Pairs of_pixels, of_tile;
+  for (int y = pixels.y0; y < pixels.y1; ++y) {
+    for (int x = pixels.x0; x < pixels.x1; ++x) {
+      of_pixels.add(at(x, y).paths, at(x, y).guided, at(x, y).unguided);
+      counts_pixels &= at(x, y).paths == paths;
+    }
+  }
+  if (counts_pixels) return of_pixels;
+  of_tile.add(tiles_[tile].new_paths, tiles_[tile].guided.shown, tiles_[tile].unguided.shown);
+  return of_tile;
 }
 
 /// Takes the ratio as one of two means over tiles, and computes its error to first order.
@@ -94,16 +135,18 @@ auto NoiseRatio::ratio() const -> std::optional<Ratio> {
   double guided = 0, unguided = 0;
   double guided_squared = 0, unguided_squared = 0, product = 0;
   int count = 0;
-  for (const Tile& tile : tiles_) {
+  for (std::size_t i = 0; i < tiles_.size(); ++i) {
+    const Tile& tile = tiles_[i];
     const double n = tile.new_paths;
     if (!(n > 1) || !(tile.limit > 0)) continue;
-    const auto error = [&](const Sums& sums) {
-      const double variance = (sums.shown_squared - sums.shown * sums.shown / n) / (n - 1);
-      // The square of the mean, without the variance of the mean.
-      const double missing = (sums.missing * sums.missing - sums.missing_squared) / (n * (n - 1));
+    const Pairs pairs = pairs_in(i);
+    // Squares of means are products of different paths, so they do not contain variances of means.
+    const auto error = [&](const Sums& sums, double squares) {
+      const double variance = sums.second_moment / n - (squares - sums.shown_squared) / pairs.count;
+      const double missing = (square(sums.missing) - sums.missing_squared) / (n * (n - 1));
       return n * (variance + kSamples * missing) / tile.limit;
     };
-    const double g = error(tile.guided), u = error(tile.unguided);
+    const double g = error(tile.guided, pairs.guided), u = error(tile.unguided, pairs.unguided);
     guided += g;
     unguided += u;
     guided_squared += g * g;
@@ -130,6 +173,7 @@ void NoiseRatio::end_iteration(bool is_guided) {
     tile.new_brightness = tile.new_paths = 0;
     tile.guided = tile.unguided = {};
   }
+  std::fill(pixels_.begin(), pixels_.end(), Pixel{});
   // Each pixel of a tile has another sample of the image's mean brightness, so tiles that have
   // found little or nothing have a limit, too.
   constexpr double kPriorPaths = kTileSize * kTileSize;
@@ -150,9 +194,9 @@ std::optional<double> NoiseRatio::possible_fall() const {
 }
 
 void NoiseRatio::archive(Archive& archive) {
-  const std::size_t count = tiles_.size();
-  archive(tiles_);
-  archive.expect(tiles_.size() == count, "the measure of guiding");
+  const std::size_t tiles = tiles_.size(), pixels = pixels_.size();
+  archive(tiles_, pixels_);
+  archive.expect(tiles_.size() == tiles && pixels_.size() == pixels, "the measure of guiding");
   for (std::optional<Ratio>* ratio : {&before_, &value_}) {
     bool is_known = ratio->has_value();
     Ratio value = ratio->value_or(Ratio{});

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -17,10 +18,10 @@ namespace pharos {
 ///
 ///     sum_j r_j x_j (x_j + 2 sum_{k > j} x_k)
 ///
-/// over guided paths, and with r_j = 1 it is the second moment of what guided paths find. Where
-/// paths branch, this holds up to the products of x_j and x_k in different branches. MIS
-/// weights, Russian roulette and splitting stay as in guided paths. Where light samples find most
-/// of the light, the ratio is therefore too low: 0.87 instead of about 1.1 in the Cornell box.
+/// over guided paths, and with r_j = 1 it is the second moment of what guided paths find. The x of
+/// unguided paths have the MIS weights of unguided paths. Where paths branch, this holds up to the
+/// products of x_j and x_k in different branches. Russian roulette and splitting stay as in guided
+/// paths.
 ///
 /// The plain ratio of variances would be decided by bright paths that are so rare that no image
 /// shows them. The images have n = 128 samples per pixel here, so a pixel shows contributions of up
@@ -28,6 +29,10 @@ namespace pharos {
 /// much in the mean squared error, and what they exceed it by is missing in the image:
 ///
 ///     n error = variance of what is shown + n (mean of what is missing)^2
+///
+/// The variance is measured within pixels, because differences between pixels are no noise. If the
+/// pixels of a tile have a single path each, it is measured within the tile. The same holds if they
+/// have unequal numbers of paths, as with guides of the camera.
 ///
 /// The ratio is the mean of error over brightness of all pixels, guided over unguided. The
 /// brightness is known from earlier iterations, so the first iteration has no ratio.
@@ -61,9 +66,34 @@ class NoiseRatio {
  private:
   /// Sums over the paths of the current iteration.
   struct Sums {
-    double shown = 0, shown_squared = 0;
+    double shown = 0, second_moment = 0;  ///< of what is shown
+    double shown_squared = 0;             ///< squares of what each path shows
     double missing = 0, missing_squared = 0;
-    void archive(Archive& archive) { archive(shown, shown_squared, missing, missing_squared); }
+    void archive(Archive& archive) {
+      archive(shown, second_moment, shown_squared, missing, missing_squared);
+    }
+  };
+  /// Sums over the paths of the current iteration in one pixel.
+  struct Pixel {
+    std::uint32_t paths = 0;
+    double guided = 0, unguided = 0;  ///< what is shown
+    void archive(Archive& archive) { archive(paths, guided, unguided); }
+  };
+  /// What a path finds at one of its vertices.
+  struct Step {
+    double guided = 0, unguided = 0;  ///< x_j, for each with its own MIS weights
+    double quotient = 1;              ///< r_j
+  };
+  /// Sums over the pixels of a tile, or over the tile as if it were a single pixel.
+  struct Pairs {
+    double count = 0;                 ///< ordered pairs of paths of the same pixel
+    double guided = 0, unguided = 0;  ///< squares of what the paths of a pixel show together
+    /// Adds a pixel with `n` paths, which show `g` and `u` together.
+    void add(double n, double g, double u) {
+      count += n * (n - 1);
+      guided += g * g;
+      unguided += u * u;
+    }
   };
   struct Tile {
     double limit = 0;                          ///< a contribution counts at most as much
@@ -80,16 +110,19 @@ class NoiseRatio {
     void archive(Archive& archive) { archive(mean, relative_error); }
   };
 
-  Tile& tile_at(Vec2 film);
+  PixelRect pixels_of(std::size_t tile) const;
+  Pairs pairs_in(std::size_t tile) const;
+  void find(const PathView& path);
   void add(const PathView& path);
   /// Returns the ratio of the current iteration.
   std::optional<Ratio> ratio() const;
 
   PixelRect window_;
   int tiles_per_row_;
-  std::vector<Tile> tiles_;                ///< in rows
-  std::optional<Ratio> before_, value_;    ///< of the iteration before the last and of the last
-  std::vector<double> found_, quotients_;  ///< of one path; members, so that they keep their memory
+  std::vector<Tile> tiles_;              ///< in rows
+  std::vector<Pixel> pixels_;            ///< in rows
+  std::optional<Ratio> before_, value_;  ///< of the iteration before the last and of the last
+  std::vector<Step> steps_;              ///< of one path; a member, so that it keeps its memory
 };
 
 }  // namespace pharos

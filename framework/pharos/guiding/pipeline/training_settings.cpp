@@ -26,10 +26,12 @@ void TrainingSettings::describe(Schema<TrainingSettings>& s) {
           "Least mean number of training samples for each region of the largest model in an "
           "iteration; iterations that would have fewer are longer")
       .at_least(0);
-  s.field("tolerance", &TrainingSettings::tolerance,
-          "Training ends once another iteration may neither raise the gain of the guides nor lower "
-          "the logarithm of the noise by this, and by what the iteration costs; 0: it uses up its "
-          "share. The gain says how much better they explain new light than unguided sampling")
+  s.field(
+       "tolerance", &TrainingSettings::tolerance,
+       "Training ends once another iteration is expected neither to raise the gain of the guides "
+       "nor to lower the logarithm of the noise by this, and by what the iteration costs; 0: it "
+       "uses up its "
+       "share. The gain says how much better they explain new light than unguided sampling")
       .unit("nats")
       .at_least(0);
   s.field("least_gain", &TrainingSettings::least_gain,
@@ -51,21 +53,6 @@ void TrainingSettings::describe(Schema<TrainingSettings>& s) {
        "trial", &TrainingSettings::trial,
        "Once about this share of the budget is spent, training ends if the guides do not suffice, "
        "unless the noise may fall by enough to be worth the time of another iteration, or, with "
-       "`most_noise: 0`, the gain may reach `least_gain` in it. Nothing is decided before. Until "
-       "they surely suffice, an iteration takes at most the rest of this share or half of it, "
-       "whichever is larger; as long as the gain is unknown, it may take more")
-      .at_least(0)
-      .at_most(1);
-  s.field("least_part", &TrainingSettings::least_part,
-          "A method is left out of the rest of the render if, without it, the gain would have been "
-          "lower by less than this in each of the last two iterations; 0: none is left out")
-      .unit("nats")
-      .at_least(0);
-  s.field(
-       "trial", &TrainingSettings::trial,
-       "Once about this share of the budget is spent, training ends if the guides do not suffice, "
-       "unless "
-       "the noise may fall by enough to be worth the time of another iteration, or, with "
        "`most_noise: 0`, the gain may reach `least_gain` in it. Nothing is decided before. Until "
        "they surely suffice, an iteration takes at most the rest of this share or half of it, "
        "whichever is larger; as long as the gain is unknown, it may take more")

@@ -37,9 +37,9 @@ struct TrainingSettings {
   std::uint32_t latest_images = 1001;
   /// Least mean number of training samples for each region of the largest model in an iteration.
   double region_samples = 32;
-  /// Training ends once another iteration may neither raise the gain of the guides nor lower the
-  /// logarithm of the noise by this [nats], and by what the iteration costs; see GuideTrial. 0: it
-  /// ends only with its share.
+  /// Training ends once another iteration is expected neither to raise the gain of the guides nor
+  /// to lower the logarithm of the noise by this [nats], and by what the iteration costs; see
+  /// GuideTrial. 0: it ends only with its share.
   double tolerance = 0;
   /// The final image is not guided if the gain of the guides is less than this [nats]. 0: always
   /// guided.

@@ -65,7 +65,7 @@ void PathLog::set_techniques(std::uint32_t index, std::span<const Technique> tec
 void PathLog::blacken_last_path() {
   for (std::size_t i = paths_.back().first_vertex; i < vertices_.size(); ++i) {
     vertices_[i].throughput = vertices_[i].local_weight = Rgb();
-    vertices_[i].emission = vertices_[i].joint_emission = Rgb();
+    vertices_[i].emission = vertices_[i].joint_emission = vertices_[i].unguided_emission = Rgb();
   }
   light_samples_.resize(paths_.back().first_light_sample);
 }
@@ -78,7 +78,7 @@ void PathLog::clear() {
 }
 
 void PathLog::archive(Archive& archive) {
-  archive.heading("path_log", 2);
+  archive.heading("path_log", 3);
   archive.block(paths_);
   archive.block(vertices_);
   archive.block(light_samples_);

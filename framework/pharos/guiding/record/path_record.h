@@ -54,8 +54,9 @@ struct RecordedVertex {
   /// vertex, or the probability [1] of reaching it.
   float medium_density = 1;
 
-  Rgb emission;        ///< radiance leaving here towards `parent`, times its MIS weight
-  Rgb joint_emission;  ///< the same with the MIS weight among paths from both ends
+  Rgb emission;           ///< radiance leaving here towards `parent`, times its MIS weight
+  Rgb joint_emission;     ///< the same with the MIS weight among paths from both ends
+  Rgb unguided_emission;  ///< the same with the MIS weight that it would have without guides
 
   /// The range of the techniques in the log; see PathView::techniques(). PathLog sets it.
   std::uint32_t first_technique = 0, technique_count = 0;
@@ -73,6 +74,7 @@ struct RecordedLightSample {
   Rgb contribution;        ///< f/p of the connection times its MIS weight, without throughput
   Rgb joint_contribution;  ///< the same with the MIS weight among paths from both ends
   float mis_weight = 1;    ///< MIS weight among paths from the same end
+  float unguided_mis_weight = 1;  ///< the same without guides
 };
 
 /// One recorded path. Its spans are valid as long as the log. The path estimates its part of the
