@@ -82,9 +82,10 @@ void NoiseRatio::find(const PathView& path) {
 
 void NoiseRatio::add(const PathView& path) {
   find(path);
-  const int x = std::clamp(static_cast<int>(path.film.x), window_.x0, window_.x1 - 1) - window_.x0;
-  const int y = std::clamp(static_cast<int>(path.film.y), window_.y0, window_.y1 - 1) - window_.y0;
-  Tile& tile = tiles_[static_cast<std::size_t>(y / kTileSize) * tiles_per_row_ + x / kTileSize];
+  const int x = std::clamp(static_cast<int>(path.film.x), window_.x0, window_.x1 - 1);
+  const int y = std::clamp(static_cast<int>(path.film.y), window_.y0, window_.y1 - 1);
+  const int column = (x - window_.x0) / kTileSize, row = (y - window_.y0) / kTileSize;
+  Tile& tile = tiles_[static_cast<std::size_t>(row) * tiles_per_row_ + column];
   ++tile.new_paths;
   Found guided, unguided;
   for (std::size_t i = steps_.size(); i-- > 0;) {
@@ -97,32 +98,28 @@ void NoiseRatio::add(const PathView& path) {
   }
   guided.add_to(tile.guided);
   unguided.add_to(tile.unguided);
-  Pixel& pixel = pixels_[static_cast<std::size_t>(y) * window_.width() + x];
+  Pixel& pixel = pixels_[window_.index(x, y)];
   ++pixel.paths;
   pixel.guided += guided.shown;
   pixel.unguided += unguided.shown;
 }
 
-/// Returns the pixels of a tile, relative to the window.
 PixelRect NoiseRatio::pixels_of(std::size_t tile) const {
-  const int x = kTileSize * static_cast<int>(tile % tiles_per_row_);
-  const int y = kTileSize * static_cast<int>(tile / tiles_per_row_);
-  return {x, y, std::min(x + kTileSize, window_.width()),
-          std::min(y + kTileSize, window_.height())};
+  const int x = window_.x0 + kTileSize * static_cast<int>(tile % tiles_per_row_);
+  const int y = window_.y0 + kTileSize * static_cast<int>(tile / tiles_per_row_);
+  return {x, y, std::min(x + kTileSize, window_.x1), std::min(y + kTileSize, window_.y1)};
 }
 
 auto NoiseRatio::pairs_in(std::size_t tile) const -> Pairs {
   const PixelRect pixels = pixels_of(tile);
-  const auto at = [&](int x, int y) -> const Pixel& {
-    return pixels_[static_cast<std::size_t>(y) * window_.width() + x];
-  };
-  const std::uint32_t paths = at(pixels.x0, pixels.y0).paths;
+  const std::uint32_t paths = pixels_[window_.index(pixels.x0, pixels.y0)].paths;
   bool counts_pixels = paths > 1;
   Pairs of_pixels, of_tile;
   for (int y = pixels.y0; y < pixels.y1; ++y) {
     for (int x = pixels.x0; x < pixels.x1; ++x) {
-      of_pixels.add(at(x, y).paths, at(x, y).guided, at(x, y).unguided);
-      counts_pixels &= at(x, y).paths == paths;
+      const Pixel& pixel = pixels_[window_.index(x, y)];
+      of_pixels.add(pixel.paths, pixel.guided, pixel.unguided);
+      counts_pixels &= pixel.paths == paths;
     }
   }
   if (counts_pixels) return of_pixels;

@@ -79,7 +79,7 @@ class NoiseRatio {
     double guided = 0, unguided = 0;  ///< what is shown
     void archive(Archive& archive) { archive(paths, guided, unguided); }
   };
-  /// What a path finds at one of its vertices.
+  /// The light that a path finds at one vertex.
   struct Step {
     double guided = 0, unguided = 0;  ///< x_j, for each with its own MIS weights
     double quotient = 1;              ///< r_j
@@ -110,6 +110,7 @@ class NoiseRatio {
     void archive(Archive& archive) { archive(mean, relative_error); }
   };
 
+  /// Returns the pixels of the film that belong to a tile.
   PixelRect pixels_of(std::size_t tile) const;
   Pairs pairs_in(std::size_t tile) const;
   void find(const PathView& path);
