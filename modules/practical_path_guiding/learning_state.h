@@ -24,6 +24,7 @@ class PracticalPathGuidingLearningState final : public LearningState {
 
   void absorb(const PathLog& log) override;
   Learned update(const TrainingStage& stage) override;
+  void end_learning() override { records_ = {}; }
   void archive(Archive& archive) override;
 
  private:

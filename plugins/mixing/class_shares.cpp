@@ -11,50 +11,47 @@ namespace {
 
 using Settings = SimplexMixing::Settings;
 
+/// Shares and what steps would cost under them.
+struct Candidate {
+  Simplex shares;
+  double cost;
+};
+
 /// The steps of one iteration, and the rules by which shares are found for them.
 class ShareSearch {
  public:
-  ShareSearch(const std::vector<FoundStep>& steps, const Settings& settings, std::size_t count,
-              const TechniqueSet& in_use)
-      : steps_(steps), settings_(settings), count_(count), in_use_(in_use) {}
+  ShareSearch(const std::vector<FoundStep>& steps, const Settings& settings, std::size_t count)
+      : steps_(steps), settings_(settings), count_(count) {}
 
-  /// Returns the best shares of all techniques.
-  Simplex best() const { return best(in_use_); }
   /// Returns the best shares of the techniques that may be asked.
-  Simplex best(const TechniqueSet& asked) const {
-    return with_least_unguided(least_cost(steps_, asked, count_, settings_.objective),
-                               settings_.least, count_);
+  Candidate best(const TechniqueSet& asked) const {
+    const Simplex shares = with_least_unguided(
+        least_cost(steps_, asked, count_, settings_.objective), settings_.least, count_);
+    return {shares, cost_of(steps_, shares, count_, settings_.objective)};
   }
-  /// Leaves out, one after another, the method without which the cost rises least, as long as it
-  /// rises by less than the factor `worth`.
-  TechniqueSet worthwhile() const {
-    TechniqueSet asked = in_use_;
-    double now = cost(asked);
+  /// Leaves methods out of the best shares of all techniques in use: one after another, the method
+  /// without which the cost rises least, as long as it rises by less than the factor `worth`.
+  Simplex worthwhile(Candidate now, TechniqueSet asked) const {
     while (true) {
       std::size_t cheapest = 0;
-      double next = settings_.worth * now;
+      Candidate next{now.shares, settings_.worth * now.cost};
       for (std::size_t i = 1; i < count_; ++i) {
         if (!asked[i]) continue;
         TechniqueSet without = asked;
         without[i] = false;
-        const double value = cost(without);
-        if (value < next) next = value, cheapest = i;
+        const Candidate candidate = best(without);
+        if (candidate.cost < next.cost) next = candidate, cheapest = i;
       }
-      if (cheapest == 0) return asked;
+      if (cheapest == 0) return now.shares;
       asked[cheapest] = false;
       now = next;
     }
   }
 
  private:
-  double cost(const TechniqueSet& asked) const {
-    return cost_of(steps_, best(asked), count_, settings_.objective);
-  }
-
   std::span<const FoundStep> steps_;
   const Settings& settings_;
   std::size_t count_;
-  const TechniqueSet& in_use_;
 };
 
 /// Sets the shares of techniques that are not in use to 0.
@@ -112,11 +109,12 @@ void ClassShares::learn(const Settings& settings, std::size_t count, const Techn
       step.weight = weight;
       steps.push_back(step);
     });
-    const ShareSearch search(steps, settings, count, in_use);
+    const ShareSearch search(steps, settings, count);
+    const Candidate best = search.best(in_use);
     const double worth = weights_ * weights_ / squares_;
     const double part = worth / (worth + before);
-    own_.final = blended(search.best(search.worthwhile()), part, own_.final);
-    own_.training = blended(search.best(), part, own_.training);
+    own_.final = blended(search.worthwhile(best, in_use), part, own_.final);
+    own_.training = blended(best.shares, part, own_.training);
     certainty_ += worth;
   }
   drop_steps();

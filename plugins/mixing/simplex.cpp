@@ -160,6 +160,11 @@ class SimplexState final : public MixingState {
 
   void leave_out(std::size_t method) override { in_use_[1 + method] = false; }
 
+  void end_learning() override {
+    steps_ = {};
+    is_last_ = true;
+  }
+
   std::shared_ptr<const MixingShares> shares() const override {
     std::vector<float> all;
     for (std::size_t i = 0; i < cells_.size(); ++i) {

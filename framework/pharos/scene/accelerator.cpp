@@ -80,7 +80,7 @@ struct ShapeRay {
 ShapeRay shape_ray(const RTCRay& query, const QueryContext& context) {
   Ray ray = from_embree(query);
   if (context.instID[0] == RTC_INVALID_GEOMETRY_ID) return {ray, 1};
-  const double size = std::hypot(double{query.dir_x}, double{query.dir_y}, double{query.dir_z});
+  const double size = precise_length(ray.direction);
   const auto scaled = [&](float v) { return static_cast<float>(v / size); };
   ray.direction = {scaled(query.dir_x), scaled(query.dir_y), scaled(query.dir_z)};
   const float scale = static_cast<float>(size);

@@ -8,11 +8,6 @@
 namespace pharos {
 namespace {
 
-/// Returns the length, even if its square is beyond the range of a float.
-double length_of(Vec3 v) {
-  return std::hypot(double{v.x}, double{v.y}, double{v.z});
-}
-
 Vec3 scaled(Vec3 v, double factor) {
   return {static_cast<float>(factor * v.x), static_cast<float>(factor * v.y),
           static_cast<float>(factor * v.z)};
@@ -71,7 +66,7 @@ Placement::Placement(const Transform& to_world) : to_world_(to_world) {
 
 Placement::LocalRay Placement::to_local(const Ray& ray) const {
   const Vec3 direction = to_world_.inverse_vector(ray.direction);
-  const double scale = length_of(direction);
+  const double scale = precise_length(direction);
   const float factor = static_cast<float>(scale);
   return {{to_world_.inverse_point(ray.origin), scaled(direction, 1 / scale), factor * ray.t_max},
           factor};
@@ -111,25 +106,26 @@ PlacementError Placement::error_at(const SurfacePoint& local) const {
       epsilon * (sizes.x * inverse_magnitude_[0] + sizes.y * inverse_magnitude_[1] +
                  sizes.z * inverse_magnitude_[2]);
   const Vec3 normal = to_world_.normal(local.normal);
-  const double scale = length_of(normal);
+  const double scale = precise_length(normal);
   const double along_normal = local.error + dot(abs(local.normal), rounding);
   const float error = static_cast<float>(along_normal / scale);
-  const double step = length_of(to_world_.inverse_vector(scaled(normal, 1 / scale))) * error;
-  return {.world = error, .margin = static_cast<float>(kEdgeMargin * step + length_of(rounding))};
+  const double step = precise_length(to_world_.inverse_vector(scaled(normal, 1 / scale))) * error;
+  return {.world = error,
+          .margin = static_cast<float>(kEdgeMargin * step + precise_length(rounding))};
 }
 
 SurfacePoint Placement::to_world(const SurfacePoint& local, float error) const {
   SurfacePoint point = local;
   const Vec3 normal = to_world_.normal(local.normal);
   point.position = precise_point(to_world_, local.position);
-  point.normal = scaled(normal, 1 / length_of(normal));
+  point.normal = scaled(normal, 1 / precise_length(normal));
   point.error = error;
   const Vec3 shading = to_world_.normal(local.shading.n);
   const float side = dot(shading, point.normal);
-  point.shading = side == 0
-                      ? Frame::from_normal(point.normal)
-                      : Frame::along(scaled(shading, std::copysign(1 / length_of(shading), side)),
-                                     to_world_.vector(local.shading.s));
+  point.shading =
+      side == 0 ? Frame::from_normal(point.normal)
+                : Frame::along(scaled(shading, std::copysign(1 / precise_length(shading), side)),
+                               to_world_.vector(local.shading.s));
   return point;
 }
 

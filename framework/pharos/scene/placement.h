@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 
 #include <pharos/core/bounds.h>
 #include <pharos/core/ray.h>
@@ -14,6 +15,12 @@ struct PlacementError {
   float world = 0;   ///< SurfacePoint::error in world space [scene units]
   float margin = 0;  ///< distance to keep from the edges in local space [local units]
 };
+
+/// Returns the length. Its square may be beyond the range of a float, but not of a double.
+inline double precise_length(Vec3 v) {
+  const double x = v.x, y = v.y, z = v.z;
+  return std::sqrt(x * x + y * y + z * z);
+}
 
 /// Returns the bounding box of a placed box; empty for an empty one. Throws InputError if the box
 /// is beyond the range of a float.

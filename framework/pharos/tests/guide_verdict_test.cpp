@@ -1,7 +1,9 @@
 // Tests of the verdict on guides: whether they are used, and how long useless ones may learn.
 
 #include <array>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include <doctest/doctest.h>
 
@@ -13,7 +15,7 @@
 
 namespace pharos {
 
-using test::load_from, test::may_end, test::saved, test::tiny_settings;
+using test::load_from, test::may_end, test::saved, test::tiny_settings, test::TinyMixing;
 
 TEST_CASE("guide verdict: guides of little gain stay if they lower the noise enough") {
   GuidingSettings own = tiny_settings();
@@ -38,6 +40,24 @@ TEST_CASE("guide verdict: guides of little gain stay if they lower the noise eno
     REQUIRE(state.gain()->noise_ratio);
     CHECK(*state.gain()->noise_ratio ==
           doctest::Approx(test::expected_ratio(0.8)).epsilon(0.05).scale(0));
+  }
+}
+
+TEST_CASE("guide verdict: nothing learns from the last iteration if guiding is off then") {
+  GuidingSettings own = tiny_settings();
+  const auto heard = std::make_shared<std::vector<std::string>>();
+  own.mixing = std::make_shared<const TinyMixing>(0, heard);
+  for (const double least : {0.01, 10.0}) {
+    own.training.least_gain = least;
+    heard->clear();
+    GuidingState state(own, {});
+    may_end(state, 0.5, 0.1, 1);
+    state.update({0, 1});
+    may_end(state, 0.8, 0.2, 2);
+    state.update({1, 0});
+    CHECK(state.gain()->is_off == (least > 1));
+    CHECK(*heard ==
+          std::vector<std::string>{"update", "update", least > 1 ? "end learning" : "update"});
   }
 }
 

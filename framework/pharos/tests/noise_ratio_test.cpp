@@ -27,13 +27,13 @@ void iterate(NoiseRatio& ratio, double guide, std::uint64_t seed) {
 }
 
 /// Returns paths of one step each. Unguided sampling finds the light with the probability `chance`,
-/// and a guide that has half of the samples finds it always. On their way, all paths find light of
-/// brightness `common`, and the mean of the rest is 1.
+/// and a guide that has half of the samples finds it with the probability `guide`. On their way,
+/// all paths find light of brightness `common`, and the mean of the rest is 1.
 PathLog paths_to_rare_light(double chance, double common, int count, std::uint64_t seed,
-                            Vec2 film = {}) {
+                            Vec2 film = {}, double guide = 1) {
   PathLog log;
   RandomStream random(seed);
-  const double probability = 0.5 * (1 + chance);
+  const double probability = 0.5 * (guide + chance);
   for (int i = 0; i < count; ++i) {
     const bool finds = random.next_1d() < probability;
     const Rgb found(static_cast<float>(finds ? 1 / probability : 0));
@@ -43,7 +43,7 @@ PathLog paths_to_rare_light(double chance, double common, int count, std::uint64
                            .local_weight = found,
                            .pdf = static_cast<float>(finds ? probability : 1 - probability)});
     const std::array techniques{Technique{0.5f, static_cast<float>(finds ? chance : 1 - chance)},
-                                Technique{0.5f, finds ? 1.0f : 0.0f}};
+                                Technique{0.5f, static_cast<float>(finds ? guide : 1 - guide)}};
     log.set_techniques(0, techniques);
     log.add({.vertex = 0, .contribution = Rgb(static_cast<float>(common))});
     log.add(RecordedVertex{
@@ -183,6 +183,18 @@ TEST_CASE("noise ratio: light that images do not show counts as missing") {
   REQUIRE(ratio.value());
   CHECK(*ratio.value() == doctest::Approx(guided / unguided).epsilon(0.03));
   CHECK(*ratio.value() > 5 * guided / (1 / kChance - 1));  // the quotient of the variances
+}
+
+TEST_CASE("noise ratio: where images show next to nothing, the light that they show decides") {
+  constexpr double kChance = 1.0 / 16384, kGuide = 1.0 / 256;
+  NoiseRatio ratio(kPixel);
+  for (const std::uint64_t seed : {1u, 2u}) {
+    ratio.absorb(paths_to_rare_light(kChance, 0, 1'000'000, seed, {}, kGuide));
+    ratio.end_iteration(true);
+  }
+  REQUIRE(ratio.value());
+  // Guided images show a quarter of the light, so their error is still 0.8 times as high.
+  CHECK(*ratio.value() == about(2 * kChance / (kChance + kGuide)));
 }
 
 TEST_CASE("noise ratio: paths of several guided steps that find light at each vertex") {

@@ -123,6 +123,9 @@ class TinyMixingState final : public MixingState {
   void leave_out(std::size_t method) override {
     if (heard_ != nullptr) heard_->push_back("leave out " + std::to_string(method));
   }
+  void end_learning() override {
+    if (heard_ != nullptr) heard_->push_back("end learning");
+  }
   void update(std::uint32_t regions, std::span<const std::uint32_t> origins, bool) override {
     if (heard_ != nullptr) heard_->push_back("update");
     std::vector<double> next(regions, found_);
@@ -147,7 +150,7 @@ class TinyMixingState final : public MixingState {
 };
 
 /// A policy that never asks the first `silent` methods. If `heard` is not null, the policy lists
-/// the calls of update() and leave_out() there.
+/// the calls of update(), leave_out() and end_learning() there.
 class TinyMixing final : public MixingPolicy {
  public:
   explicit TinyMixing(std::size_t silent = 0,

@@ -235,16 +235,18 @@ TEST_CASE("saved learning goes on as if it had not been interrupted") {
   CHECK(saved(*trained(*whole, 2).model) == saved(*trained(*resumed, 2).model));
 }
 
-TEST_CASE("samples wait until the iteration ends, unless there are too many") {
-  const auto bytes = [](std::uint32_t batch_samples) {
+TEST_CASE("samples wait until the iteration or learning ends, unless there are too many") {
+  const auto bytes = [](std::uint32_t batch_samples, bool ends) {
     ParallaxAwareMixturesSettings settings = small_settings();
     settings.batch_samples = batch_samples;
     const auto state = ParallaxAwareMixturesLearner(settings).begin({.seed = 7});
     state->absorb(lamp_paths(1500, 1));
+    if (ends) state->end_learning();
     return saved(*state).size();
   };
-  CHECK(bytes(2000) > 1500 * sizeof(Sample));
-  CHECK(bytes(1024) < bytes(2000) / 2);
+  CHECK(bytes(2000, false) > 1500 * sizeof(Sample));
+  CHECK(bytes(1024, false) < bytes(2000, false) / 2);
+  CHECK(bytes(2000, true) < 500 * sizeof(Sample));
 }
 
 TEST_CASE("little light waits for more; without any there is no model") {

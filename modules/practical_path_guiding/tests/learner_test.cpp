@@ -250,6 +250,15 @@ TEST_CASE("models of other targets, and those that know nothing, say nothing of 
   CHECK(PracticalPathGuidingModel().incident_radiance({}, {0, 0, 1}) == 0);
 }
 
+TEST_CASE("records wait until the iteration or learning ends") {
+  const auto state = PracticalPathGuidingLearner(small_settings()).begin(context());
+  const std::size_t before = saved(*state).size();
+  state->absorb(lamp_paths(1500, 1));
+  CHECK(saved(*state).size() > before + 1500 * sizeof(Vec3));
+  state->end_learning();
+  CHECK(saved(*state).size() == before);
+}
+
 TEST_CASE("models survive being saved; damaged ones are refused or sound") {
   const std::string file = saved(*trained(small_settings()).model);
   CHECK(saved(*loaded(file)) == file);

@@ -453,4 +453,22 @@ TEST_CASE("simplex: a method that is left out has no share any more") {
   }
 }
 
+TEST_CASE("simplex mixing: if learning ends early, no steps wait, and guides explore no more") {
+  const auto state = begun();
+  const auto size = [&] {
+    std::ostringstream out;
+    save(out, *state);
+    return out.str().size();
+  };
+  absorb(*state, kGuideMisses, 20'000, 1);
+  state->update(1, {}, false);
+  const std::size_t before = size();
+  CHECK(ask(*state).shares[1] > 0.04f);
+  absorb(*state, kGuideMisses, 20'000, 2);
+  CHECK(size() > before + 20'000);
+  state->end_learning();
+  CHECK(size() == before);
+  CHECK(ask(*state).shares[1] == 0);
+}
+
 }  // namespace pharos

@@ -53,6 +53,10 @@ class MixingState {
   /// more, so its share goes to waste. Called before update(). The default ignores this; renders
   /// with the model file that the render writes then ask the method again.
   virtual void leave_out(std::size_t /*method*/) {}
+  /// Takes note that guiding is turned off after the last training iteration: update() is not
+  /// called any more. The state may drop records that wait for it. What was learned before is saved
+  /// in the model file, for renders that learn no more. The default does nothing.
+  virtual void end_learning() {}
   /// Returns the shares as of the last update().
   virtual std::shared_ptr<const MixingShares> shares() const = 0;
   /// Saves the state, or loads it into a state that MixingPolicy::begin() made for the same render

@@ -120,9 +120,11 @@ void GuidingState::leave_out_dispensable_method() {
 
 void GuidingState::mark_idle_sources() {
   for (std::size_t i = 0; i < sources_.size(); ++i) {
-    sources_[i].is_idle = std::all_of(users_.begin(), users_.end(), [&](const User& user) {
+    Source& source = sources_[i];
+    source.is_idle = std::all_of(users_.begin(), users_.end(), [&](const User& user) {
       return user.source != i || user.is_out || is_off_;
     });
+    if (source.is_idle && source.state != nullptr) source.state->end_learning();
   }
 }
 
@@ -138,7 +140,11 @@ void GuidingState::update(const TrainingStage& stage) {
     source.update(stage, first, origins);
     first += before;
   }
-  mixing_->update(static_cast<std::uint32_t>(origins.size()), origins, stage.is_last());
+  if (is_off_) {
+    mixing_->end_learning();
+  } else {
+    mixing_->update(static_cast<std::uint32_t>(origins.size()), origins, stage.is_last());
+  }
   last_samples_ = std::exchange(samples_, 0);
   rebuild_frame();
 }

@@ -127,11 +127,18 @@ auto NoiseRatio::pairs_in(std::size_t tile) const -> Pairs {
   return of_tile;
 }
 
-/// Takes the ratio as one of two means over tiles, and computes its error to first order.
+auto NoiseRatio::Quotient::value() const -> std::optional<Ratio> {
+  if (!(under > 0)) return std::nullopt;
+  if (!(over > 0)) return Ratio{};
+  const double mean = over / under;
+  const double squares = over_squared - 2 * mean * product + mean * mean * under_squared;
+  const double scale = count > 1 ? static_cast<double>(count) / (count - 1) : 0;
+  return Ratio{mean, std::sqrt(scale * std::max(squares, 0.0)) / over};
+}
+
 auto NoiseRatio::ratio() const -> std::optional<Ratio> {
-  double guided = 0, unguided = 0;
-  double guided_squared = 0, unguided_squared = 0, product = 0;
-  int count = 0;
+  Quotient of_errors, of_shown;
+  double missing = 0;  // in unguided images
   for (std::size_t i = 0; i < tiles_.size(); ++i) {
     const Tile& tile = tiles_[i];
     const double n = tile.new_paths;
@@ -140,23 +147,16 @@ auto NoiseRatio::ratio() const -> std::optional<Ratio> {
     // Squares of means are products of different paths, so they do not contain variances of means.
     const auto error = [&](const Sums& sums, double squares) {
       const double variance = sums.second_moment / n - (squares - sums.shown_squared) / pairs.count;
-      const double missing = (square(sums.missing) - sums.missing_squared) / (n * (n - 1));
-      return n * (variance + kSamples * missing) / tile.limit;
+      const double hidden = (square(sums.missing) - sums.missing_squared) / (n * (n - 1));
+      return n * (variance + kSamples * hidden) / tile.limit;
     };
-    const double g = error(tile.guided, pairs.guided), u = error(tile.unguided, pairs.unguided);
-    guided += g;
-    unguided += u;
-    guided_squared += g * g;
-    unguided_squared += u * u;
-    product += g * u;
-    ++count;
+    of_errors.add(error(tile.guided, pairs.guided), error(tile.unguided, pairs.unguided));
+    of_shown.add(tile.unguided.shown / tile.limit, tile.guided.shown / tile.limit);
+    missing += tile.unguided.missing / tile.limit;
   }
-  if (!(unguided > 0)) return std::nullopt;
-  if (!(guided > 0)) return Ratio{};
-  const double mean = guided / unguided;
-  const double squares = guided_squared - 2 * mean * product + mean * mean * unguided_squared;
-  const double scale = count > 1 ? static_cast<double>(count) / (count - 1) : 0;
-  return Ratio{mean, std::sqrt(scale * std::max(squares, 0.0)) / guided};
+  const std::optional<Ratio> errors = of_errors.value(), shown = of_shown.value();
+  const bool counts_light = missing > of_shown.over && shown && errors;
+  return counts_light && shown->mean < errors->mean ? shown : errors;
 }
 
 void NoiseRatio::end_iteration(bool is_guided) {

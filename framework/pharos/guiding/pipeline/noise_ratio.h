@@ -36,6 +36,12 @@ namespace pharos {
 ///
 /// The ratio is the mean of error over brightness of all pixels, guided over unguided. The
 /// brightness is known from earlier iterations, so the first iteration has no ratio.
+///
+/// If an unguided image shows less than half of the light, its error is hardly less than the error
+/// of a black image, and guides that show some more of the light do not change it by much. The
+/// light that is shown grows with the number of samples there: guides that show twice as much need
+/// half of the samples. The ratio is then at most the light that an unguided image shows over the
+/// light that a guided one shows (means over all pixels, relative to their brightness).
 class NoiseRatio {
  public:
   explicit NoiseRatio(PixelRect window);
@@ -108,6 +114,24 @@ class NoiseRatio {
   struct Ratio {
     double mean = 0, relative_error = 0;
     void archive(Archive& archive) { archive(mean, relative_error); }
+  };
+  /// The quotient of two means over tiles.
+  struct Quotient {
+    double over = 0, under = 0;  ///< sums over tiles
+    double over_squared = 0, under_squared = 0, product = 0;
+    int count = 0;
+    /// Adds the numerator and the denominator of a tile.
+    void add(double a, double b) {
+      over += a;
+      under += b;
+      over_squared += a * a;
+      under_squared += b * b;
+      product += a * b;
+      ++count;
+    }
+    /// Returns the quotient, with its error to first order; none if the denominator is not
+    /// positive.
+    std::optional<Ratio> value() const;
   };
 
   /// Returns the pixels of the film that belong to a tile.

@@ -58,6 +58,8 @@ class KdTreeLearning final : public LearningState {
     return learned;
   }
 
+  void end_learning() override { samples_ = {}; }
+
   void archive(Archive& archive) override {
     archive.heading(Lessons::kHeading, Lessons::kVersion);
     archive(lesson_, cells_, samples_);
