@@ -35,7 +35,7 @@ Simplex descent_of(std::span<const FoundStep> steps, const Simplex& shares,
   return descent;
 }
 
-/// The same for `count` techniques. Loops of a known length take a third of the time.
+/// The same for `count` techniques. The compiler unrolls loops of a known length.
 Simplex descent_of(std::span<const FoundStep> steps, const Simplex& shares, std::size_t count,
                    MixingObjective objective) {
   switch (count) {

@@ -193,7 +193,7 @@ TEST_CASE("noise ratio: where images show next to nothing, the light that they s
     ratio.end_iteration(true);
   }
   REQUIRE(ratio.value());
-  // Guided images show a quarter of the light, so their error is still 0.8 times as high.
+  // Guided images show a quarter of the light, so their error is 0.8 times that of black ones.
   CHECK(*ratio.value() == about(2 * kChance / (kChance + kGuide)));
 }
 

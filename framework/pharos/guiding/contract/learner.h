@@ -49,9 +49,9 @@ class LearningState {
   virtual void absorb(const PathLog& log) = 0;
   /// Ends a training iteration.
   virtual Learned update(const TrainingStage& stage) = 0;
-  /// Takes note that the model is not used any more in this render: neither absorb() nor update()
-  /// is called again. The state may drop records that wait for update(). May be called repeatedly.
-  /// The default drops nothing.
+  /// Called when the model is not used any more in this render. Neither absorb() nor update() is
+  /// called afterwards, but archive() and end_learning() may be. The state may drop records that
+  /// wait for update(). The default does nothing.
   virtual void end_learning() {}
   /// Saves the state, or loads it into a state that Learner::begin() made for the same render.
   virtual void archive(Archive& archive) = 0;

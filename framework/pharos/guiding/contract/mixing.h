@@ -53,11 +53,11 @@ class MixingState {
   /// more, so its share goes to waste. Called before update(). The default ignores this; renders
   /// with the model file that the render writes then ask the method again.
   virtual void leave_out(std::size_t /*method*/) {}
-  /// Takes note that guiding is turned off after the last training iteration: update() is not
-  /// called any more. The state may drop records that wait for it. What was learned before is saved
-  /// in the model file, for renders that learn no more. The default does nothing.
+  /// Called instead of the last update(), if guiding is turned off then. The state may drop records
+  /// that wait for update(). The model file stores what was learned before, and renders that use it
+  /// do not learn, so shares() should return shares for a final image. The default does nothing.
   virtual void end_learning() {}
-  /// Returns the shares as of the last update().
+  /// Returns the shares as of the last call of update() or end_learning().
   virtual std::shared_ptr<const MixingShares> shares() const = 0;
   /// Saves the state, or loads it into a state that MixingPolicy::begin() made for the same render
   /// and that has been updated for the number of regions that was saved.

@@ -137,8 +137,8 @@ auto NoiseRatio::Quotient::value() const -> std::optional<Ratio> {
 }
 
 auto NoiseRatio::ratio() const -> std::optional<Ratio> {
-  Quotient of_errors, of_shown;
-  double missing = 0;  // in unguided images
+  Quotient of_errors, of_light;
+  double shown = 0, missing = 0;  // in unguided images
   for (std::size_t i = 0; i < tiles_.size(); ++i) {
     const Tile& tile = tiles_[i];
     const double n = tile.new_paths;
@@ -151,12 +151,13 @@ auto NoiseRatio::ratio() const -> std::optional<Ratio> {
       return n * (variance + kSamples * hidden) / tile.limit;
     };
     of_errors.add(error(tile.guided, pairs.guided), error(tile.unguided, pairs.unguided));
-    of_shown.add(tile.unguided.shown / tile.limit, tile.guided.shown / tile.limit);
+    of_light.add(tile.unguided.shown / tile.limit, tile.guided.shown / tile.limit);
+    shown += tile.unguided.shown / tile.limit;
     missing += tile.unguided.missing / tile.limit;
   }
-  const std::optional<Ratio> errors = of_errors.value(), shown = of_shown.value();
-  const bool counts_light = missing > of_shown.over && shown && errors;
-  return counts_light && shown->mean < errors->mean ? shown : errors;
+  const std::optional<Ratio> errors = of_errors.value(), light = of_light.value();
+  if (!errors || !light || shown > missing) return errors;
+  return light->mean < errors->mean ? light : errors;
 }
 
 void NoiseRatio::end_iteration(bool is_guided) {

@@ -37,11 +37,11 @@ namespace pharos {
 /// The ratio is the mean of error over brightness of all pixels, guided over unguided. The
 /// brightness is known from earlier iterations, so the first iteration has no ratio.
 ///
-/// If an unguided image shows less than half of the light, its error is hardly less than the error
-/// of a black image, and guides that show some more of the light do not change it by much. The
-/// light that is shown grows with the number of samples there: guides that show twice as much need
-/// half of the samples. The ratio is then at most the light that an unguided image shows over the
-/// light that a guided one shows (means over all pixels, relative to their brightness).
+/// An image that shows little of the light has about the error of a black image, even if it shows
+/// several times as much as another one. But twice as many samples show twice as much light there.
+/// If unguided images show less than half of the light, the ratio is therefore at most the light
+/// that they show over the light that guided images show (means over all pixels, relative to their
+/// brightness).
 class NoiseRatio {
  public:
   explicit NoiseRatio(PixelRect window);
