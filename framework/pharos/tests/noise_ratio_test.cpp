@@ -107,6 +107,16 @@ TEST_CASE("noise ratio: what it may fall by") {
   CHECK(*ratio.possible_fall() == doctest::Approx(*ratio.fall() + (1 - r) / (1 + r)).epsilon(0.1));
 }
 
+TEST_CASE("noise ratio: images hide no light that is not too bright for them") {
+  NoiseRatio ratio(kPixel);
+  CHECK(ratio.hidden_light() == 0);
+  for (const std::uint64_t seed : {1u, 2u}) {
+    ratio.absorb(paths_to_rare_light(0.25, 0, 1000, seed));
+    ratio.end_iteration(true);
+  }
+  CHECK(ratio.hidden_light() == 0);
+}
+
 TEST_CASE("noise ratio: light that all paths find makes no noise") {
   for (const double common : {0.0, 3.0}) {
     NoiseRatio ratio(kPixel);
@@ -183,6 +193,7 @@ TEST_CASE("noise ratio: light that images do not show counts as missing") {
   REQUIRE(ratio.value());
   CHECK(*ratio.value() == doctest::Approx(guided / unguided).epsilon(0.03));
   CHECK(*ratio.value() > 5 * guided / (1 / kChance - 1));  // the quotient of the variances
+  CHECK(ratio.hidden_light() == doctest::Approx(1 - shown).epsilon(0.01));
 }
 
 TEST_CASE("noise ratio: where images show next to nothing, the light that they show decides") {

@@ -34,6 +34,7 @@ bool GuideTrial::end_iteration(const IterationCost& cost, bool is_guided) {
     guided_seconds_ = cost.seconds / cost.samples;
   }
   if (!has_measured_) return false;
+  ++measurements_;
   parts_before_ = std::move(parts);
   if (is_on_trial()) return false;
   if (!is_useless()) return settings_.tolerance > 0 && !may_pay();
@@ -103,9 +104,15 @@ double GuideTrial::possible_fall() const {
     return kDecline * std::max(gain_.rise(), noise_.fall().value_or(0));
   }
   constexpr double kFirst = 0.5;  // -0.1 to 2.7 were measured where guides suffice in the end
-  if (is_first) return kFirst;
+  if (is_first) return std::max(kFirst, promised_fall());
   const double rise = gain_.may_reach(settings_.least_gain) ? gain_.possible_rise() : 0;
-  return std::max(rise, noise_.possible_fall().value_or(0));
+  return std::max({rise, noise_.possible_fall().value_or(0), promised_fall()});
+}
+
+double GuideTrial::promised_fall() const {
+  constexpr double kMost = 0.999;  // of the light; unguided images may hide all of it
+  const double hidden = std::min(noise_.hidden_light(), kMost);
+  return -std::log1p(-hidden) * std::pow(kDecline, measurements_ - 1.0);
 }
 
 bool GuideTrial::may_pay() const {

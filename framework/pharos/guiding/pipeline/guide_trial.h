@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -48,7 +49,9 @@ struct IterationCost {
 /// Guides that do not suffice must promise more. Their gain counts only if it may rise to
 /// TrainingSettings::least_gain, and then it counts in full. If it may not, the noise is expected
 /// to fall by as much as in the last iteration and a standard error. After a single measurement, it
-/// is expected to fall by e^-0.5.
+/// is expected to fall by e^-0.5. If unguided images hide the share h of the light, guides may find
+/// it: after the first measurement the noise is expected to fall by 1 - h at least, and the
+/// logarithm of this promise halves with every measurement.
 ///
 /// The noise ratio was measured in the last iteration. The guides have learned since, so the
 /// logarithm of the ratio of an image that is made now is expected to be lower, by half as much as
@@ -82,7 +85,7 @@ class GuideTrial {
 
   void archive(Archive& archive) {
     archive(gain_, noise_, parts_before_, spent_before_, spent_, unguided_samples_,
-            unguided_seconds_, guided_seconds_, has_measured_);
+            unguided_seconds_, guided_seconds_, has_measured_, measurements_);
   }
 
  private:
@@ -98,6 +101,8 @@ class GuideTrial {
   bool may_be_useless() const;
   /// Returns by how much the logarithm of the noise may fall in the next iteration [nats].
   double possible_fall() const;
+  /// Returns by how much it may fall if guides find the light that unguided images hide [nats].
+  double promised_fall() const;
   /// Returns whether another iteration may be worth more than the time that it takes.
   bool may_pay() const;
   /// Returns the share of the budget that the next training iteration will probably take [1].
@@ -112,6 +117,7 @@ class GuideTrial {
   double guided_seconds_ =
       0;  ///< for each sample per pixel of the last guided iteration; 0: unknown
   bool has_measured_ = false;  ///< the last iteration has measured the gain
+  std::uint32_t measurements_ = 0;
 };
 
 }  // namespace pharos

@@ -220,7 +220,7 @@ std::size_t GuidingState::model_bytes() const {
 }
 
 void GuidingState::archive(Archive& archive) {
-  archive.heading("guiding", 10);
+  archive.heading("guiding", 11);
   for (Source& source : sources_) {
     if (source.state != nullptr) source.state->archive(archive);
   }

@@ -136,13 +136,22 @@ auto NoiseRatio::Quotient::value() const -> std::optional<Ratio> {
   return Ratio{mean, std::sqrt(scale * std::max(squares, 0.0)) / over};
 }
 
+auto NoiseRatio::unguided_light() const -> Light {
+  Light light;
+  for (const Tile& tile : tiles_) {
+    if (!tile.is_measured()) continue;
+    light.shown += tile.unguided.shown / tile.limit;
+    light.missing += tile.unguided.missing / tile.limit;
+  }
+  return light;
+}
+
 auto NoiseRatio::ratio() const -> std::optional<Ratio> {
   Quotient of_errors, of_light;
-  double shown = 0, missing = 0;  // in unguided images
   for (std::size_t i = 0; i < tiles_.size(); ++i) {
     const Tile& tile = tiles_[i];
+    if (!tile.is_measured()) continue;
     const double n = tile.new_paths;
-    if (!(n > 1) || !(tile.limit > 0)) continue;
     const Pairs pairs = pairs_in(i);
     // Squares of means are products of different paths, so they do not contain variances of means.
     const auto error = [&](const Sums& sums, double squares) {
@@ -152,16 +161,19 @@ auto NoiseRatio::ratio() const -> std::optional<Ratio> {
     };
     of_errors.add(error(tile.guided, pairs.guided), error(tile.unguided, pairs.unguided));
     of_light.add(tile.unguided.shown / tile.limit, tile.guided.shown / tile.limit);
-    shown += tile.unguided.shown / tile.limit;
-    missing += tile.unguided.missing / tile.limit;
   }
   const std::optional<Ratio> errors = of_errors.value(), light = of_light.value();
-  if (!errors || !light || shown > missing) return errors;
+  const Light of_unguided = unguided_light();
+  if (!errors || !light || of_unguided.shown > of_unguided.missing) return errors;
   return light->mean < errors->mean ? light : errors;
 }
 
 void NoiseRatio::end_iteration(bool is_guided) {
-  if (is_guided) before_ = std::exchange(value_, ratio());
+  if (is_guided) {
+    before_ = std::exchange(value_, ratio());
+    const Light light = unguided_light();
+    hidden_light_ = light.missing > 0 ? light.missing / (light.shown + light.missing) : 0;
+  }
   double brightness = 0, paths = 0;
   for (Tile& tile : tiles_) {
     tile.brightness += tile.new_brightness;
@@ -193,8 +205,10 @@ std::optional<double> NoiseRatio::possible_fall() const {
 
 void NoiseRatio::archive(Archive& archive) {
   const std::size_t tiles = tiles_.size(), pixels = pixels_.size();
-  archive(tiles_, pixels_);
-  archive.expect(tiles_.size() == tiles && pixels_.size() == pixels, "the measure of guiding");
+  archive(tiles_, pixels_, hidden_light_);
+  archive.expect(tiles_.size() == tiles && pixels_.size() == pixels && hidden_light_ >= 0 &&
+                     hidden_light_ <= 1,
+                 "the measure of guiding");
   for (std::optional<Ratio>* ratio : {&before_, &value_}) {
     bool is_known = ratio->has_value();
     Ratio value = ratio->value_or(Ratio{});

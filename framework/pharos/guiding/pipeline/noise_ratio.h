@@ -60,6 +60,9 @@ class NoiseRatio {
   /// where guides help more in some tiles than in others. It is 0 if value() is none or 0, or if
   /// there is a single tile.
   double relative_error() const { return value_ ? value_->relative_error : 0; }
+  /// Returns the share of the light that unguided images do not show, as paths of the last guided
+  /// iteration found it, in [0, 1]; 0 before.
+  double hidden_light() const { return hidden_light_; }
   /// Returns by how much the logarithm of the ratio has fallen from the guided iteration before to
   /// the last one [nats]; none if one of them is unknown. It is infinite if the last one is 0.
   std::optional<double> fall() const;
@@ -106,6 +109,7 @@ class NoiseRatio {
     double brightness = 0, paths = 0;          ///< sums over all iterations
     double new_brightness = 0, new_paths = 0;  ///< sums over the current iteration
     Sums guided, unguided;
+    bool is_measured() const { return new_paths > 1 && limit > 0; }
     void archive(Archive& archive) {
       archive(limit, brightness, paths, new_brightness, new_paths, guided, unguided);
     }
@@ -139,6 +143,12 @@ class NoiseRatio {
   Pairs pairs_in(std::size_t tile) const;
   void find(const PathView& path);
   void add(const PathView& path);
+  /// What unguided images show of the light that the current iteration found, and what they do not:
+  /// sums over the tiles, relative to their brightness.
+  struct Light {
+    double shown = 0, missing = 0;
+  };
+  Light unguided_light() const;
   /// Returns the ratio of the current iteration.
   std::optional<Ratio> ratio() const;
 
@@ -147,7 +157,8 @@ class NoiseRatio {
   std::vector<Tile> tiles_;              ///< in rows
   std::vector<Pixel> pixels_;            ///< in rows
   std::optional<Ratio> before_, value_;  ///< of the iteration before the last and of the last
-  std::vector<Step> steps_;              ///< of one path; a member, so that it keeps its memory
+  double hidden_light_ = 0;
+  std::vector<Step> steps_;  ///< of one path; a member, so that it keeps its memory
 };
 
 }  // namespace pharos
