@@ -204,7 +204,8 @@ TEST_CASE("noise ratio: where images show next to nothing, the light that they s
     ratio.end_iteration(true);
   }
   REQUIRE(ratio.value());
-  // Guided images show a quarter of the light, so their error is 0.8 times that of black ones.
+  // The quotient of the errors would be 0.8, because even guided images show only a quarter of the
+  // light.
   CHECK(*ratio.value() == about(2 * kChance / (kChance + kGuide)));
 }
 

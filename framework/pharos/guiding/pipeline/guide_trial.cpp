@@ -98,7 +98,7 @@ double GuideTrial::next_share() const {
 }
 
 double GuideTrial::possible_fall() const {
-  const bool is_first = !gain_.was_measured_twice();
+  const bool is_first = measurements_ < 2;
   if (!is_useless()) {
     if (is_first) return std::numeric_limits<double>::infinity();
     return kDecline * std::max(gain_.rise(), noise_.fall().value_or(0));

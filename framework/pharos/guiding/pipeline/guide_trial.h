@@ -116,8 +116,8 @@ class GuideTrial {
   double unguided_samples_ = 0, unguided_seconds_ = 0;  ///< of iterations without guides
   double guided_seconds_ =
       0;  ///< for each sample per pixel of the last guided iteration; 0: unknown
-  bool has_measured_ = false;  ///< the last iteration has measured the gain
-  std::uint32_t measurements_ = 0;
+  bool has_measured_ = false;       ///< the last iteration has measured the gain
+  std::uint32_t measurements_ = 0;  ///< of the gain, in all iterations so far
 };
 
 }  // namespace pharos

@@ -42,7 +42,6 @@ class HeldOutGain {
   /// Returns by how much the gain may rise in the next iteration [nats]: by as much as before, and
   /// another standard error. Infinite as long as there are no two measurements.
   double possible_rise() const;
-  bool was_measured_twice() const { return has_before_; }
   /// Returns whether the gain was measured.
   bool is_known() const { return has_last_; }
   /// Returns the gain; 0 as long as nothing was measured.

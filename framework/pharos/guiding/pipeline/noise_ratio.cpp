@@ -146,7 +146,7 @@ auto NoiseRatio::unguided_light() const -> Light {
   return light;
 }
 
-auto NoiseRatio::ratio() const -> std::optional<Ratio> {
+auto NoiseRatio::ratio(const Light& unguided) const -> std::optional<Ratio> {
   Quotient of_errors, of_light;
   for (std::size_t i = 0; i < tiles_.size(); ++i) {
     const Tile& tile = tiles_[i];
@@ -163,15 +163,14 @@ auto NoiseRatio::ratio() const -> std::optional<Ratio> {
     of_light.add(tile.unguided.shown / tile.limit, tile.guided.shown / tile.limit);
   }
   const std::optional<Ratio> errors = of_errors.value(), light = of_light.value();
-  const Light of_unguided = unguided_light();
-  if (!errors || !light || of_unguided.shown > of_unguided.missing) return errors;
+  if (!errors || !light || unguided.shown > unguided.missing) return errors;
   return light->mean < errors->mean ? light : errors;
 }
 
 void NoiseRatio::end_iteration(bool is_guided) {
   if (is_guided) {
-    before_ = std::exchange(value_, ratio());
     const Light light = unguided_light();
+    before_ = std::exchange(value_, ratio(light));
     hidden_light_ = light.missing > 0 ? light.missing / (light.shown + light.missing) : 0;
   }
   double brightness = 0, paths = 0;

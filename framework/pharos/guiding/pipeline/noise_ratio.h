@@ -143,14 +143,14 @@ class NoiseRatio {
   Pairs pairs_in(std::size_t tile) const;
   void find(const PathView& path);
   void add(const PathView& path);
-  /// What unguided images show of the light that the current iteration found, and what they do not:
-  /// sums over the tiles, relative to their brightness.
+  /// The light of the current iteration in unguided images. Each tile counts relative to its
+  /// brightness.
   struct Light {
     double shown = 0, missing = 0;
   };
   Light unguided_light() const;
-  /// Returns the ratio of the current iteration.
-  std::optional<Ratio> ratio() const;
+  /// Returns the ratio of the current iteration. `unguided` is its unguided_light().
+  std::optional<Ratio> ratio(const Light& unguided) const;
 
   PixelRect window_;
   int tiles_per_row_;
