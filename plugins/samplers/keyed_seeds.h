@@ -45,6 +45,15 @@ constexpr Seeds seeds_of(std::uint64_t state, Dimension dimension) {
           static_cast<std::uint32_t>(second >> 32), static_cast<std::uint32_t>(second)};
 }
 
+/// Returns seeds of a number that has the order of another dimension, with scrambles of its own.
+constexpr Seeds seeds_of(std::uint64_t state, Dimension ordered_as, std::uint32_t number) {
+  const Seeds seeds = seeds_of(state, ordered_as);
+  const std::uint64_t own = mix_sum(((std::uint64_t{seeds.order} << 32) | seeds.x) +
+                                    (number + 1) * 0xa0761d6478bd642full);
+  return {seeds.order, static_cast<std::uint32_t>(own), static_cast<std::uint32_t>(own >> 32),
+          seeds.more};
+}
+
 /// The place of a sample in sets of a fixed size, packed into the state of a stream. The upper 48
 /// bits hold a hash of the pixel and of the number of the set, the lower 16 bits the number within
 /// the set.

@@ -6,7 +6,8 @@
 
 #include <pharos/core/random.h>
 
-/// The first two Sobol' dimensions, a (0,2)-sequence in base 2, with hashed Owen scrambling.
+/// The first four Sobol' dimensions, with hashed Owen scrambling. The first two are a
+/// (0,2)-sequence in base 2.
 /// Numbers are 32-bit fractions. `reversed` marks bit-reversed fractions, whose lowest bit is the
 /// first digit. Scrambling and generating are cheap in this form.
 namespace pharos::owen {
@@ -68,30 +69,55 @@ inline Vec2 scrambled_point(std::uint64_t reversed, std::uint64_t seeds) {
           static_cast<float>(static_cast<std::int32_t>(steps[1])) * 0x1p-24f};
 }
 
-/// The contribution of each four bits of a reversed index to its Sobol' point. The sum of the
-/// contributions modulo 2 is the point, y above x, both reversed.
-inline constexpr auto kSobolParts = [] {
-  std::array<std::array<std::uint64_t, 16>, 8> parts{};
+/// Returns the reversed values of the third and fourth Sobol' dimension, the fourth in the upper
+/// half. Their direction numbers follow from the primitive polynomials x^2 + x + 1 and x^3 + x + 1
+/// with the first numbers 1, 3 and 1, 3, 1 of Joe and Kuo (2008, "Constructing Sobol' Sequences
+/// with Better Two-Dimensional Projections").
+constexpr std::uint64_t sobol_zw_reversed(std::uint32_t index) {
+  std::array<std::uint32_t, 32> z{1, 3}, w{1, 3, 1};  // direction numbers as odd integers m_k
+  std::uint64_t sum = 0;
+  for (std::uint32_t k = 0; k < 32; ++k) {
+    if (k >= 2) z[k] = (z[k - 1] << 1) ^ (z[k - 2] << 2) ^ z[k - 2];
+    if (k >= 3) w[k] = (w[k - 2] << 2) ^ (w[k - 3] << 3) ^ w[k - 3];
+    if ((index >> k & 1) == 0) continue;
+    const auto reversed = [k](std::uint32_t m) { return reverse_bits(m << (31 - k)); };
+    sum ^= (std::uint64_t{reversed(w[k])} << 32) | reversed(z[k]);
+  }
+  return sum;
+}
+
+/// The contribution of each four bits of a reversed index to a pair of Sobol' numbers.
+using SobolParts = std::array<std::array<std::uint64_t, 16>, 8>;
+
+/// Returns the contributions to what `pair` returns for an index. It must be linear modulo 2.
+template <class Pair>
+constexpr SobolParts sobol_parts(Pair&& pair) {
+  SobolParts parts{};
   for (std::uint32_t k = 0; k < 8; ++k) {
     for (std::uint32_t bits = 0; bits < 16; ++bits) {
-      const std::uint32_t index = reverse_bits(bits << (4 * k));
-      parts[k][bits] = (std::uint64_t{sobol_y_reversed(index)} << 32) | index;
+      parts[k][bits] = pair(reverse_bits(bits << (4 * k)));
     }
   }
   return parts;
-}();
+}
+
+/// Of the first two dimensions, y above x, and of the next two, w above z.
+inline constexpr SobolParts kSobolParts = sobol_parts(
+    [](std::uint32_t index) { return (std::uint64_t{sobol_y_reversed(index)} << 32) | index; });
+inline constexpr SobolParts kLaterSobolParts = sobol_parts(sobol_zw_reversed);
 
 /// Returns the scrambled Sobol' number of an index.
 constexpr float sobol_number(std::uint32_t reversed_index, std::uint32_t seed) {
   return scrambled_number(reverse_bits(reversed_index), seed);
 }
 
-/// Returns the Sobol' point of an index, y above x, both reversed. It uses a table, because eight
-/// independent loads take less time than the dependent steps of reverse_bits() and
-/// sobol_y_reversed().
-constexpr std::uint64_t sobol_reversed(std::uint32_t reversed_index) {
+/// Returns the pair of Sobol' numbers of an index, both reversed: by default y above x. It uses a
+/// table, because eight independent loads take less time than the dependent steps of
+/// reverse_bits() and sobol_y_reversed().
+constexpr std::uint64_t sobol_reversed(std::uint32_t reversed_index,
+                                       const SobolParts& parts = kSobolParts) {
   std::uint64_t sum = 0;
-  for (std::uint32_t k = 0; k < 8; ++k) sum ^= kSobolParts[k][(reversed_index >> (4 * k)) & 15];
+  for (std::uint32_t k = 0; k < 8; ++k) sum ^= parts[k][(reversed_index >> (4 * k)) & 15];
   return sum;
 }
 

@@ -156,8 +156,12 @@ TEST_CASE("checkpoints: the samples of a finished image are part of the longer o
   REQUIRE(first.states.size() == 1);
   const Image more = RenderJob(config_from(config(64)).config).run({}, first.states[0]).image;
   const Image whole = render(config(64)).image;
-  for (std::size_t i = 0; i < whole.values().size(); ++i) {
-    CHECK(more.values()[i] == doctest::Approx(whole.values()[i]).epsilon(1e-4));
+  // The layer `variance` depends on how samples are divided into passes.
+  for (int y = 0; y < whole.height(); ++y) {
+    for (int x = 0; x < whole.width(); ++x) {
+      const Rgb a = more.rgb(x, y), b = whole.rgb(x, y);
+      for (int c = 0; c < 3; ++c) CHECK(a[c] == doctest::Approx(b[c]).epsilon(1e-4));
+    }
   }
 }
 

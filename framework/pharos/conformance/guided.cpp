@@ -22,8 +22,9 @@ GuidingFrame frame_of(const Guider& guider, const std::shared_ptr<const GuidingM
 }
 
 std::optional<Proposal> Guided::propose(std::uint64_t path) const {
-  const SampleStream stream(numbers_, {.seed = 77, .index = path});
-  return guidance_.propose(VertexStream(stream, vertex_.query().bounce));
+  const SampleStream numbers(numbers_, {.seed = 77, .index = path});
+  const VertexStream stream(numbers, vertex_.query().bounce);
+  return guidance_.propose(stream, stream.get_1d(Purpose::guide_choice));
 }
 
 std::optional<ResolvedVertex> Guided::draw(RandomStream& random) const {

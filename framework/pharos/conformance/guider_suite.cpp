@@ -161,8 +161,9 @@ bool check_camera(const GuidingFrame& frame, const Scene& scene, std::uint64_t s
         .event = Event::smooth_reflect};
   };
   const auto draw = [&](RandomStream& random) -> std::optional<Vec3> {
-    const SampleStream stream(numbers, {.seed = 78, .index = random()});
-    const auto proposal = guide.propose(VertexStream(stream, 0));
+    const SampleStream path(numbers, {.seed = 78, .index = random()});
+    const VertexStream stream(path, 0);
+    const auto proposal = guide.propose(stream, stream.get_1d(Purpose::guide_choice));
     const auto first = proposal ? seen(proposal->direction) : std::nullopt;
     if (!first || !proposal->accepts(first->kind, first->position)) return std::nullopt;
     return first->direction;

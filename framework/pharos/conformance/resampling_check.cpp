@@ -83,7 +83,8 @@ void check_mean(const StageVertex& vertex, const Guidance& guidance, std::uint64
     Vec3 direction = warp::sphere_from_square(random.next_2d());
     if (i % 2 == 0) {
       const SampleStream path(numbers, {.seed = seed, .iteration = 2, .index = i});
-      const auto proposal = guidance.propose(VertexStream(path, vertex.query().bounce));
+      const VertexStream stream(path, vertex.query().bounce);
+      const auto proposal = guidance.propose(stream, stream.get_1d(Purpose::guide_choice));
       if (!proposal) continue;
       direction = proposal->direction;
     }

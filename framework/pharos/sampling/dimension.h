@@ -12,8 +12,8 @@ enum class Purpose : std::uint8_t {
   light_position,   ///< 2D: position on the light, or direction of the environment
   bsdf_choice,      ///< 1D: choice of a lobe or event
   bsdf_direction,   ///< 2D: direction sampled from the BSDF or phase function
-  mix_choice,       ///< 1D: choice between guided and unguided sampling
-  guide_choice,     ///< 1D: choice of a guide, component or branch
+  mix_choice,       ///< 1D: choice between unguided sampling and the guides, and among the guides
+  guide_choice,     ///< 1D: choice of a component or branch within a guide
   guide_direction,  ///< 2D: direction within a guide
   guide_distance,   ///< 1D: distance within a guide
   distance_choice,  ///< 1D: choice of a channel of a medium

@@ -57,7 +57,9 @@ class VertexStream {
   VertexStream(const SampleStream& stream, std::uint16_t bounce)
       : stream_(&stream), bounce_(bounce) {}
 
+  /// Returns the number of the path's stream. After after_choice(), guide_choice is another one.
   float get_1d(Purpose purpose, std::uint16_t branch = 0) const {
+    if (purpose == Purpose::guide_choice && branch == 0 && rest_ >= 0) return rest_;
     return stream_->get_1d({purpose, bounce_, shifted(branch)});
   }
   Vec2 get_2d(Purpose purpose, std::uint16_t branch = 0) const {
@@ -71,6 +73,14 @@ class VertexStream {
     return stream;
   }
   static constexpr std::uint32_t kMostCandidates = 16;
+  /// Returns a stream whose number guide_choice, branch 0, is `rest` in [0, 1): what is left of the
+  /// number that has chosen the guide. A sampler that stratifies this choice then also stratifies
+  /// the choices of the guide.
+  VertexStream after_choice(float rest) const {
+    VertexStream stream = *this;
+    stream.rest_ = rest;
+    return stream;
+  }
 
  private:
   /// Branches count modulo 2^16.
@@ -81,6 +91,7 @@ class VertexStream {
   const SampleStream* stream_;
   std::uint16_t bounce_;
   std::uint16_t first_branch_ = 0;
+  float rest_ = -1;  ///< negative: none
 };
 
 /// An estimate of radiance at a film position. Its expected value is the expected value of the

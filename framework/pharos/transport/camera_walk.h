@@ -201,8 +201,9 @@ class CameraWalk {
   bool guide_first_step(InFlight& flight, const LensPoint& lens, Vec2 size,
                         const Guidance& guidance, ScatterStep& step) const {
     const VertexStream stream = flight.path.numbers();
-    if (guidance.is_guided() && stream.get_1d(Purpose::mix_choice) >= guidance.unguided_share) {
-      const std::optional<Proposal> proposal = guidance.propose(stream);
+    const float u = guidance.is_guided() ? stream.get_1d(Purpose::mix_choice) : 0;
+    if (guidance.guides(u)) {
+      const std::optional<Proposal> proposal = guidance.propose(stream, guidance.rest_of(u));
       if (!proposal) return false;
       step.direction = proposal->direction;
       step.reach = proposal->reach;

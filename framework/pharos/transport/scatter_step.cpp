@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <pharos/transport/scatter_step.h>
 
 namespace pharos {
@@ -42,8 +44,8 @@ float candidate_weight(const Guidance& guidance, const ScatterStep& step) {
 }  // namespace
 
 bool sample_guided_step(const LocalScattering& scattering, const Guidance& guidance,
-                        const VertexStream& stream, ScatterStep& step) {
-  const std::optional<Proposal> proposal = guidance.propose(stream);
+                        const VertexStream& stream, float u, ScatterStep& step) {
+  const std::optional<Proposal> proposal = guidance.propose(stream, guidance.rest_of(u));
   return proposal && accept(scattering, *proposal, step);
 }
 
@@ -56,10 +58,11 @@ bool sample_resampled_step(const LocalScattering& scattering, const Guidance& gu
   float total = 0, chosen = 0;
   ScatterStep candidate;
   for (std::uint32_t i = 0; i < guidance.candidates; ++i) {
-    const bool unguided = (static_cast<float>(i) + offset) / count < guidance.unguided_share;
+    // The sum may round up to one.
+    const float u = std::min((static_cast<float>(i) + offset) / count, kOneMinusEpsilon);
     const VertexStream numbers = stream.candidate(i);
-    if (!(unguided ? sample_unguided_step(scattering, numbers, candidate)
-                   : sample_guided_step(scattering, guidance, numbers, candidate))) {
+    if (!(guidance.guides(u) ? sample_guided_step(scattering, guidance, numbers, u, candidate)
+                             : sample_unguided_step(scattering, numbers, candidate))) {
       continue;
     }
     const float weight = candidate_weight(guidance, candidate);

@@ -57,9 +57,10 @@ inline bool sample_unguided_step(const LocalScattering& scattering, const Vertex
   return true;
 }
 
-/// Fills in a step that the guides propose. Returns false for a valid sample of value zero.
+/// Fills in a step that the guides propose. `u` is the number that has decided for the guides.
+/// Returns false for a valid sample of value zero.
 bool sample_guided_step(const LocalScattering& scattering, const Guidance& guidance,
-                        const VertexStream& stream, ScatterStep& step);
+                        const VertexStream& stream, float u, ScatterStep& step);
 
 /// Fills in a step that is resampled among `guidance.candidates` candidates (Talbot et al. 2005).
 /// The candidates x_i are drawn from the mixture of unguided sampling and the guides, of density p,
@@ -77,10 +78,9 @@ bool sample_resampled_step(const LocalScattering& scattering, const Guidance& gu
 inline bool sample_step(const LocalScattering& scattering, const Guidance& guidance,
                         const VertexStream& stream, ScatterStep& step) {
   if (guidance.candidates > 1) return sample_resampled_step(scattering, guidance, stream, step);
-  const bool unguided =
-      !guidance.is_guided() || stream.get_1d(Purpose::mix_choice) < guidance.unguided_share;
-  return unguided ? sample_unguided_step(scattering, stream, step)
-                  : sample_guided_step(scattering, guidance, stream, step);
+  const float u = guidance.is_guided() ? stream.get_1d(Purpose::mix_choice) : 0;
+  return guidance.guides(u) ? sample_guided_step(scattering, guidance, stream, u, step)
+                            : sample_unguided_step(scattering, stream, step);
 }
 
 /// Fills in the density of reaching `vertex` by any technique, in the measure of its event and

@@ -37,6 +37,30 @@ void add_both_tails(const std::vector<double>& counts, double each, std::vector<
   p_values.push_back(std::min(1.0, 2 * std::min(p, 1 - p)));
 }
 
+/// Tests of seeds use 2^14 states. The number of agreements of two bits is then binomial with a
+/// standard deviation of 64.
+constexpr std::uint32_t kSeedDraws = 1u << 14;
+constexpr int kSeedLimit = 6 * 64;
+
+template <std::size_t N>
+std::uint64_t bit(const std::array<std::uint64_t, N>& words, std::size_t place) {
+  return (words[place / 64] >> (place % 64)) & 1;
+}
+
+/// Returns how far the number of agreements of any two bits is from half of the draws.
+template <std::size_t N>
+int furthest_from_half(const std::vector<std::array<std::uint64_t, N>>& all) {
+  int furthest = 0;
+  for (std::size_t a = 0; a < 64 * N; ++a) {
+    for (std::size_t b = 0; b < a; ++b) {
+      int agree = 0;
+      for (const auto& words : all) agree += bit(words, a) == bit(words, b) ? 1 : 0;
+      furthest = std::max(furthest, std::abs(agree - static_cast<int>(kSeedDraws / 2)));
+    }
+  }
+  return furthest;
+}
+
 }  // namespace
 
 TEST_CASE("permutations: all are bijections") {
@@ -155,29 +179,29 @@ TEST_CASE("permutations: the seed of the plan draws them") {
   CHECK_FALSE(points(MultiJitteredSampler(), 1) == points(MultiJitteredSampler(), 2));
 }
 
+TEST_CASE("seeds: numbers with the order of another dimension have unrelated scrambles") {
+  constexpr Dimension kOrder{Purpose::bsdf_direction, 2};
+  std::vector<std::array<std::uint64_t, 3>> all;
+  RandomStream random(2);
+  for (std::uint32_t i = 0; i < kSeedDraws; ++i) {
+    const std::uint64_t state = random();
+    const Seeds first = seeds_of(state, kOrder), second = seeds_of(state, kOrder, 6),
+                third = seeds_of(state, kOrder, 8);
+    CHECK(second.order == first.order);
+    const auto scrambles = [](const Seeds& s) { return (std::uint64_t{s.x} << 32) | s.y; };
+    all.push_back({scrambles(first), scrambles(second), scrambles(third)});
+  }
+  CHECK(furthest_from_half(all) < kSeedLimit);
+}
+
 TEST_CASE("seeds: no two bits of the four words are related, nor are four") {
-  // Uses 2^14 states. The number of agreements of two bits is binomial with a standard deviation of
-  // 64.
-  constexpr std::uint32_t kDraws = 1u << 14;
-  constexpr int kLimit = 6 * 64;
   std::vector<std::array<std::uint64_t, 2>> all;
   RandomStream random(1);
-  for (std::uint32_t i = 0; i < kDraws; ++i) {
+  for (std::uint32_t i = 0; i < kSeedDraws; ++i) {
     const Seeds s = seeds_of(random(), {Purpose::light_position, 2});
     all.push_back({(std::uint64_t{s.order} << 32) | s.x, (std::uint64_t{s.y} << 32) | s.more});
   }
-  const auto bit = [](const std::array<std::uint64_t, 2>& words, std::size_t place) {
-    return (words[place / 64] >> (place % 64)) & 1;
-  };
-  int furthest = 0;
-  for (std::size_t a = 0; a < 128; ++a) {
-    for (std::size_t b = 0; b < a; ++b) {
-      int agree = 0;
-      for (const auto& words : all) agree += bit(words, a) == bit(words, b) ? 1 : 0;
-      furthest = std::max(furthest, std::abs(agree - static_cast<int>(kDraws / 2)));
-    }
-  }
-  CHECK(furthest < kLimit);
+  CHECK(furthest_from_half(all) < kSeedLimit);
   // The sums of the bits of the four words at the same place.
   for (std::size_t place = 0; place < 32; ++place) {
     int odd = 0;
@@ -185,7 +209,7 @@ TEST_CASE("seeds: no two bits of the four words are related, nor are four") {
       odd += static_cast<int>(bit(w, place) ^ bit(w, place + 32) ^ bit(w, place + 64) ^
                               bit(w, place + 96));
     }
-    CHECK(std::abs(odd - static_cast<int>(kDraws / 2)) < kLimit);
+    CHECK(std::abs(odd - static_cast<int>(kSeedDraws / 2)) < kSeedLimit);
   }
 }
 

@@ -8,10 +8,6 @@ namespace {
 
 constexpr std::size_t kMostMethods = GuidingSettings::kMostMethods;
 
-/// The branch of the dimension guide_choice that chooses a method. Guides number their own branches
-/// from 0.
-constexpr std::uint16_t kMethodBranch = 0xffff;
-
 /// Scales the shares of the parts so that they sum to 1.
 void normalize(std::span<GuidePart> parts) {
   float total = 0;
@@ -40,12 +36,10 @@ float GuidePart::density(const ResolvedVertex& vertex) const {
   return steers_distance ? value : value * vertex.medium_density;
 }
 
-std::optional<Proposal> Guidance::propose(const VertexStream& stream) const {
-  if (parts.size() == 1) return parts[0].propose(stream);
-  float u = stream.get_1d(Purpose::guide_choice, kMethodBranch);
+std::optional<Proposal> Guidance::propose(const VertexStream& stream, float u) const {
   std::size_t i = 0;
   while (i + 1 < parts.size() && u >= parts[i].share) u -= parts[i++].share;
-  return parts[i].propose(stream);
+  return parts[i].propose(stream.after_choice(std::min(u / parts[i].share, kOneMinusEpsilon)));
 }
 
 float Guidance::density(const ResolvedVertex& vertex, PartDensities& of_parts) const {
