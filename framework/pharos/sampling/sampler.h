@@ -73,9 +73,9 @@ class VertexStream {
     return stream;
   }
   static constexpr std::uint32_t kMostCandidates = 16;
-  /// Returns a stream whose number guide_choice, branch 0, is `rest` in [0, 1): what is left of the
-  /// number that has chosen the guide. A sampler that stratifies this choice then also stratifies
-  /// the choices of the guide.
+  /// Returns a stream whose number guide_choice, branch 0, is `rest` in [0, 1): the number
+  /// that has chosen the guide, scaled so that it is uniform again. A sampler that stratifies this
+  /// choice then also stratifies the choices of the guide.
   VertexStream after_choice(float rest) const {
     VertexStream stream = *this;
     stream.rest_ = rest;

@@ -33,7 +33,7 @@ class TellsChoices final : public GuidingDistribution {
   float number_;
 };
 
-TEST_CASE("guidance: what is left of the choice between techniques chooses the method") {
+TEST_CASE("guidance: one number chooses between techniques, among methods and within a guide") {
   const SameNumbers numbers;
   const SampleStream path(numbers, {});
   const VertexStream stream(path, 1);
@@ -97,7 +97,7 @@ TEST_CASE("guidance: the largest number leaves a number below one") {
   CHECK(proposal->direction.x < 1);
 }
 
-TEST_CASE("streams: what is left of a choice replaces guide_choice alone") {
+TEST_CASE("streams: the number of an earlier choice replaces guide_choice alone") {
   const SameNumbers numbers;
   const SampleStream path(numbers, {});
   const VertexStream stream = VertexStream(path, 1).candidate(3).after_choice(0.75f);

@@ -49,10 +49,10 @@ struct Guidance {
   bool is_guided() const { return !parts.empty(); }
   /// Returns whether the number `u` of Purpose::mix_choice decides for the guides.
   bool guides(float u) const { return is_guided() && u >= unguided_share; }
-  /// Returns what is left of a number that has decided for the guides, in [0, 1]. It is uniform.
+  /// Scales a number that has decided for the guides to [0, 1], so that it is uniform again.
   float rest_of(float u) const { return (u - unguided_share) / (1 - unguided_share); }
-  /// Draws a proposal from the mixture of the guides. `u` in [0, 1] chooses the method, and what is
-  /// left of it is the method's number guide_choice.
+  /// Draws a proposal from the mixture of the guides. `u` in [0, 1] chooses the method. Scaled to
+  /// [0, 1) again, it is the method's number guide_choice.
   std::optional<Proposal> propose(const VertexStream& stream, float u) const;
   /// Returns the density of the mixture of the guides, including the medium's factor; 0 if there
   /// are no guides. Fills in the densities of the parts.
