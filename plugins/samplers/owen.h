@@ -101,7 +101,7 @@ constexpr SobolParts sobol_parts(Pair&& pair) {
   return parts;
 }
 
-/// Of the first two dimensions, y above x, and of the next two, w above z.
+/// The contributions to the first two dimensions (y above x) and to the next two (w above z).
 inline constexpr SobolParts kSobolParts = sobol_parts(
     [](std::uint32_t index) { return (std::uint64_t{sobol_y_reversed(index)} << 32) | index; });
 inline constexpr SobolParts kLaterSobolParts = sobol_parts(sobol_zw_reversed);

@@ -22,9 +22,9 @@ struct Source {
   std::uint32_t coordinate;  ///< of the sequence, from 0 on
 };
 
-/// A number that chooses a technique belongs to the sequence of the technique's points. The points
-/// of each technique are then even themselves; an independent choice would thin them at random. A
-/// step draws either from the BSDF or from a guide, so both have the same order.
+/// A number that chooses a technique is a dimension of the sequence that gives the technique its
+/// points. The points that each technique gets are then evenly spread. An independent choice would
+/// take points out at random. The BSDF and the guides share one order, because a step uses either.
 constexpr Source source_of(Dimension d) {
   const auto of = [&](Purpose points, std::uint32_t coordinate) {
     return Source{{points, d.bounce(), d.branch()}, coordinate};
