@@ -16,6 +16,10 @@ class FoldedDistribution final : public GuidingDistribution {
       : inner_(inner), normal_(normal), fault_(fault) {}
 
   std::optional<Proposal> propose(const VertexStream& stream) const override {
+    if (fault_ == GuideFault::directions_of_both &&
+        stream.get_2d(Purpose::bsdf_direction).x < 0.5f) {
+      return std::nullopt;
+    }
     std::optional<Proposal> proposal = inner_.propose(stream);
     const bool below = proposal && dot(proposal->direction, normal_) < 0;
     if (below && fault_ != GuideFault::proposal_not_folded) {
@@ -33,6 +37,7 @@ class FoldedDistribution final : public GuidingDistribution {
       density += inner_.density(other);
     }
     if (fault_ == GuideFault::scaled) density *= 1.03f;
+    if (fault_ == GuideFault::directions_of_both) density *= 0.5f;
     return density;
   }
 

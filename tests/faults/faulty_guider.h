@@ -10,6 +10,7 @@ enum class GuideFault {
   scaled,                   ///< the density is 3 % too large
   mirrored_branch_missing,  ///< the density omits directions that were folded
   proposal_not_folded,      ///< proposals stay below the surface, but the density folds them
+  directions_of_both,       ///< half of the proposals are dropped by a number of bsdf_direction
 };
 
 struct FoldingSettings {
@@ -45,6 +46,7 @@ struct EnumNames<testing::GuideFault> {
       {{"none", testing::GuideFault::none},
        {"scaled", testing::GuideFault::scaled},
        {"mirrored_branch_missing", testing::GuideFault::mirrored_branch_missing},
-       {"proposal_not_folded", testing::GuideFault::proposal_not_folded}});
+       {"proposal_not_folded", testing::GuideFault::proposal_not_folded},
+       {"directions_of_both", testing::GuideFault::directions_of_both}});
 };
 }  // namespace pharos

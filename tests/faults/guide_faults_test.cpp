@@ -59,5 +59,9 @@ TEST_CASE("fault: the flip to the hemisphere is missing") {
   CHECK(red_checks("proposal_not_folded").contains("integral"));
   CHECK(furnace_turns_red("proposal_not_folded"));
 }
+TEST_CASE("fault: a guide uses the numbers of two techniques at once") {
+  // The density is right, so only samplers that relate these numbers show an error.
+  CHECK(red_checks("directions_of_both") == Names{"numbers"});
+}
 
 }  // namespace pharos::testing

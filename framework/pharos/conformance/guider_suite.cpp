@@ -7,6 +7,7 @@
 
 #include <pharos/conformance/fit.h>
 #include <pharos/conformance/guided.h>
+#include <pharos/conformance/numbers_check.h>
 #include <pharos/conformance/resampling_check.h>
 #include <pharos/conformance/suites.h>
 #include <pharos/core/warp.h>
@@ -285,17 +286,18 @@ void check_guider(const Registry& registry, const Subject& guider, const Subject
   Check& furnace = suite.check("furnace");
   Check& places = suite.check("places");
   Check& resampling = suite.check("resampling");
+  Check& numbers = suite.check("numbers");
   std::string why_not;
   const std::vector<Ref<Integrator>> integrators = integrators_for(pair, why_not);
   if (integrators.empty()) {
     why_not = "no integrator can follow: " + why_not;
     for (Check* c : {&answers, &chi_square, &integral, &determinism, &save_load, &furnace, &places,
-                     &resampling}) {
+                     &resampling, &numbers}) {
       c->not_applicable(why_not);
     }
     return;
   }
-  for (Check* c : {&chi_square, &integral, &determinism, &save_load}) {
+  for (Check* c : {&chi_square, &integral, &determinism, &save_load, &numbers}) {
     c->not_applicable("the guide knows nothing at any vertex");
   }
   places.not_applicable("there is no model");
@@ -322,8 +324,10 @@ void check_guider(const Registry& registry, const Subject& guider, const Subject
     const GuidingFrame frame = frame_of(pair.the_guider(), model);
     answered +=
         check_densities(frame, scene, suite.seed(), Transport::radiance, chi_square, integral);
+    check_numbers(frame, scene, suite.seed(), Transport::radiance, numbers);
     if (guides_light_paths) {
       check_densities(frame, scene, suite.seed(), Transport::importance, chi_square, integral);
+      check_numbers(frame, scene, suite.seed(), Transport::importance, numbers);
     }
     if (!foggy) answered += check_camera(frame, scene, suite.seed(), chi_square, integral) ? 1 : 0;
     expect_alike(frame, frame_of(pair.the_guider(), model), scene, suite.seed(),
