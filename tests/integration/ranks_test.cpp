@@ -76,6 +76,11 @@ integrator:
       config_in("cornell-box", "integrator: { type: bidirectional, guiding: triplets-flt }\n"));
 }
 
+TEST_CASE("ranks: pixels with different numbers of samples, and paths from both ends") {
+  check_same_on_ranks(
+      config_in("cornell-box", "integrator: { type: bidirectional, guiding: robust }\n", 64));
+}
+
 TEST_CASE("ranks: a sampler that probes the integrand") {
   check_same_on_ranks(config_in("cornell-box", "sampler: aligned\n"));
 }
@@ -189,7 +194,7 @@ TEST_CASE("ranks: guides that cannot be saved end the render") {
     }
     RankLeader leader(ranks, "", [] { return true; });
     const auto fail = []() -> std::string { throw RunError("no memory"); };
-    CHECK_THROWS_AS(leader.begin_iteration(true, true, fail), RunError);
+    CHECK_THROWS_AS(leader.begin_iteration(true, fail), RunError);
     dismiss_helpers(ranks);
   });
 }

@@ -42,7 +42,7 @@ void print_agreement(const std::string& name, double spp,
     fmt::print("{:<92} image   region (median, worst)\n", "");
   }
   const Ratio ratio = ratio_of(result.whole_image.a, result.whole_image.b);
-  fmt::print("{:<32}{:>6}  {:.5f} +- {:<12.5f}{:>10}{:>10.3g}{:>9.2f} %{:>8.2f} %{:>8.2f} %\n",
+  fmt::print("{:<32}{:>6.0f}  {:.5f} +- {:<12.5f}{:>10}{:>10.3g}{:>9.2f} %{:>8.2f} %{:>8.2f} %\n",
              name, spp, ratio.value, ratio.half_width, result.regions.size(),
              result.smallest_adjusted_p, 100 * result.whole_image.detectable_bias,
              100 * result.median_region_bias, 100 * result.worst_region_bias);

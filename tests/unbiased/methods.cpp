@@ -211,6 +211,14 @@ std::vector<Method> resampled_methods() {
       with_candidates(simplex_methods().front(), 16)};
 }
 
+std::vector<Method> adaptive_methods() {
+  const std::vector<std::string> adaptive{
+      "learner=uniform", "guider=uniform", "mixing={ type: fixed, unguided_fraction: 0.9 }",
+      "training={ iterations: 2, share: 0.25, pixels: adaptive }"};
+  return {{"adaptive pixels", adaptive},
+          {"adaptive pixels, paths from both ends", adaptive, {"integrator.type=bidirectional"}}};
+}
+
 std::vector<Method> robust_methods() {
   return {
       {"robust", {"=robust"}},

@@ -43,6 +43,9 @@ std::vector<Method> media_methods();
 std::vector<Method> simplex_methods();
 /// Returns methods that choose steps among candidates, with fixed and with learned shares.
 std::vector<Method> resampled_methods();
+/// Returns a method without any knowledge of light whose final image has more samples where the
+/// training images were noisy: with paths from the sensor, and with paths from both ends.
+std::vector<Method> adaptive_methods();
 /// Returns the preset `robust` as it is, and with trainings whose ends depend on what they found.
 std::vector<Method> robust_methods();
 

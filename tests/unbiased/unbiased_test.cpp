@@ -107,6 +107,10 @@ TEST_CASE("unbiased: robust guiding, whose training ends where it pays no more")
   compare_proof("standing-light", {robust_methods()[1]});
 }
 
+TEST_CASE("unbiased: more samples for noisy pixels, with a filter wider than a pixel") {
+  compare_proof("fog-box", adaptive_methods(), {"film.filter=gaussian"});
+}
+
 TEST_CASE("unbiased: vertex triplets in fog, with paths from lights") {
   compare_proof("fog-box", {triplet_methods(1).back()});
 }

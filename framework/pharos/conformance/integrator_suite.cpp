@@ -7,6 +7,7 @@
 #include <pharos/conformance/guided.h>
 #include <pharos/conformance/suites.h>
 #include <pharos/rendering/film.h>
+#include <pharos/statistics/hypothesis.h>
 
 namespace pharos::conformance {
 namespace {
@@ -41,6 +42,17 @@ class Setup {
     prepared_->render({pixels, 0, first, count}, context(record), result);
     return result;
   }
+  /// Returns the image whose pixels get samples by shares, of another seed.
+  Image shared_image(const PixelShares& shares, const PreparedSampler& sampler,
+                     std::uint64_t seed) const {
+    Film film = new_film();
+    WorkResult result{.film = film.make_tile(kWhole, shares)};
+    prepared_->render({kWhole, 0, 0, kSamples},
+                      {.sampler = sampler, .seed = seed, .pixels = &shares}, result);
+    film.merge(result.film);
+    film.end_pass(kSamples);
+    return film.layers();
+  }
   PathTrace replay(std::uint64_t pixel, std::uint32_t sample) const {
     return prepared_->replay({.seed = seed_, .iteration = 0, .index = pixel, .sample = sample},
                              context(false));
@@ -61,6 +73,78 @@ Image image_of(Film film, const std::vector<WorkResult>& units) {
   for (const WorkResult& unit : units) film.merge(unit.film);
   film.end_pass(kSamples);
   return film.layers();
+}
+
+/// A sampler of independent numbers that counts the paths of each pixel.
+class CountingSampler final : public PreparedSampler {
+ public:
+  std::uint64_t begin(const PathKey& key) const override {
+    if (key.index < paths_.size()) ++paths_[key.index];
+    return numbers_.begin(key);
+  }
+  float value_1d(const SampleStream& stream, Dimension dimension) const override {
+    return numbers_.value_1d(stream, dimension);
+  }
+  Vec2 value_2d(const SampleStream& stream, Dimension dimension) const override {
+    return numbers_.value_2d(stream, dimension);
+  }
+  std::uint32_t paths(int x, int y) const { return paths_[kWhole.index(x, y)]; }
+
+ private:
+  KeyedSampler numbers_;
+  mutable std::vector<std::uint32_t> paths_ = std::vector<std::uint32_t>(kWhole.area());
+};
+
+/// Every other pixel has few samples.
+bool has_few(int x, int y) {
+  return (x + y) % 2 == 0;
+}
+PixelShares uneven_shares() {
+  std::vector<float> shares;
+  for (int y = 0; y < kEdge; ++y) {
+    for (int x = 0; x < kEdge; ++x) shares.push_back(has_few(x, y) ? 0.25f : 1.75f);
+  }
+  return {kWhole, std::move(shares)};
+}
+
+/// Tests that pixels get the numbers of paths by their shares, and the same light as with even
+/// shares: pixels with few and with many samples are tested apart.
+void check_shares(const Setup& setup, const char* where, std::uint64_t seed, Check& check) {
+  constexpr std::uint64_t kSeeds = 24;
+  const PixelShares even, uneven = uneven_shares();
+  const CountingSampler counting;
+  setup.shared_image(uneven, counting, seed);
+  for (int y = 0; y < kEdge; ++y) {
+    for (int x = 0; x < kEdge; ++x) {
+      check.expect(counting.paths(x, y) == uneven.count(x, y, kSamples), [&] {
+        return fmt::format("{}: pixel ({}, {}) has {} paths, by its share it has {}", where, x, y,
+                           counting.paths(x, y), uneven.count(x, y, kSamples));
+      });
+    }
+  }
+  // Sums over pixels with few and with many samples, for each seed.
+  const auto light = [&](const PixelShares& shares, std::uint64_t first_seed, bool few) {
+    const KeyedSampler sampler;
+    std::vector<double> sums;
+    for (std::uint64_t i = 0; i < kSeeds; ++i) {
+      const Image image = setup.shared_image(shares, sampler, first_seed + i);
+      double sum = 0;
+      for (int y = 0; y < kEdge; ++y) {
+        for (int x = 0; x < kEdge; ++x) sum += has_few(x, y) == few ? mean(image.rgb(x, y)) : 0;
+      }
+      sums.push_back(sum);
+    }
+    return statistics::estimate(statistics::moments(sums));
+  };
+  for (const bool few : {true, false}) {
+    const auto a = light(even, seed + 1, few), b = light(uneven, seed + 1 + kSeeds, few);
+    check.add_p_value(
+        statistics::welch_test(a, b).p_value,
+        fmt::format("{}: pixels with {} samples have the light {:.4f} +- {:.4f}, and with even "
+                    "shares {:.4f} +- {:.4f}",
+                    where, few ? "few" : "many", b.mean, std::sqrt(b.squared_error), a.mean,
+                    std::sqrt(a.squared_error)));
+  }
 }
 
 double total(const Image& image) {
@@ -86,7 +170,7 @@ bool alike(const Image& a, const Image& b, double tolerance) {
 }
 
 void check_room(const Integrator& integrator, bool foggy, Suite& suite, Check& finite,
-                Check& determinism, Check& units, Check& replay, Check& recording) {
+                Check& determinism, Check& units, Check& replay, Check& shares, Check& recording) {
   const Setup setup(integrator, foggy, suite.seed());
   const Film film = setup.new_film();
   const char* where = foggy ? "in fog" : "in empty space";
@@ -126,6 +210,8 @@ void check_room(const Integrator& integrator, bool foggy, Suite& suite, Check& f
                        replayed, total(image));
   });
 
+  check_shares(setup, where, suite.seed(), shares);
+
   if (!integrator.traits().guided) {
     recording.not_applicable("it asks no guides, so nothing is recorded");
     return;
@@ -148,9 +234,10 @@ void check_integrator(const Integrator& integrator, Suite& suite) {
   Check& determinism = suite.check("determinism");
   Check& units = suite.check("work_units");
   Check& replay = suite.check("replay");
+  Check& shares = suite.check("pixel_shares");
   Check& recording = suite.check("recording");
   for (const bool foggy : {false, true}) {
-    check_room(integrator, foggy, suite, finite, determinism, units, replay, recording);
+    check_room(integrator, foggy, suite, finite, determinism, units, replay, shares, recording);
   }
 }
 

@@ -88,6 +88,8 @@ FilmTile::Pixel& FilmTile::Pixel::operator+=(const Pixel& other) {
   absolute_weight += other.absolute_weight;
   features += other.features;
   samples += other.samples;
+  luminance += other.luminance;
+  squared_luminance += other.squared_luminance;
   return *this;
 }
 
@@ -97,16 +99,21 @@ Rgb FilmTile::Pixel::weighted_mean(float least_weight) const {
   return radiance / std::copysign(std::max(std::abs(weight), least), weight);
 }
 
-FilmTile::FilmTile(PixelRect pixels, PixelRect film, const Filter& filter)
+FilmTile::FilmTile(PixelRect pixels, PixelRect film, const Filter& filter,
+                   const PixelShares& shares)
     : inner_(pixels),
       bordered_(with_border(pixels, film, filter.radius())),
       filter_(&filter),
+      shares_(&shares),
       pixels_(bordered_.area()) {}
 
 void FilmTile::add_sample(Vec2 film, Rgb radiance, const Features& features) {
   Pixel& own = pixels_[pixel_index(film, bordered_)];
   own.features += features;
   own.samples += 1;
+  const float value = pharos::luminance(radiance);
+  own.luminance += value;
+  own.squared_luminance += value * value;
   add_radiance(film, radiance);
 }
 
@@ -118,9 +125,12 @@ void FilmTile::add_radiance(Vec2 film, Rgb radiance) {
     return;
   }
   const PixelRect reach = footprint(film, filter_->radius(), bordered_);
+  const float to_even =
+      1 / shares_->at(std::clamp(static_cast<int>(film.x), inner_.x0, inner_.x1 - 1),
+                      std::clamp(static_cast<int>(film.y), inner_.y0, inner_.y1 - 1));
   for (int y = reach.y0; y < reach.y1; ++y) {
     for (int x = reach.x0; x < reach.x1; ++x) {
-      const float weight = filter_->evaluate(offset_from_center(film, x, y));
+      const float weight = to_even * filter_->evaluate(offset_from_center(film, x, y));
       pixels_[bordered_.index(x, y)].add(weight, radiance);
     }
   }
@@ -133,6 +143,8 @@ void FilmTile::archive(Archive& archive) {
   archive.block(landings_);
   archive(paths_);
 }
+
+const PixelShares Film::kEvenShares;
 
 Film::Pixel& Film::Pixel::operator+=(const Pixel& other) {
   sum += other.sum;
@@ -249,7 +261,7 @@ void Film::merge(const Film& other) {
 }
 
 void Film::archive(Archive& archive) {
-  archive.heading("film", 1);
+  archive.heading("film", 2);
   archive.block(total_);
   archive.block(moments_);
   archive(is_in_pass_);
@@ -261,6 +273,11 @@ void Film::archive(Archive& archive) {
   archive(samples_, total_paths_, pass_paths_, pass_has_splats_, has_splats, complete_samples_,
           complete_passes_);
   if (archive.loads() && has_splats) find_splat_norms();
+}
+
+SampleSums Film::sample_sums(int x, int y) const {
+  const FilmTile::Pixel& sum = total_[pixels_.index(x, y)].sum;
+  return {sum.samples, sum.luminance, sum.squared_luminance};
 }
 
 Image Film::layers() const {

@@ -13,6 +13,7 @@
 #include <pharos/core/pixel_rect.h>
 #include <pharos/core/rgb.h>
 #include <pharos/rendering/filter.h>
+#include <pharos/rendering/pixel_shares.h>
 
 namespace pharos {
 
@@ -30,7 +31,8 @@ struct Features {
 /// list.
 class FilmTile {
  public:
-  FilmTile(PixelRect pixels, PixelRect film, const Filter& filter);
+  /// `shares` are those by which the pixels get samples; they live as long as the tile.
+  FilmTile(PixelRect pixels, PixelRect film, const Filter& filter, const PixelShares& shares);
 
   const PixelRect& pixels() const { return inner_; }
   /// Adds a sample of radiance at a film position [pixels] within the unit's pixels.
@@ -56,6 +58,7 @@ class FilmTile {
     float absolute_weight = 0;  ///< sum of the weights' magnitudes
     Features features;          ///< sums over samples
     float samples = 0;
+    float luminance = 0, squared_luminance = 0;  ///< sums over the samples within the pixel
 
     void add(float filter_weight, Rgb value) {
       radiance += filter_weight * value;
@@ -77,10 +80,17 @@ class FilmTile {
 
   PixelRect inner_, bordered_;
   const Filter* filter_;
+  const PixelShares* shares_;
   std::vector<Pixel> pixels_;
   std::vector<Splat> splats_;
   std::vector<Landing> landings_;
   double paths_ = 0;
+};
+
+/// Sums over the samples within a pixel, without the pixel filter and without splats.
+struct SampleSums {
+  double count = 0;
+  double value = 0, squares = 0;  ///< of luminances
 };
 
 /// The image of one iteration: a layer of pixel samples, normalized by their weights, plus a layer
@@ -108,7 +118,12 @@ class Film {
 
   int width() const { return pixels_.width(); }
   int height() const { return pixels_.height(); }
-  FilmTile make_tile(PixelRect pixels) const { return {pixels, pixels_, *filter_}; }
+  const PixelRect& window() const { return pixels_; }
+  /// Returns an empty tile. The shares live as long as the tile. If they are not even, samples that
+  /// a wide filter spreads over several pixels have weights that make up for it.
+  FilmTile make_tile(PixelRect pixels, const PixelShares& shares = kEvenShares) const {
+    return {pixels, pixels_, *filter_, shares};
+  }
 
   void merge(const FilmTile& tile);
   /// Ends a pass of `samples` per pixel and adds it to the mean and the variance. A pass that was
@@ -125,6 +140,8 @@ class Film {
   /// `samples`.
   Image layers() const;
   double samples_per_pixel() const { return samples_; }
+  /// Returns the sums over all samples of a pixel of the window.
+  SampleSums sample_sums(int x, int y) const;
   /// The number of passes that were not cut short.
   int complete_passes() const { return complete_passes_; }
 
@@ -146,6 +163,7 @@ class Film {
   };
   Rgb value(const Pixel& pixel, double paths) const;
   void find_splat_norms();
+  static const PixelShares kEvenShares;
   void add_splat(const FilmTile::Splat& splat);
 
   PixelRect pixels_;

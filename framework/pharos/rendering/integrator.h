@@ -17,6 +17,7 @@
 namespace pharos {
 
 /// A fixed part of a render. Its tile, samples and keys do not depend on who renders it and when.
+/// The samples are those of a pixel that gets as many as the mean of all pixels; see PixelShares.
 struct WorkUnit {
   PixelRect pixels;
   std::uint32_t iteration = 0;
@@ -57,6 +58,7 @@ struct IterationContext {
   const GuidingFrame* guiding = nullptr;  ///< null: nothing is known yet
   bool record = false;                    ///< fill WorkResult::log
   bool training = false;                  ///< this is a training iteration
+  const PixelShares* pixels = nullptr;    ///< how samples are shared among pixels; null: evenly
 };
 
 /// The scene, sensor and film for which an integrator is prepared. All referenced objects outlive
@@ -65,8 +67,8 @@ struct RenderTarget {
   const Scene& scene;
   const PreparedSensor& sensor;
   int width = 0, height = 0;  ///< size of the whole film [pixels]; paths are keyed by its pixels
-  /// The part of the film that is rendered. The same number of paths starts at each of its pixels,
-  /// and no path starts elsewhere.
+  /// The part of the film that is rendered. Paths start at each of its pixels, the same number
+  /// unless PixelShares say otherwise, and no path starts elsewhere.
   PixelRect window{0, 0, width, height};
   /// Whether paths pass through random points of their pixels. If false, all pass through the
   /// centers.

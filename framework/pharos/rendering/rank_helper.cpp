@@ -117,11 +117,11 @@ class Helper {
 
   void take(Reader& message) {
     if (message.kind() == Kind::unit) return units_.push(message.next<Unit>());
-    const auto head = message.next<IterationHead>();
-    std::string guides;
-    if (head.has_guides) ranks_.broadcast(guides);
+    const auto trains = message.next<bool>();
+    std::string frozen;
+    ranks_.broadcast(frozen);
     try {
-      work_.begin_iteration(head.trains, guides);
+      work_.begin_iteration(trains, frozen);
     } catch (...) {
       ranks_.send(0, failure(reason_of(std::current_exception())));
     }

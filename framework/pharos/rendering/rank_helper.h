@@ -10,9 +10,9 @@ namespace pharos {
 
 /// The work of a rank other than 0, which messages from rank 0 ask for.
 struct HelperWork {
-  /// Begins an iteration whose units are to be rendered. `guides` is empty if there are none. No
-  /// unit is in progress.
-  std::function<void(bool trains, const std::string& guides)> begin_iteration;
+  /// Begins an iteration whose units are to be rendered. `frozen` is what rank 0 has saved of the
+  /// things that stay the same during the iteration. No unit is in progress.
+  std::function<void(bool trains, const std::string& frozen)> begin_iteration;
   /// Renders a unit, and records its paths if `records` is set. Called by several threads at a
   /// time.
   std::function<WorkResult(const WorkUnit& unit, bool records)> render;

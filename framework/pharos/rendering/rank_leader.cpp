@@ -252,14 +252,12 @@ RankLeader::RankLeader(Ranks& ranks, const std::string& render,
   }
 }
 
-void RankLeader::begin_iteration(bool trains, bool has_guides,
-                                 const std::function<std::string()>& save_guides) {
-  // Saved first: if this fails, no rank must be waiting for the guides.
-  std::string guides = has_guides ? save_guides() : "";
-  IterationHead head{trains, has_guides};
-  const std::string message = write(Kind::iteration, head);
+void RankLeader::begin_iteration(bool trains, const std::function<std::string()>& save_frozen) {
+  // Saved first: if this fails, no rank must be waiting for the broadcast.
+  std::string frozen = save_frozen();
+  const std::string message = write(Kind::iteration, trains);
   for (int rank = 1; rank < ranks_.count(); ++rank) ranks_.send(rank, message);
-  if (has_guides) ranks_.broadcast(guides);
+  ranks_.broadcast(frozen);
 }
 
 void RankLeader::run(const UnitPass& pass) {

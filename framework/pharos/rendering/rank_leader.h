@@ -23,8 +23,7 @@ class RankLeader final : public UnitRunner {
   RankLeader(Ranks& ranks, const std::string& render, const std::function<bool()>& keeps_going,
              std::size_t waiting_bytes = std::size_t{1} << 30);
 
-  void begin_iteration(bool trains, bool has_guides,
-                       const std::function<std::string()>& save_guides) override;
+  void begin_iteration(bool trains, const std::function<std::string()>& save_frozen) override;
   /// A pass that must not go on does not wait for what other ranks still render.
   void run(const UnitPass& pass) override;
 

@@ -19,7 +19,8 @@ namespace pharos::messages {
 enum class Kind : std::uint8_t {
   ready,      ///< to rank 0: the scene is loaded; a Ready follows
   failure,    ///< to rank 0: the rank cannot go on; the reason follows as text
-  iteration,  ///< to all: an IterationHead follows, and the guides in a broadcast if it says so
+  iteration,  ///< to all: whether it is a training iteration follows, and a broadcast of what all
+              ///< units of the iteration share
   unit,       ///< to one: a Unit to render
   result,     ///< to rank 0: the number of a unit and its WorkResult
   end,        ///< to all: there is no more work
@@ -30,12 +31,6 @@ struct Ready {
   std::uint32_t threads = 0;  ///< that render
   std::string render;         ///< key of what the rank renders
   void archive(Archive& archive) { archive(threads, render); }
-};
-
-struct IterationHead {
-  bool trains = false;  ///< it is a training iteration
-  bool has_guides = false;
-  void archive(Archive& archive) { archive(trains, has_guides); }
 };
 
 struct Unit {

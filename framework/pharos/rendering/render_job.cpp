@@ -12,6 +12,7 @@
 #include <pharos/core/stopwatch.h>
 #include <pharos/rendering/image_combiner.h>
 #include <pharos/rendering/iteration_state.h>
+#include <pharos/rendering/pixel_noise.h>
 #include <pharos/rendering/prepared_render.h>
 #include <pharos/rendering/rank_helper.h>
 #include <pharos/rendering/rank_leader.h>
@@ -51,13 +52,12 @@ class RenderJob::Implementation {
   void help(Ranks& ranks, const std::string& render_key) {
     begin({});
     const Film film = prepared_.make_film();
-    const auto begin_iteration = [&](bool trains, const std::string& guides) {
+    const auto begin_iteration = [&](bool trains, const std::string& frozen) {
       iteration_.training = trains;
-      if (!guides.empty()) load_guides(guides);
-      frame_ = guides.empty() ? nullptr : guiding_->frame();
+      load_bytes(frozen, [this](Archive& archive) { archive_frozen(archive); });
     };
     const auto render = [&](const WorkUnit& unit, bool records) {
-      WorkResult work{.film = film.make_tile(unit.pixels)};
+      WorkResult work{.film = film.make_tile(unit.pixels, shares_)};
       prepared_.integrator().render(unit, context(records), work);
       return work;
     };
@@ -73,10 +73,14 @@ class RenderJob::Implementation {
     units_ = unit_runner(nullptr);
     while (begin_iteration()) {
       if (iteration_.index == key.iteration) {
-        if (key.sample < iteration_.samples)
-          return prepared_.integrator().replay(key, context(false));
-        throw InputError(fmt::format("--replay: error: there is no sample {}: iteration {} has {}",
-                                     key.sample, key.iteration, iteration_.samples));
+        const auto width = static_cast<std::uint64_t>(config().film.width);
+        const std::uint32_t samples =
+            shares_.count(static_cast<int>(key.index % width), static_cast<int>(key.index / width),
+                          iteration_.samples);
+        if (key.sample < samples) return prepared_.integrator().replay(key, context(false));
+        throw InputError(
+            fmt::format("--replay: error: there is no sample {}: iteration {} has {} in this pixel",
+                        key.sample, key.iteration, samples));
       }
       run_iteration();
     }
@@ -96,6 +100,8 @@ class RenderJob::Implementation {
     spending_ = {};
     combiner_ = ImageCombiner(prepared_.training().latest_images);
     has_image_ = false;
+    noise_ = {};
+    shares_ = {};
     current_.reset();
     is_saved_ = false;
     last_image_ = prepared_.make_film().layers();
@@ -115,7 +121,8 @@ class RenderJob::Implementation {
 
   /// Returns what the units of the current iteration share. `records`: their paths are recorded.
   IterationContext context(bool records) const {
-    return {prepared_.sampler(), config().seed, frame_.get(), records, iteration_.training};
+    return {prepared_.sampler(), config().seed, frame_.get(), records,
+            iteration_.training, &shares_};
   }
 
   /// Makes the next iteration the current one. Returns false if there is none.
@@ -125,12 +132,22 @@ class RenderJob::Implementation {
     if (!next) return false;
     iteration_ = *next;
     current_.emplace(begun_iteration(seconds()));
+    if (iteration_.training) return true;
+    shares_ = final_shares();
     // If a guide of the camera makes all paths splats, there are no samples to average with.
-    const bool has_splats = frame_ != nullptr && frame_->guides_camera();
-    if (!iteration_.training && !has_splats) {
+    if (!guides_camera()) {
       result_.counters.invalid_paths += prepared_.add_left_over_samples(current_->film);
     }
     return true;
+  }
+
+  bool adapts_pixels() const { return prepared_.training().pixels == FinalPixels::adaptive; }
+  bool guides_camera() const { return frame_ != nullptr && frame_->guides_camera(); }
+
+  /// Returns how the samples of the final image are shared among the pixels. A guide of the camera
+  /// chooses the pixels itself.
+  PixelShares final_shares() const {
+    return adapts_pixels() && !guides_camera() ? noise_.shares() : PixelShares();
   }
 
   /// Returns the state of the current iteration before its first pass.
@@ -144,8 +161,9 @@ class RenderJob::Implementation {
   }
 
   void run_iteration() {
-    units_->begin_iteration(iteration_.training, frame_ != nullptr,
-                            [this] { return saved_guides(); });
+    units_->begin_iteration(iteration_.training, [this] {
+      return saved_bytes([this](Archive& archive) { archive_frozen(archive); });
+    });
     while (begin_pass() && run_passes()) {
       if (control_.on_pass) watch_.pause([&] { show(current_->film); });
     }
@@ -165,6 +183,7 @@ class RenderJob::Implementation {
     // other.
     if (film.complete_passes() > 0 || !has_image_) last_image_ = film.layers();
     has_image_ |= film.complete_passes() > 0;
+    if (iteration_.training && adapts_pixels()) noise_.add(film);
     if (keeps_image() && film.complete_passes() > 0) {
       combiner_.add(film, result_.samples_per_pixel);
     }
@@ -254,7 +273,7 @@ class RenderJob::Implementation {
     IterationState& now = *current_;
     const UnitPlan plan = planned_units();
     const auto blank = [&](std::size_t i) {
-      WorkResult work{.film = now.film.make_tile(plan[i].pixels)};
+      WorkResult work{.film = now.film.make_tile(plan[i].pixels, shares_)};
       if (is_recorded(plan[i])) spare_logs_.try_pop(work.log);
       return work;
     };
@@ -318,7 +337,8 @@ class RenderJob::Implementation {
     }
     result_.counters += work.counters;
     if (!result_.first_invalid) result_.first_invalid = work.first_invalid;
-    now.pixel_samples += static_cast<double>(unit.pixels.area()) * unit.sample_count;
+    now.pixel_samples +=
+        static_cast<double>(shares_.count(unit.pixels, unit.first_sample, unit.sample_count));
     ++now.units;
   }
 
@@ -354,11 +374,11 @@ class RenderJob::Implementation {
   }
 
   void archive_state(Archive& archive) {
-    archive.heading("render", 2);
+    archive.heading("render", 3);
     double watch_seconds = watch_.seconds();
     archive(watch_seconds, result_.times.training, result_.times.update, result_.times.rendering,
             result_.counters, result_.samples_per_pixel, result_.first_invalid, *schedule_,
-            spending_, iteration_, combiner_, has_image_);
+            spending_, iteration_, combiner_, has_image_, noise_);
     if (archive.loads()) watch_ = Stopwatch(watch_seconds);
     if (has_image_ && combiner_.empty()) archive(last_image_);
     if (guiding_ != nullptr) guiding_->archive(archive);
@@ -370,19 +390,19 @@ class RenderJob::Implementation {
     if (archive.loads()) {
       // The budget of the final image may have grown.
       if (!iteration_.training) iteration_ = schedule_->final_image(spending_);
+      if (!iteration_.training) shares_ = final_shares();
       current_.emplace(begun_iteration(start));
     }
     archive(*current_);
     archive.expect(current_->units <= unit_count(), "the state of the render");
   }
 
-  /// Saves what other ranks need to guide paths as this one does.
-  std::string saved_guides() const {
-    return saved_bytes([this](Archive& archive) { guiding_->archive_guides(archive); });
-  }
-
-  void load_guides(const std::string& guides) {
-    load_bytes(guides, [this](Archive& archive) { guiding_->archive_guides(archive); });
+  /// Saves what other ranks need to render the units of an iteration as this one does, or loads it.
+  void archive_frozen(Archive& archive) {
+    bool has_guides = frame_ != nullptr;
+    archive(shares_, has_guides);
+    if (has_guides) guiding_->archive_guides(archive);
+    if (archive.loads()) frame_ = has_guides ? guiding_->frame() : nullptr;
   }
 
   double film_area() const { return static_cast<double>(config().film.window().area()); }
@@ -412,6 +432,8 @@ class RenderJob::Implementation {
   std::optional<IterationState> current_;  ///< its state; none between two iterations
   ImageCombiner combiner_{1};
   Image last_image_;
+  PixelNoise noise_;        ///< of the training images
+  PixelShares shares_;      ///< of the current iteration
   bool has_image_ = false;  ///< `last_image_` shows at least one whole pass
   bool is_saved_ = false;  ///< the render was stopped or has finished, and has handed out its state
   std::unique_ptr<UnitRunner> units_;

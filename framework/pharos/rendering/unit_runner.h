@@ -28,10 +28,9 @@ class UnitRunner {
  public:
   virtual ~UnitRunner() = default;
 
-  /// Begins an iteration, of training or of the final image. If guides are known, `save_guides`
-  /// saves what others need to render its units (see GuidingState::archive_guides()).
-  virtual void begin_iteration(bool trains, bool has_guides,
-                               const std::function<std::string()>& save_guides) = 0;
+  /// Begins an iteration, of training or of the final image. `save_frozen` saves what others need
+  /// to render its units: what stays the same during the iteration, such as the guides.
+  virtual void begin_iteration(bool trains, const std::function<std::string()>& save_frozen) = 0;
   /// Runs a pass to its end, or until it must not go on. Throws what a unit has thrown.
   virtual void run(const UnitPass& pass) = 0;
 };
@@ -39,7 +38,7 @@ class UnitRunner {
 /// Renders all units in this process, on TBB.
 class LocalUnits final : public UnitRunner {
  public:
-  void begin_iteration(bool, bool, const std::function<std::string()>&) override {}
+  void begin_iteration(bool, const std::function<std::string()>&) override {}
   void run(const UnitPass& pass) override;
 };
 

@@ -31,8 +31,8 @@ struct SensorConnection {
   /// perpendicular to the ray. It is the response of all pixels together to light from there.
   float pdf = 0;
 
-  /// The density of directions from the lens for uniform film positions [1/sr].
-  float direction_pdf() const { return pdf * square(distance); }
+  /// The response to the direction from the lens to the point.
+  SensorResponse response() const { return {film, pdf * square(distance)}; }
 };
 
 /// A sensor prepared for a film of a given size. Constant and thread-safe. Film positions are

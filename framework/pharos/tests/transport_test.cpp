@@ -102,10 +102,10 @@ TEST_CASE("a path with what is known of its counterparts can be copied, too") {
                                stage.recorder);
   for (int i = 0; i < kEdge * kEdge; ++i) {
     const SampleStream stream = stage.stream(i);
-    BidirectionalWalk::InFlight flight{
-        Path(stream),
-        {},
-        Counterparts(stage.target, choices, nullptr, stream.get_2d({Purpose::lens}), backward)};
+    BidirectionalWalk::InFlight flight{Path(stream),
+                                       {},
+                                       Counterparts(stage.target, choices, stage.context,
+                                                    stream.get_2d({Purpose::lens}), backward)};
     if (!walk.begin(flight)) continue;
     BidirectionalWalk::InFlight copy(flight);
     while (walk.proceed(flight, 12)) continue;

@@ -25,14 +25,14 @@ class LightCounterparts {
 
   /// `u_lens` are the random numbers that determine the lens point of the path.
   LightCounterparts(const RenderTarget& target, const LightChoices& lights,
-                    const GuidingFrame* guiding, Vec2 u_lens, Arena& arena)
+                    const IterationContext& context, Vec2 u_lens, Arena& arena)
       : target_(target),
         scene_(target.scene),
         lights_(lights),
-        guiding_(guiding),
+        guiding_(context.guiding),
         u_lens_(u_lens),
-        first_steps_(guiding, arena),
-        continuations_(target.scene, guiding, Transport::importance, arena) {}
+        first_steps_(target, context, arena),
+        continuations_(target.scene, context.guiding, Transport::importance, arena) {}
 
   /// Takes note of the step of the path from one vertex to the next.
   void advance(const PathVertex& from, const PathVertex& to, const ScatterStep& step,
@@ -86,19 +86,17 @@ class LightCounterparts {
   /// Adds the first vertex beyond the lens, from which light paths are connected to the lens.
   void begin(const PathVertex& lens, const PathVertex& to, const Way& there) {
     const LensPoint lens_point{lens.position(), lens.surface.normal};
-    densities_.extend(first_steps_.density(lens_point, there, direction_pdf(lens_point, to, there)),
-                      0);
+    densities_.extend(first_steps_.density(lens_point, there, seen(lens_point, to, there)), 0);
   }
 
-  /// Returns the density [1/sr] of the first direction if film positions are uniform.
-  float direction_pdf(const LensPoint& lens, const PathVertex& to, const Way& there) const {
+  /// Returns how the sensor sees the first direction. The density is 0 if it does not.
+  SensorResponse seen(const LensPoint& lens, const PathVertex& to, const Way& there) const {
     const PreparedSensor& sensor = target_.sensor;
     if (to.kind == VertexKind::environment) {
-      const auto seen = sensor.response(lens, there.target.direction);
-      return seen ? seen->direction_pdf : 0;
+      return sensor.response(lens, there.target.direction).value_or(SensorResponse());
     }
     const auto way = sensor.connect(to.position(), u_lens_);
-    return way ? way->direction_pdf() : 0;
+    return way ? way->response() : SensorResponse();
   }
 
   /// Returns the density, in vertex measure, with which a light path that comes to `at` from
@@ -133,12 +131,12 @@ class CameraCounterparts {
   static constexpr bool kExist = true;
 
   CameraCounterparts(const RenderTarget& target, const LightChoices& lights,
-                     const GuidingFrame* guiding, Arena& arena)
+                     const IterationContext& context, Arena& arena)
       : scene_(target.scene),
         lights_(lights),
-        guiding_(guiding),
-        first_steps_(guiding, arena),
-        continuations_(target.scene, guiding, Transport::radiance, arena) {}
+        guiding_(context.guiding),
+        first_steps_(target, context, arena),
+        continuations_(target.scene, context.guiding, Transport::radiance, arena) {}
 
   /// Begins a path with this emission. `before_scene` is the transmittance of media for environment
   /// light on its way to the scene.
@@ -178,10 +176,9 @@ class CameraCounterparts {
   /// Returns the MIS weight of the light itself at `here`, which is seen from the lens in
   /// `direction`.
   float of_light_seen(const PathVertex& here, const LensPoint& lens, Vec3 direction, float distance,
-                      float direction_pdf, Rgb transmittance) const {
+                      const SensorResponse& seen, Rgb transmittance) const {
     const Way from_lens = way_to(here, direction, distance, transmittance);
-    return balance_weight(
-        densities_.ratio(0, first_steps_.density(lens, from_lens, direction_pdf)));
+    return balance_weight(densities_.ratio(0, first_steps_.density(lens, from_lens, seen)));
   }
 
   /// Returns the MIS weight of the connection `way` from `here` to the lens. At `here` the light is
@@ -192,7 +189,7 @@ class CameraCounterparts {
     const PathVertex lens{.surface = {.position = way.lens.position,
                                       .normal = way.lens.normal,
                                       .shading = {.n = way.lens.normal}}};
-    const double seen = first_steps_.density(way.lens, from_lens, way.direction_pdf());
+    const double seen = first_steps_.density(way.lens, from_lens, way.response());
     return balance_weight(
         densities_.ratio(onwards(here, lens.described(), way.direction, event), seen));
   }

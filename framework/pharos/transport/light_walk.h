@@ -151,9 +151,8 @@ class LightWalk {
     const Rgb transmittance = passage.transmittance;
     float weight = 1;
     if constexpr (Counterparts::kExist) {
-      weight =
-          flight.counterparts.of_light_seen(path.here(), way->lens, -way->direction, way->distance,
-                                            way->direction_pdf(), transmittance);
+      weight = flight.counterparts.of_light_seen(path.here(), way->lens, -way->direction,
+                                                 way->distance, way->response(), transmittance);
     }
     contribute(way->film, weight * way->pdf * Rules::foreshortening(cosine) /
                               (emission.pdf.position * chosen) * transmittance * radiance);
@@ -176,7 +175,7 @@ class LightWalk {
     float weight = 1;
     if constexpr (Counterparts::kExist) {
       weight = flight.counterparts.of_light_seen(flight.path.here(), lens, towards, kInfinity,
-                                                 seen->direction_pdf, transmittance);
+                                                 *seen, transmittance);
     }
     contribute(seen->film, weight * seen->direction_pdf / (emission.pdf.direction * chosen) *
                                transmittance * light.environment_radiance(towards));

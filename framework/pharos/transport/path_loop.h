@@ -9,18 +9,23 @@ namespace pharos {
 template <class Trace>
 void for_each_path(const WorkUnit& unit, const IterationContext& context, int film_width,
                    WorkResult& result, Trace&& trace) {
+  // The number of samples of a pixel, of the first `samples` of the mean of all pixels.
+  const auto own = [&](int x, int y, std::uint32_t samples) {
+    return context.pixels == nullptr ? samples : context.pixels->count(x, y, samples);
+  };
+  std::uint64_t count = 0;
   for (int y = unit.pixels.y0; y < unit.pixels.y1; ++y) {
     for (int x = unit.pixels.x0; x < unit.pixels.x1; ++x) {
       PathKey key{.seed = context.seed,
                   .iteration = unit.iteration,
                   .index = static_cast<std::uint64_t>(y) * film_width + x};
-      for (std::uint32_t i = 0; i < unit.sample_count; ++i) {
-        key.sample = unit.first_sample + i;
-        trace(key, SampleStream(context.sampler, key));
-      }
+      const std::uint32_t end = own(x, y, unit.first_sample + unit.sample_count);
+      key.sample = own(x, y, unit.first_sample);
+      count += end - key.sample;
+      for (; key.sample < end; ++key.sample) trace(key, SampleStream(context.sampler, key));
     }
   }
-  result.film.count_paths(static_cast<std::uint64_t>(unit.pixels.area()) * unit.sample_count);
+  result.film.count_paths(count);
 }
 
 /// Calls `render(recorder)` with the recorder that the iteration needs.

@@ -102,7 +102,7 @@ class PreparedBidirectional : public PreparedIntegrator {
     return CameraWalk<Recorder, Counterparts, Rules>(from_lens_, context, arenas.forward, counters,
                                                      recorder)
         .run(stream, settings_.max_depth,
-             Counterparts(target_, choices_, context.guiding, stream.get_2d({Purpose::lens}),
+             Counterparts(target_, choices_, context, stream.get_2d({Purpose::lens}),
                           arenas.backward));
   }
 
@@ -111,7 +111,7 @@ class PreparedBidirectional : public PreparedIntegrator {
                        RenderCounters& counters, Recorder& recorder) const {
     LightWalk<Recorder, CameraCounterparts, Rules>(from_lights_, context, arenas.forward, counters,
                                                    recorder)
-        .run(stream, CameraCounterparts(target_, choices_, context.guiding, arenas.backward));
+        .run(stream, CameraCounterparts(target_, choices_, context, arenas.backward));
   }
 
   RenderTarget target_;

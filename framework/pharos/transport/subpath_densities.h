@@ -113,19 +113,24 @@ class Continuations {
   Arena& arena_;
 };
 
-/// The densities with which paths from the lens begin, including guides of the first vertex.
+/// The densities with which paths from the lens begin, including guides of the first vertex and
+/// the shares of the pixels. A pixel of share 2 has twice the density.
 class FirstSteps {
  public:
-  /// `guiding` may be null. `arena` is reset by every call.
-  FirstSteps(const GuidingFrame* guiding, Arena& arena)
-      : guiding_(guiding != nullptr && guiding->guides_camera() ? guiding : nullptr),
+  /// `arena` is reset by every call.
+  FirstSteps(const RenderTarget& target, const IterationContext& context, Arena& arena)
+      : target_(target),
+        pixels_(context.pixels),
+        guiding_(context.guiding != nullptr && context.guiding->guides_camera() ? context.guiding
+                                                                                : nullptr),
         arena_(arena) {}
 
   /// Returns the density, in vertex measure, of the first vertex, to which `to` leads from this
-  /// point of the lens. `direction_pdf` is the density [1/sr] of its direction for uniform film
-  /// positions.
-  double density(const LensPoint& lens, const Way& to, float direction_pdf) const {
-    double density = double{direction_pdf} * to.target.medium_density;
+  /// point of the lens. `seen` is how the sensor sees its direction, with the density for uniform
+  /// film positions.
+  double density(const LensPoint& lens, const Way& to, const SensorResponse& seen) const {
+    const float direction_pdf = seen.direction_pdf;
+    double density = double{direction_pdf} * share_at(seen.film) * to.target.medium_density;
     if (guiding_ != nullptr && direction_pdf > 0) {
       arena_.reset();
       ResolvedVertex first = to.target;
@@ -142,6 +147,18 @@ class FirstSteps {
   }
 
  private:
+  /// Returns the share of the pixel at a normalized film position [1].
+  float share_at(Vec2 film) const {
+    if (pixels_ == nullptr || pixels_->are_even()) return 1;
+    const PixelRect& window = target_.window;
+    const auto x = static_cast<int>(film.x * static_cast<float>(target_.width));
+    const auto y = static_cast<int>(film.y * static_cast<float>(target_.height));
+    return pixels_->at(std::clamp(x, window.x0, window.x1 - 1),
+                       std::clamp(y, window.y0, window.y1 - 1));
+  }
+
+  const RenderTarget& target_;
+  const PixelShares* pixels_;
   const GuidingFrame* guiding_;
   Arena& arena_;
 };

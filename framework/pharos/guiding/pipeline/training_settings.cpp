@@ -14,6 +14,9 @@ void TrainingSettings::describe(Schema<TrainingSettings>& s) {
   s.field("images", &TrainingSettings::images,
           "Use of the images of training iterations: discarded, or combined with the final image, "
           "weighted by their numbers of samples; the first eighth of all samples counts less");
+  s.field("pixels", &TrainingSettings::pixels,
+          "Samples of the final image: the same number for every pixel, or more for pixels that "
+          "were noisy in the training images");
   s.field("recorded_samples", &TrainingSettings::recorded_samples,
           "Largest number of samples per pixel of an iteration from which the guides learn; the "
           "rest only adds to its image, which `images: discard` would waste; 0: all");

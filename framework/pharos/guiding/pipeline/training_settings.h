@@ -12,11 +12,17 @@ namespace pharos {
 
 enum class ScheduleKind { uniform, geometric };
 enum class TrainingImages { discard, combine };
+enum class FinalPixels { even, adaptive };
 
 template <>
 struct EnumNames<ScheduleKind> {
   static constexpr auto names = std::to_array<EnumName<ScheduleKind>>(
       {{"uniform", ScheduleKind::uniform}, {"geometric", ScheduleKind::geometric}});
+};
+template <>
+struct EnumNames<FinalPixels> {
+  static constexpr auto names = std::to_array<EnumName<FinalPixels>>(
+      {{"even", FinalPixels::even}, {"adaptive", FinalPixels::adaptive}});
 };
 template <>
 struct EnumNames<TrainingImages> {
@@ -30,6 +36,9 @@ struct TrainingSettings {
   std::uint32_t iterations = 15;  ///< number of training iterations
   double share = 0.5;             ///< largest share of the budget that is spent on training [1]
   TrainingImages images = TrainingImages::combine;
+  /// How the samples of the final image are shared among the pixels: all get the same number, or
+  /// more go where the training images are noisy; see PixelNoise. Training images are even.
+  FinalPixels pixels = FinalPixels::even;
   /// Largest number of samples per pixel of an iteration whose paths are recorded. The rest of the
   /// iteration only adds to its image. 0: all are recorded.
   std::uint32_t recorded_samples = 0;
