@@ -231,7 +231,8 @@ void Film::end_pass(double samples, bool complete) {
   const auto weight = static_cast<float>(samples);
   const auto share = static_cast<float>(samples / std::max(complete_samples_, 1e-30));
   for (std::size_t i = 0; i < pass_.size(); ++i) {
-    if (complete) {
+    // Where a pixel gets few samples, a small pass may have none.
+    if (complete && (pass_[i].sum.absolute_weight > 0 || pass_has_splats_)) {
       const Rgb now = value(pass_[i], pass_paths_);
       const Rgb delta = now - moments_[i].mean;
       moments_[i].mean += share * delta;

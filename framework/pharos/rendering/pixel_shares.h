@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include <pharos/core/archive.h>
@@ -30,9 +31,6 @@ class PixelShares {
     const double own = std::floor(double{at(x, y)} * samples + 0.5);
     return own < 1 ? 1u : static_cast<std::uint32_t>(own);
   }
-  /// Returns how many samples the pixels of a rectangle get together, of the samples `first` to
-  /// `first + samples` of the mean.
-  std::uint64_t count(const PixelRect& pixels, std::uint32_t first, std::uint32_t samples) const;
 
   void archive(Archive& archive);
 

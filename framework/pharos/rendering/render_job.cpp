@@ -183,7 +183,7 @@ class RenderJob::Implementation {
     // other.
     if (film.complete_passes() > 0 || !has_image_) last_image_ = film.layers();
     has_image_ |= film.complete_passes() > 0;
-    if (iteration_.training && adapts_pixels()) noise_.add(film);
+    if (iteration_.training && adapts_pixels() && !guides_camera()) noise_.add(film);
     if (keeps_image() && film.complete_passes() > 0) {
       combiner_.add(film, result_.samples_per_pixel);
     }
@@ -337,8 +337,7 @@ class RenderJob::Implementation {
     }
     result_.counters += work.counters;
     if (!result_.first_invalid) result_.first_invalid = work.first_invalid;
-    now.pixel_samples +=
-        static_cast<double>(shares_.count(unit.pixels, unit.first_sample, unit.sample_count));
+    now.pixel_samples += static_cast<double>(unit.pixels.area()) * unit.sample_count;
     ++now.units;
   }
 
