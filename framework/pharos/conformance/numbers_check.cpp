@@ -23,34 +23,26 @@ class NotingSampler final : public PreparedSampler {
     return numbers_.value_2d(stream, dimension);
   }
   /// Returns what was asked for since the last call.
-  std::vector<Dimension> asked() const { return std::exchange(asked_, {}); }
+  std::vector<Dimension> take_asked() const { return std::exchange(asked_, {}); }
 
  private:
   KeyedSampler numbers_;
   mutable std::vector<Dimension> asked_;
 };
 
-/// Returns the name of a purpose that is none of a guide; null for the others.
+/// Returns the name of a purpose that proposals must not ask for; null for the others.
 const char* foreign_name(Purpose purpose) {
   switch (purpose) {
-    case Purpose::pixel:
-      return "pixel";
-    case Purpose::lens:
-      return "lens";
-    case Purpose::light_choice:
-      return "light_choice";
-    case Purpose::light_position:
-      return "light_position";
+    case Purpose::guide_choice:
+    case Purpose::guide_direction:
+    case Purpose::guide_distance:
+    case Purpose::bsdf_choice:
+    case Purpose::bsdf_direction:
+      return nullptr;
     case Purpose::mix_choice:
       return "mix_choice";
-    case Purpose::distance_choice:
-      return "distance_choice";
-    case Purpose::distance:
-      return "distance";
-    case Purpose::roulette:
-      return "roulette";
     default:
-      return nullptr;
+      return "a number of another part of the path";
   }
 }
 
@@ -82,12 +74,12 @@ void check_numbers(const GuidingFrame& frame, const Scene& scene, std::uint64_t 
     GuidingQuery query = vertex->query();
     const Guidance guidance = frame.query(query, arena);
     if (!guidance.is_guided()) continue;
-    numbers.asked();  // forgets what the vertex before has asked for
+    numbers.take_asked();  // forgets what the vertex before has asked for
     for (std::uint64_t path = 0; path < kProposals; ++path) {
       const SampleStream stream(numbers, {.seed = seed, .index = path});
       const float u = (static_cast<float>(path) + 0.5f) / static_cast<float>(kProposals);
       guidance.propose(VertexStream(stream, query.bounce), u);
-      expect_numbers_of_guides(numbers.asked(), vertex->text(), check);
+      expect_numbers_of_guides(numbers.take_asked(), vertex->text(), check);
     }
   }
 }

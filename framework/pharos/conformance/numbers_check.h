@@ -5,9 +5,9 @@
 
 namespace pharos::conformance {
 
-/// Tests which random numbers the proposals of a guide ask for, at vertices of a room: those of
-/// guides and of the BSDF alone, because samplers may derive others from `mix_choice`; and never
-/// both `guide_direction` and `bsdf_direction` of a branch, which may be the same points.
+/// Tests the random numbers for which the proposals of a guide ask, at vertices of a room. They may
+/// ask for numbers of guides and of the BSDF only. They must not ask for both `guide_direction` and
+/// `bsdf_direction` of a branch, because samplers may return the same points for both.
 void check_numbers(const GuidingFrame& frame, const Scene& scene, std::uint64_t seed,
                    Transport transport, Check& check);
 

@@ -128,8 +128,8 @@ class Film {
   void merge(const FilmTile& tile);
   /// Ends a pass of `samples` per pixel and adds it to the mean and the variance. A pass that was
   /// cut short (`complete` is false) counts in the mean only. If there are splats and earlier
-  /// complete passes, such a pass is dropped, because splats need the same number of started paths
-  /// in every pixel.
+  /// complete passes, such a pass is dropped, because splats need started paths in proportion to
+  /// the shares of the pixels.
   void end_pass(double samples, bool complete = true);
   /// Adds the passes of another film of the same size and filter. Both films must be between
   /// passes.

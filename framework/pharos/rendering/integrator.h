@@ -17,7 +17,7 @@
 namespace pharos {
 
 /// A fixed part of a render. Its tile, samples and keys do not depend on who renders it and when.
-/// The samples are those of a pixel that gets as many as the mean of all pixels; see PixelShares.
+/// The range of samples is that of a pixel of share 1; see PixelShares.
 struct WorkUnit {
   PixelRect pixels;
   std::uint32_t iteration = 0;

@@ -17,10 +17,10 @@ namespace pharos {
 /// the samples go to all pixels alike. So the variance of a pixel is at most about twice that of
 /// even shares, and what was learned from few samples does little harm.
 ///
-/// Noise and brightness of a pixel are those of a square of pixels around it: of the smallest one
-/// whose samples are effectively many, by the number of Kish 1965, (sum of values)^2 / (sum of
-/// squared values). Where few samples have found light, the square is so large that the shares are
-/// even.
+/// Noise and brightness are averaged over a square of pixels. It grows until the effective number
+/// of its samples, (sum of values)^2 / (sum of squared values) (Kish 1965), is at least 8. Where
+/// few samples have found light, the square is so large that the shares are even. The brightness
+/// does not contain splats.
 class PixelNoise {
  public:
   /// Adds the samples of a training iteration. As guides get better, earlier iterations tell less:
