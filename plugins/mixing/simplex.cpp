@@ -15,8 +15,8 @@
 // as their weights are worth, (sum w)^2 / sum w^2, so a single bright step counts as one. In the
 // final iteration, methods are asked only where they lower the second moment by the factor `worth`
 // that makes up for their cost. A method is dropped only if the steps that speak against it count
-// for more than what was known before. In training, each method keeps at least the share `explore`,
-// because a method that is not asked cannot earn anything.
+// for more than what was known before. In training, each method keeps its part of the share
+// `explore`, because a method that is not asked cannot earn anything.
 //
 // A method that is left out of the rest of the render has no share from then on.
 //

@@ -32,7 +32,7 @@ std::unique_ptr<const PreparedIntegrator> prepare_faulty(
 
 /// The integrator `Right` with a fault. Its own settings are under `settings`.
 template <class Right>
-class Faulty final : public Integrator {
+class Faulty : public Integrator {
  public:
   struct Settings {
     PlantedFault fault = PlantedFault::none;
@@ -56,6 +56,15 @@ class Faulty final : public Integrator {
   Right right_;
 };
 
+/// Paths from the lens are weighted as if all pixels had the same number of samples. The weights of
+/// paths from lights are right.
+class ShareBlind final : public Faulty<BidirectionalIntegrator> {
+ public:
+  using Settings = NoSettings;
+  explicit ShareBlind(const Settings&)
+      : Faulty(Faulty::Settings{.fault = PlantedFault::pixel_shares_forgotten, .right = {}}) {}
+};
+
 }  // namespace
 }  // namespace pharos
 
@@ -65,5 +74,6 @@ PHAROS_MODULE(registry) {
   registry.add<Faulty<LightIntegrator>>("faulty_light", "Light tracing with a planted fault");
   registry.add<Faulty<BidirectionalIntegrator>>("faulty_bidirectional",
                                                 "Bidirectional path tracing with a planted fault");
+  registry.add<ShareBlind>("share_blind", "Bidirectional path tracing that forgets pixel shares");
   registry.add<pharos::testing::FoldingGuider>("folding", "Directions of another guider, folded");
 }

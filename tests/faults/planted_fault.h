@@ -23,6 +23,7 @@ enum class PlantedFault {
                                 ///< reach light, and omit the density of distances
   camera_cosine_forgotten,      ///< emitting surfaces seen from the lens are not foreshortened
   reverse_density_forgotten,    ///< MIS weights of paths from the lens ignore light paths
+  pixel_shares_forgotten,       ///< paths from the lens are weighted as if pixels had even shares
   shares_forgotten,             ///< MIS weights of emission omit the shares of the techniques
   shares_learned_too_early,     ///< a step is weighted by shares that were learned from it
   resampling_unweighted,        ///< steps chosen among candidates do not represent the others
@@ -40,6 +41,7 @@ struct EnumNames<PlantedFault> {
        {"boundaries_count_as_origins", PlantedFault::boundaries_count_as_origins},
        {"camera_cosine_forgotten", PlantedFault::camera_cosine_forgotten},
        {"reverse_density_forgotten", PlantedFault::reverse_density_forgotten},
+       {"pixel_shares_forgotten", PlantedFault::pixel_shares_forgotten},
        {"shares_forgotten", PlantedFault::shares_forgotten},
        {"shares_learned_too_early", PlantedFault::shares_learned_too_early},
        {"resampling_unweighted", PlantedFault::resampling_unweighted}});
@@ -130,6 +132,11 @@ struct FaultyRules : EstimatorRules {
   }
   static float resampling_weight(float weight) {
     return planted(PlantedFault::resampling_unweighted) ? 1 : weight;
+  }
+  static double first_density(double density, double share) {
+    return planted(PlantedFault::pixel_shares_forgotten)
+               ? density
+               : EstimatorRules::first_density(density, share);
   }
   static double reverse_density(double density) {
     return planted(PlantedFault::reverse_density_forgotten) ? 0 : density;

@@ -12,6 +12,8 @@
 #include <pharos/scene/bsdf.h>
 #include <pharos/scene/shape.h>
 
+#include "../support/renders.h"
+
 namespace pharos::testing {
 namespace {
 
@@ -143,6 +145,11 @@ TEST_CASE("fault: the Jacobian lacks the squared distance") {
 }
 TEST_CASE("fault: the Jacobian lacks the cosine") {
   CHECK(red_checks<Square<SquareFault::cosine_forgotten>>().contains("solid_angle"));
+}
+
+TEST_CASE("fault: paths from the lens ignore how samples are shared among the pixels") {
+  const auto report = conformance::check_plugins(registry(), {.names = {"share_blind"}});
+  CHECK(conformance::failed_checks(report) == Names{"pixel_shares"});
 }
 
 }  // namespace pharos::testing

@@ -124,6 +124,7 @@ class Film {
   FilmTile make_tile(PixelRect pixels, const PixelShares& shares = kEvenShares) const {
     return {pixels, pixels_, *filter_, shares};
   }
+  FilmTile make_tile(PixelRect pixels, PixelShares&& shares) const = delete;
 
   void merge(const FilmTile& tile);
   /// Ends a pass of `samples` per pixel and adds it to the mean and the variance. A pass that was

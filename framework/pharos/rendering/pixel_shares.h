@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -28,8 +30,9 @@ class PixelShares {
   /// sample at least if `samples` is not 0.
   std::uint32_t count(int x, int y, std::uint32_t samples) const {
     if (are_even() || samples == 0) return samples;
+    constexpr double kMost = std::numeric_limits<std::uint32_t>::max();
     const double own = std::floor(double{at(x, y)} * samples + 0.5);
-    return own < 1 ? 1u : static_cast<std::uint32_t>(own);
+    return static_cast<std::uint32_t>(std::clamp(own, 1.0, kMost));
   }
 
   void archive(Archive& archive);

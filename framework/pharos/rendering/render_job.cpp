@@ -10,12 +10,12 @@
 #include <pharos/core/error.h>
 #include <pharos/core/saved_bytes.h>
 #include <pharos/core/stopwatch.h>
-#include <pharos/rendering/image_combiner.h>
 #include <pharos/rendering/iteration_state.h>
 #include <pharos/rendering/pixel_noise.h>
 #include <pharos/rendering/prepared_render.h>
 #include <pharos/rendering/rank_helper.h>
 #include <pharos/rendering/rank_leader.h>
+#include <pharos/rendering/render_images.h>
 #include <pharos/rendering/render_job.h>
 #include <pharos/rendering/schedule.h>
 #include <pharos/rendering/unit_plan.h>
@@ -36,8 +36,7 @@ class RenderJob::Implementation {
     watch_.pause([&] { units_ = unit_runner(control.ranks); });
     while (current_ || (!stopped() && begin_iteration())) run_iteration();
     if (stopped()) save_when_stopped();
-    // A render that was stopped during training has only training images to show.
-    result_.image = combiner_.empty() ? last_image_ : combiner_.combine();
+    result_.image = images_->result();
     result_.stopped = stopped();
     result_.invalid_pixels = invalid_colors(result_.image);
     if (guiding_ != nullptr) {
@@ -98,13 +97,11 @@ class RenderJob::Implementation {
     result_ = {};
     schedule_.emplace(prepared_.schedule());
     spending_ = {};
-    combiner_ = ImageCombiner(prepared_.training().latest_images);
-    has_image_ = false;
+    images_.emplace(prepared_.training(), prepared_.make_film().layers());
     noise_ = {};
     shares_ = {};
     current_.reset();
     is_saved_ = false;
-    last_image_ = prepared_.make_film().layers();
     guiding_ = prepared_.make_guiding();
     frame_ = guiding_ == nullptr ? nullptr : guiding_->frame();
   }
@@ -164,7 +161,7 @@ class RenderJob::Implementation {
     units_->begin_iteration(iteration_.training, [this] {
       return saved_bytes([this](Archive& archive) { archive_frozen(archive); });
     });
-    while (begin_pass() && run_passes()) {
+    while (current_->begin_pass(seconds()) && run_passes()) {
       if (control_.on_pass) watch_.pause([&] { show(current_->film); });
     }
     const bool is_stopped = stopped();
@@ -179,31 +176,17 @@ class RenderJob::Implementation {
     const Film& film = state.film;
     const double taken = seconds() - state.start;
     (iteration_.training ? result_.times.training : result_.times.rendering) += taken;
-    // A film that was stopped during its first pass has holes. It is used only if there is no
-    // other.
-    if (film.complete_passes() > 0 || !has_image_) last_image_ = film.layers();
-    has_image_ |= film.complete_passes() > 0;
+    images_->add(film, iteration_.training, result_.samples_per_pixel);
     if (iteration_.training && adapts_pixels() && !guides_camera()) noise_.add(film);
-    if (keeps_image() && film.complete_passes() > 0) {
-      combiner_.add(film, result_.samples_per_pixel);
-    }
     result_.samples_per_pixel += film.samples_per_pixel();
     spending_.samples += state.done;
     spending_.seconds_per_sample = taken / std::max(state.done, 1u);
     if (iteration_.training && !is_stopped) update_guiding(state.done, taken);
   }
 
-  /// Returns whether the image of the current iteration is part of the result.
-  bool keeps_image() const {
-    return !iteration_.training || prepared_.training().images == TrainingImages::combine;
-  }
-
   void show(const Film& film) const {
     const auto image = [&] {
-      if (!keeps_image() || combiner_.empty()) return film.layers();
-      ImageCombiner combiner = combiner_;
-      combiner.add(film, result_.samples_per_pixel);
-      return combiner.combine();
+      return images_->result_with(film, iteration_.training, result_.samples_per_pixel);
     };
     control_.on_pass({progress(film.samples_per_pixel()), image});
   }
@@ -243,29 +226,12 @@ class RenderJob::Implementation {
     return training.recorded(static_cast<std::uint32_t>(std::clamp(wanted, 1.0, 1e9)));
   }
 
-  /// Makes the next pass the current one unless there is one. Returns false if the iteration is
-  /// over.
-  bool begin_pass() {
-    IterationState& now = *current_;
-    if (now.pass == 0) now.pass = now.sizes.next(now.done, seconds());
-    return now.pass > 0;
-  }
-
-  /// Returns the units of the current pass that are not rendered yet. The units of all later passes
-  /// follow, unless the clock or a viewer is asked between passes. So no thread waits for the end
-  /// of a pass.
+  /// Returns the units that can be rendered now without a question between passes. If neither the
+  /// clock nor a viewer is asked there, these are all units of the iteration that are left. So no
+  /// thread waits for the end of a pass.
   UnitPlan planned_units() const {
-    const IterationState& now = *current_;
-    UnitPlan plan(prepared_.tiles(), iteration_.index);
-    plan.add(now.done, now.pass, now.sizes.unit(now.done), now.units);
-    if (iteration_.is_timed() || control_.on_pass) return plan;
-    PassSizes sizes = now.sizes;
-    std::uint32_t done = now.done + now.pass;
-    while (const std::uint32_t pass = sizes.next(done, 0)) {
-      plan.add(done, pass, sizes.unit(done));
-      done += pass;
-    }
-    return plan;
+    const bool all_passes = !iteration_.is_timed() && !control_.on_pass;
+    return current_->units_left(prepared_.tiles(), iteration_.index, all_passes);
   }
 
   /// Renders what planned_units() returns. Returns false if it was stopped early.
@@ -284,13 +250,11 @@ class RenderJob::Implementation {
     };
     const auto take = [&](std::size_t i, WorkResult& work) {
       merge(plan[i], work);
-      if (now.units == unit_count()) {
-        end_pass(true);
-        if (i + 1 < plan.count()) begin_pass();
+      if (now.units == now.unit_count(prepared_.tiles().size())) {
+        now.end_pass(true);
+        if (i + 1 < plan.count()) now.begin_pass(seconds());
       }
-      if (control_.on_progress) {
-        control_.on_progress(progress(now.done + now.pixel_samples / film_area()));
-      }
+      if (control_.on_progress) control_.on_progress(progress(now.samples()));
       if (control_.checkpoint.is_due && control_.checkpoint.is_due()) save_state(false);
     };
     units_->run({.count = plan.count(),
@@ -302,23 +266,8 @@ class RenderJob::Implementation {
                  .keeps_going = [&] { return !stopped(); }});
     if (now.pass == 0) return true;
     save_when_stopped();
-    end_pass(false);
+    now.end_pass(false);
     return false;
-  }
-
-  void end_pass(bool complete) {
-    IterationState& now = *current_;
-    if (now.units > 0) now.film.end_pass(now.pixel_samples / film_area(), complete);
-    if (complete) now.done += now.pass;
-    now.pass = 0;
-    now.units = 0;
-    now.pixel_samples = 0;
-  }
-
-  /// Returns the number of work units in the current pass.
-  std::size_t unit_count() const {
-    return UnitPlan::units_of(current_->pass, current_->sizes.unit(current_->done),
-                              prepared_.tiles().size());
   }
 
   bool is_recorded(const WorkUnit& unit) const {
@@ -328,8 +277,7 @@ class RenderJob::Implementation {
 
   /// Adds the result of a work unit to the film and the training data.
   void merge(const WorkUnit& unit, WorkResult& work) {
-    IterationState& now = *current_;
-    now.film.merge(work.film);
+    current_->merge(unit, work.film);
     if (is_recorded(unit)) {
       guiding_->absorb(work.log);
       work.log.clear();
@@ -337,8 +285,6 @@ class RenderJob::Implementation {
     }
     result_.counters += work.counters;
     if (!result_.first_invalid) result_.first_invalid = work.first_invalid;
-    now.pixel_samples += static_cast<double>(unit.pixels.area()) * unit.sample_count;
-    ++now.units;
   }
 
   /// Hands out the state of a render that was stopped, once. Nothing that comes after it belongs to
@@ -373,13 +319,12 @@ class RenderJob::Implementation {
   }
 
   void archive_state(Archive& archive) {
-    archive.heading("render", 3);
+    archive.heading("render", 4);
     double watch_seconds = watch_.seconds();
     archive(watch_seconds, result_.times.training, result_.times.update, result_.times.rendering,
             result_.counters, result_.samples_per_pixel, result_.first_invalid, *schedule_,
-            spending_, iteration_, combiner_, has_image_, noise_);
+            spending_, iteration_, *images_, noise_);
     if (archive.loads()) watch_ = Stopwatch(watch_seconds);
-    if (has_image_ && combiner_.empty()) archive(last_image_);
     if (guiding_ != nullptr) guiding_->archive(archive);
     if (guiding_ != nullptr) frame_ = guiding_->frame();
     bool has_current = current_.has_value();
@@ -393,7 +338,8 @@ class RenderJob::Implementation {
       current_.emplace(begun_iteration(start));
     }
     archive(*current_);
-    archive.expect(current_->units <= unit_count(), "the state of the render");
+    archive.expect(current_->units <= current_->unit_count(prepared_.tiles().size()),
+                   "the state of the render");
   }
 
   /// Saves what other ranks need to render the units of an iteration as this one does, or loads it.
@@ -403,8 +349,6 @@ class RenderJob::Implementation {
     if (has_guides) guiding_->archive_guides(archive);
     if (archive.loads()) frame_ = has_guides ? guiding_->frame() : nullptr;
   }
-
-  double film_area() const { return static_cast<double>(config().film.window().area()); }
 
   /// Returns the progress after `samples` samples per pixel of the current iteration.
   Progress progress(double samples) const {
@@ -429,11 +373,9 @@ class RenderJob::Implementation {
   Spending spending_;
   Iteration iteration_;                    ///< the current one
   std::optional<IterationState> current_;  ///< its state; none between two iterations
-  ImageCombiner combiner_{1};
-  Image last_image_;
-  PixelNoise noise_;        ///< of the training images
-  PixelShares shares_;      ///< of the current iteration
-  bool has_image_ = false;  ///< `last_image_` shows at least one whole pass
+  std::optional<RenderImages> images_;
+  PixelNoise noise_;       ///< of the training images
+  PixelShares shares_;     ///< of the current iteration
   bool is_saved_ = false;  ///< the render was stopped or has finished, and has handed out its state
   std::unique_ptr<UnitRunner> units_;
   std::unique_ptr<GuidingState> guiding_;

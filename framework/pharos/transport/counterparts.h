@@ -116,7 +116,7 @@ class LightCounterparts {
   LightChoices lights_;
   const GuidingFrame* guiding_;
   Vec2 u_lens_;
-  FirstSteps first_steps_;
+  FirstSteps<Rules> first_steps_;
   Continuations continuations_;
   SubpathDensities densities_;
   /// Density of the last step [1/sr], or [1/(sr m)] to a volume vertex. It is not used for steps
@@ -230,7 +230,7 @@ class CameraCounterparts {
   const Scene& scene_;
   LightChoices lights_;
   const GuidingFrame* guiding_;
-  FirstSteps first_steps_;
+  FirstSteps<> first_steps_;
   Continuations continuations_;
   SubpathDensities densities_;
   const Light* light_ = nullptr;

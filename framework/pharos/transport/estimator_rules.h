@@ -54,6 +54,10 @@ struct EstimatorRules {
   /// Returns the foreshortening factor of a light that the lens sees, for the cosine at the light.
   static float foreshortening(float cosine) { return cosine; }
 
+  /// Returns the density of the first step of a path from the lens to a pixel of this share, if a
+  /// pixel of share 1 has `density`.
+  static double first_density(double density, double share) { return density * share; }
+
   /// Returns the density with which a path from the other end would take the same step.
   static double reverse_density(double density) { return density; }
 };

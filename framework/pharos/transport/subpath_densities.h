@@ -5,6 +5,7 @@
 
 #include <pharos/core/arena.h>
 #include <pharos/rendering/integrator.h>
+#include <pharos/transport/estimator_rules.h>
 #include <pharos/transport/path_vertex.h>
 #include <pharos/transport/scatter_step.h>
 
@@ -114,7 +115,8 @@ class Continuations {
 };
 
 /// The densities with which paths from the lens begin, including guides of the first vertex and
-/// the shares of the pixels. A pixel of share 2 has twice the density.
+/// the shares of the pixels.
+template <class Rules = EstimatorRules>
 class FirstSteps {
  public:
   /// `arena` is reset by every call.
@@ -130,7 +132,8 @@ class FirstSteps {
   /// film positions.
   double density(const LensPoint& lens, const Way& to, const SensorResponse& seen) const {
     const float direction_pdf = seen.direction_pdf;
-    double density = double{direction_pdf} * share_at(seen.film) * to.target.medium_density;
+    const double in_vacuum = Rules::first_density(direction_pdf, share_at(seen.film));
+    double density = in_vacuum * to.target.medium_density;
     if (guiding_ != nullptr && direction_pdf > 0) {
       arena_.reset();
       ResolvedVertex first = to.target;
