@@ -34,8 +34,8 @@ struct IterationState {
   std::size_t unit_count(std::size_t tiles) const {
     return UnitPlan::units_of(pass, sizes.unit(done), tiles);
   }
-  /// Returns the units of the current pass that are not merged yet, and those of later passes if
-  /// `all_passes` is true. `iteration` is the number of the iteration.
+  /// Returns the units of the current pass that are not merged yet. If `all_passes` is true, the
+  /// units of all later passes follow. `iteration` is the number of the iteration.
   UnitPlan units_left(const std::vector<PixelRect>& tiles, std::uint32_t iteration,
                       bool all_passes) const;
   /// Returns the number of samples per pixel so far.

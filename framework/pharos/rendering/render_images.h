@@ -8,8 +8,8 @@
 
 namespace pharos {
 
-/// The images of the iterations of a render. Those that are part of the result are combined. A
-/// render that was stopped before there are any shows the image of its last iteration.
+/// The images of the iterations of a render. Those that are part of the result are combined. As
+/// long as there are none of these, the image of the last iteration is the result.
 class RenderImages {
  public:
   /// `blank` is the image of a render without iterations.

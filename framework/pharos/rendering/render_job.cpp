@@ -226,9 +226,9 @@ class RenderJob::Implementation {
     return training.recorded(static_cast<std::uint32_t>(std::clamp(wanted, 1.0, 1e9)));
   }
 
-  /// Returns the units that can be rendered now without a question between passes. If neither the
-  /// clock nor a viewer is asked there, these are all units of the iteration that are left. So no
-  /// thread waits for the end of a pass.
+  /// Returns the rest of the current pass. If neither the clock nor a viewer is asked between
+  /// passes, all later passes of the iteration follow, so that no thread waits for the end of a
+  /// pass.
   UnitPlan planned_units() const {
     const bool all_passes = !iteration_.is_timed() && !control_.on_pass;
     return current_->units_left(prepared_.tiles(), iteration_.index, all_passes);
