@@ -33,6 +33,15 @@ void PracticalPathGuidingSettings::describe(Schema<PracticalPathGuidingSettings>
           "of the second moment of reflected radiance (`product`) or of the contribution relative "
           "to the pixel (`relative`, variance-aware)");
   s.field(
+      "light_hits", &S::light_hits,
+      "What steps learn that hit a light which light samples also reach: the light with its MIS "
+      "weight (`weighted`), or nothing (`left_out`)");
+  s.field("memory", &S::memory,
+          "Part of the sums in the trees that stays for the next iteration. 0: every iteration "
+          "begins anew, 1: all samples count alike")
+      .at_least(0)
+      .at_most(1);
+  s.field(
        "pixel_radius", &S::pixel_radius,
        "For `relative`: pixel values are averaged over pixels up to this far away along both axes")
       .at_least(0)

@@ -30,6 +30,8 @@ struct PracticalPathGuidingSettings {
   SpatialFilter spatial_filter = SpatialFilter::stochastic;
   DirectionalFilter directional_filter = DirectionalFilter::box;
   GuidingTarget target = GuidingTarget::radiance;
+  LightHits light_hits = LightHits::weighted;
+  double memory = 0;
   int pixel_radius = 2;
   double least_pixel = 0.01;
   std::uint32_t batch_records = 1u << 20;

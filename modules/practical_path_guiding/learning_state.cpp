@@ -51,7 +51,7 @@ void PracticalPathGuidingLearningState::absorb(const PathLog& log) {
   for (std::size_t i = 0; i < log.size(); ++i) {
     const PathView path = log[i];
     if (path.transport != Transport::radiance) continue;
-    extract_records(path, settings_.target, pixels_, incident_, records_);
+    extract_records(path, settings_.target, settings_.light_hits, pixels_, incident_, records_);
     ++paths_;
     if (settings_.target != GuidingTarget::relative) continue;
     const double value = value_of(path, incident_);
@@ -81,6 +81,7 @@ void PracticalPathGuidingLearningState::flush() {
     for (std::size_t k = first[i]; k < first[i + 1]; ++k) {
       const Record& record = records_[k];
       ++cell.records;
+      ++cell.weight;
       if (record.value == 0) continue;
       cell.light += record.value;
       if (settings_.directional_filter == DirectionalFilter::box) {
@@ -120,11 +121,12 @@ void PracticalPathGuidingLearningState::conclude(Cell& cell) const {
   // A cell that found no light keeps its density.
   if (cell.learning.total() > 0) {
     cell.known = cell.learning.density(leaf_mass());
-    cell.known_light = static_cast<float>(cell.light / cell.records);
-    cell.known_records = static_cast<float>(cell.records);
-    cell.learning = cell.learning.refined(leaf_mass(), refinement());
+    cell.known_light = static_cast<float>(cell.light / cell.weight);
+    cell.known_records = static_cast<float>(cell.weight);
+    cell.learning = cell.learning.refined(leaf_mass(), refinement(), settings_.memory);
   }
-  cell.light = 0;
+  cell.light *= settings_.memory;
+  cell.weight *= settings_.memory;
 }
 
 void PracticalPathGuidingLearningState::halve(std::uint32_t leaf, std::uint32_t cell,
@@ -135,6 +137,9 @@ void PracticalPathGuidingLearningState::halve(std::uint32_t leaf, std::uint32_t 
   const KdTree::Halves places = tree_.divide(leaf, axis, parts[1].low[axis]);
   const auto added = static_cast<std::uint32_t>(cells_.size());
   cells_[cell].records /= 2;
+  cells_[cell].light /= 2;
+  cells_[cell].weight /= 2;
+  cells_[cell].learning.scale(0.5);
   ++cells_[cell].level;
   cells_.push_back(cells_[cell]);
   origins_.push_back(origins_[cell]);
@@ -154,7 +159,7 @@ std::shared_ptr<const GuidingModel> PracticalPathGuidingLearningState::model() c
 }
 
 void PracticalPathGuidingLearningState::archive(Archive& archive) {
-  archive.heading("practical_path_guiding_learning", 2);
+  archive.heading("practical_path_guiding_learning", 3);
   archive(tree_, origins_, pixels_, batches_, paths_, records_);
   archive.list(cells_, [&] { return Cell{.box = {}, .learning = QuadTree(refinement())}; });
   if (!archive.loads()) return;
@@ -165,7 +170,7 @@ void PracticalPathGuidingLearningState::archive(Archive& archive) {
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     const Cell& cell = cells_[i];
     expect(origins_[i] <= i && cell.level == levels[leaves[i]] && !cell.box.empty() &&
-           is_density(cell.known) && cell.records >= 0 && cell.light >= 0 &&
+           is_density(cell.known) && cell.records >= 0 && cell.light >= 0 && cell.weight >= 0 &&
            cell.known_light >= 0 && cell.known_records >= 0);
   }
 }

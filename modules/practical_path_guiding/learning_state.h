@@ -32,15 +32,16 @@ class PracticalPathGuidingLearningState final : public LearningState {
     Bounds3 box;
     int level = 0;       ///< number of planes above the cell
     double records = 0;  ///< number of records in this iteration
-    double light = 0;    ///< sum of the values of these records
-    QuadTree learning;   ///< tree that accumulates this iteration
+    QuadTree learning;   ///< tree that accumulates this iteration and what is kept of earlier ones
+    double light = 0;    ///< sum of the values in `learning`
+    double weight = 0;   ///< number of the records behind `light`
     /// Density of the last iteration that found light in the cell; empty: nothing known.
     std::vector<QuadNode> known;
     float known_light = 0;    ///< mean value of the records behind `known`
     float known_records = 0;  ///< number of the records behind `known`
 
     void archive(Archive& archive) {
-      archive(box, level, records, light, learning, known, known_light, known_records);
+      archive(box, level, records, learning, light, weight, known, known_light, known_records);
     }
   };
 
@@ -54,8 +55,8 @@ class PracticalPathGuidingLearningState final : public LearningState {
   void flush();
   /// Returns the cell that receives a record, by the spatial filter.
   std::uint32_t cell_for(const Record& record, RandomStream random) const;
-  /// Replaces a cell's known density by what it accumulated in this iteration, and starts a new
-  /// refined tree. Keeps the known density if the iteration found no light in the cell.
+  /// Replaces a cell's known density by what it accumulated, and refines its tree for the next
+  /// iteration. Keeps the known density if the cell found no light.
   void conclude(Cell& cell) const;
   /// Halves a cell, and then its halves, as long as a cell's share of the records is above
   /// `threshold`.

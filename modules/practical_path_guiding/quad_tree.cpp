@@ -16,30 +16,47 @@ double sum_of(const double (&masses)[4]) {
 
 /// Divides quarters with more than the threshold's share of `total`, from the root down.
 struct QuadTree::Growth {
-  const QuadRefinement& rule;
-  const std::vector<Node>& old;
-  double total;
-  std::vector<Node> nodes;
+  /// A square of the old tree, or a part of one of its leaves.
+  struct Square {
+    std::uint32_t node = 0;  ///< index of the old node; 0 below the root: within an old leaf
+    double mass = 0;         ///< decides about divisions
+    double sum = 0;          ///< of the added values that are kept
+  };
 
-  /// Adds a node at a depth (1 for the root) and its descendants; returns its index. The masses are
-  /// those of the old node `was`. Below an old leaf, `was` is null and `mass` is spread evenly.
-  std::uint32_t grow(int depth, const Node* was, double mass) {
+  const QuadRefinement& rule;
+  double total;
+  std::vector<Node> masses = {}, sums = {};  ///< of the old tree; empty: there is none
+  double kept = 0;
+  std::vector<Node> nodes = {};
+
+  /// Returns a quarter of a square at a depth (1 for the root).
+  Square quarter_of(const Square& square, int depth, int q) const {
+    const bool in_leaf = masses.empty() || (square.node == 0 && depth > 1);
+    if (in_leaf) return {0, square.mass / 4, square.sum / 4};
+    const Node& old = masses[square.node];
+    return {old.child[q], old.mass[q], kept * sums[square.node].mass[q]};
+  }
+
+  /// Adds a node for a square at a depth (1 for the root), and its descendants. Returns its index.
+  std::uint32_t grow(int depth, const Square& square) {
     const auto index = static_cast<std::uint32_t>(nodes.size());
     nodes.emplace_back();
     for (int q = 0; q < 4; ++q) {
-      const double own = was != nullptr ? was->mass[q] : mass / 4;
-      if (depth >= rule.max_depth || !(own > rule.threshold * total)) continue;
-      const std::uint32_t below = was != nullptr ? was->child[q] : 0;
-      const std::uint32_t child = grow(depth + 1, below != 0 ? &old[below] : nullptr, own);
-      nodes[index].child[q] = child;
+      const Square quarter = quarter_of(square, depth, q);
+      if (depth < rule.max_depth && quarter.mass > rule.threshold * total) {
+        const std::uint32_t child = grow(depth + 1, quarter);
+        nodes[index].child[q] = child;
+      } else {
+        nodes[index].mass[q] = quarter.sum;
+      }
     }
     return index;
   }
 };
 
 QuadTree::QuadTree(const QuadRefinement& rule) {
-  Growth growth{rule, {}, 1, {}};
-  growth.grow(1, nullptr, 1);
+  Growth growth{rule, 1};
+  growth.grow(1, {.mass = 1});
   nodes_ = std::move(growth.nodes);
 }
 
@@ -106,6 +123,12 @@ double QuadTree::total() const {
   return total;
 }
 
+void QuadTree::scale(double factor) {
+  for (Node& node : nodes_) {
+    for (double& mass : node.mass) mass *= factor;
+  }
+}
+
 std::vector<QuadTree::Node> QuadTree::with_masses(LeafMass kind) const {
   std::vector<Node> nodes = nodes_;
   std::vector<double> areas(nodes.size(), 1);  // areas of the nodes' squares [1]
@@ -144,12 +167,12 @@ std::vector<QuadNode> QuadTree::density(LeafMass kind) const {
   return nodes;
 }
 
-QuadTree QuadTree::refined(LeafMass kind, const QuadRefinement& rule) const {
-  const std::vector<Node> masses = with_masses(kind);
+QuadTree QuadTree::refined(LeafMass kind, const QuadRefinement& rule, double kept) const {
+  std::vector<Node> masses = with_masses(kind);
   const double total = sum_of(masses[0].mass);
   if (!(total > 0)) return QuadTree(rule);
-  Growth growth{rule, masses, total, {}};
-  growth.grow(1, &masses[0], total);
+  Growth growth{rule, total, std::move(masses), with_masses(LeafMass::sum), kept};
+  growth.grow(1, {});
   QuadTree tree;
   tree.nodes_ = std::move(growth.nodes);
   return tree;

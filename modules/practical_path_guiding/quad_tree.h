@@ -40,9 +40,12 @@ class QuadTree {
 
   /// Returns the density for the masses of the leaves, which must not all be zero.
   std::vector<QuadNode> density(LeafMass kind) const;
-  /// Returns an empty tree refined for these masses: quarters with more than the threshold's share
-  /// are divided, others are collapsed.
-  QuadTree refined(LeafMass kind, const QuadRefinement& rule) const;
+  /// Returns a tree refined for these masses: quarters with more than the threshold's share are
+  /// divided, others are collapsed. It keeps the part `kept` of all added values, those of a
+  /// divided leaf spread evenly over its square.
+  QuadTree refined(LeafMass kind, const QuadRefinement& rule, double kept = 0) const;
+  /// Multiplies all added values by a factor.
+  void scale(double factor);
 
   std::size_t node_count() const { return nodes_.size(); }
 

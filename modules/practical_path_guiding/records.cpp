@@ -3,7 +3,6 @@
 #include <limits>
 
 #include <pharos/core/warp.h>
-#include <pharos/guiding/toolkit/guidable_steps.h>
 
 namespace pharos::practical_path_guiding {
 namespace {
@@ -20,10 +19,11 @@ double value_of(const GuidableStep& step, GuidingTarget target, double pixel) {
 
 }  // namespace
 
-void extract_records(const PathView& path, GuidingTarget target, const PixelEstimates& pixels,
-                     std::vector<Rgb>& incident, std::vector<Record>& records) {
+void extract_records(const PathView& path, GuidingTarget target, LightHits hits,
+                     const PixelEstimates& pixels, std::vector<Rgb>& incident,
+                     std::vector<Record>& records) {
   const double pixel = target == GuidingTarget::relative ? pixels.at(path.film) : 1;
-  for_each_guidable_step(path, incident, [&](const GuidableStep& step) {
+  for_each_guidable_step(path, hits, incident, [&](const GuidableStep& step) {
     const double value = value_of(step, target, pixel);
     // An infinite value would stay in the sums forever.
     if (!(value >= 0) || !(value < std::numeric_limits<float>::max())) return;

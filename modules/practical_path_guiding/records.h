@@ -7,6 +7,7 @@
 
 #include <pharos/config/values.h>
 #include <pharos/guiding/record/path_record.h>
+#include <pharos/guiding/toolkit/guidable_steps.h>
 
 #include "pixel_estimates.h"
 
@@ -35,8 +36,9 @@ struct Record {
 
 /// Appends the guidable steps of a path. The target `relative` uses `pixels`. `incident` is scratch
 /// memory.
-void extract_records(const PathView& path, GuidingTarget target, const PixelEstimates& pixels,
-                     std::vector<Rgb>& incident, std::vector<Record>& records);
+void extract_records(const PathView& path, GuidingTarget target, LightHits hits,
+                     const PixelEstimates& pixels, std::vector<Rgb>& incident,
+                     std::vector<Record>& records);
 
 }  // namespace practical_path_guiding
 

@@ -191,6 +191,34 @@ TEST_CASE("a cell that finds nothing keeps what it knew; without light there is 
   CHECK(after->density(at, &to_lamp) == before->density(at, &to_lamp));
 }
 
+TEST_CASE("with a memory, earlier iterations count as much as they are told to") {
+  const Point3 at{0.5f, 0.5f, 0};
+  for (const double memory : {0.0, 0.5, 1.0}) {
+    PracticalPathGuidingSettings settings = small_settings();
+    settings.spatial_depth = 0;
+    settings.memory = memory;
+    const auto state = PracticalPathGuidingLearner(settings).begin(context());
+    Learned learned;
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      state->absorb(lamp_paths(1000, i));
+      learned = state->update({i, 2 - i});
+    }
+    CHECK(as_tree(learned.model).place({.position = at}).evidence ==
+          doctest::Approx(1000 * (1 + memory + memory * memory)));
+  }
+}
+
+TEST_CASE("halves of a cell have half of its memory each") {
+  PracticalPathGuidingSettings settings = small_settings();
+  settings.memory = 1;
+  const auto state = PracticalPathGuidingLearner(settings).begin(context());
+  state->absorb(lamp_paths(3000, 1));
+  REQUIRE(state->update({0, 1}).model->info().regions == 8);
+  // Nothing new was found, so that each of the eight cells knows what it got.
+  const auto model = state->update({1, 0}).model;
+  CHECK(as_tree(model).place({.position = {0.5f, 0.5f, 0}}).evidence == doctest::Approx(375));
+}
+
 /// Returns paths with one guidable step each. Radiance (1, 2, 6) arrives from all directions within
 /// 60 degrees of +z. Half of the steps are uniform over these directions, half over all directions.
 PathLog cone_paths(int count, std::uint64_t seed) {

@@ -140,6 +140,49 @@ TEST_CASE("quarters are divided exactly where they have more than their share") 
   }
 }
 
+TEST_CASE("a refined tree keeps the part of the sums that it is told to") {
+  const QuadTree tree = peaked({0.3f, 0.7f});
+  for (const LeafMass kind : {LeafMass::sum, LeafMass::root}) {
+    for (const double threshold : {0.3, 0.01, 0.001}) {
+      const QuadTree half = tree.refined(kind, {.threshold = threshold}, 0.5);
+      CHECK(half.node_count() == tree.refined(kind, {.threshold = threshold}).node_count());
+      CHECK(half.total() == doctest::Approx(0.5 * tree.total()).epsilon(1e-12));
+      // Both densities have the same integral over a square that no leaf of either tree exceeds.
+      const std::vector<QuadNode> before = tree.density(LeafMass::sum);
+      const std::vector<QuadNode> after = half.density(LeafMass::sum);
+      double least = 1, most = 1;
+      for (int q = 0; q < 4; ++q) {
+        const auto mass = [&](const std::vector<QuadNode>& nodes) { return nodes[0].density[q]; };
+        least = std::min(least, double{mass(after) / mass(before)});
+        most = std::max(most, double{mass(after) / mass(before)});
+      }
+      CHECK(least == doctest::Approx(1));
+      CHECK(most == doctest::Approx(1));
+    }
+  }
+  // Finer leaves share what a leaf had.
+  const std::vector<QuadNode> coarse = tree.density(LeafMass::sum);
+  const std::vector<QuadNode> fine =
+      tree.refined(LeafMass::sum, {.threshold = 1e-3}, 1).density(LeafMass::sum);
+  RandomStream random(8);
+  for (int i = 0; i < 1000; ++i) {
+    const Vec2 p = random.next_2d();
+    CHECK(QuadDensity(fine).at(p) == doctest::Approx(QuadDensity(coarse).at(p)));
+  }
+}
+
+TEST_CASE("scaling a tree keeps its density") {
+  QuadTree tree = peaked({0.3f, 0.7f});
+  const std::vector<QuadNode> before = tree.density(LeafMass::sum);
+  const double total = tree.total();
+  tree.scale(0.25);
+  CHECK(tree.total() == doctest::Approx(0.25 * total));
+  const std::vector<QuadNode> after = tree.density(LeafMass::sum);
+  for (const Vec2 p : {Vec2{0.3f, 0.7f}, {0.1f, 0.1f}, {0.99f, 0.5f}}) {
+    CHECK(QuadDensity(after).at(p) == doctest::Approx(QuadDensity(before).at(p)));
+  }
+}
+
 TEST_CASE("the box filter keeps what it spreads, over the seam and over the poles") {
   RandomStream random(5);
   const QuadTree start = peaked({0.999f, 0.001f});

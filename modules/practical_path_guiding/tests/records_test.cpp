@@ -28,10 +28,11 @@ PathLog lit_path(Vec2 film = {}) {
   return log;
 }
 
-Record record_of(const PathLog& log, GuidingTarget target, const PixelEstimates& pixels) {
+Record record_of(const PathLog& log, GuidingTarget target, const PixelEstimates& pixels,
+                 LightHits hits = LightHits::weighted) {
   std::vector<Record> records;
   std::vector<Rgb> incident;
-  extract_records(log[0], target, pixels, incident, records);
+  extract_records(log[0], target, hits, pixels, incident, records);
   REQUIRE(records.size() == 1);
   return records[0];
 }
@@ -55,6 +56,26 @@ TEST_CASE("a record says where, whither and what it counts, by target") {
   CHECK(record_of(lit_path(), GuidingTarget::relative, pixels).value ==
         doctest::Approx(4 * 0.36 / 0.5 / 64));
   CHECK(pixels.at({1.5f, 0.5f}) == doctest::Approx(0.04));
+}
+
+TEST_CASE("light that a step hits can be left out, and light from further away stays") {
+  const PixelEstimates pixels({0, 0, 2, 1});
+  const auto value = [&](const PathLog& log, GuidingTarget target, LightHits hits) {
+    return record_of(log, target, pixels, hits).value;
+  };
+  // The lamp of radiance 3 reflects half of a radiance of 4 from behind.
+  PathLog log = lit_path();
+  log.vertex(2).event = Event::smooth_reflect;
+  log.vertex(2).local_weight = Rgb(0.5f);
+  log.add(RecordedVertex{.position = {1, 2, 0}, .parent = 2, .emission = Rgb(4)});
+  using enum LightHits;
+  for (const auto target :
+       {GuidingTarget::radiance, GuidingTarget::product, GuidingTarget::relative}) {
+    CHECK(value(lit_path(), target, left_out) == 0);
+    const double all = value(log, target, weighted), rest = value(log, target, left_out);
+    const double share = rest / all;
+    CHECK(share == doctest::Approx(target == GuidingTarget::radiance ? 0.4 : 0.16));
+  }
 }
 
 TEST_CASE("pixels are averaged with their neighbors") {
