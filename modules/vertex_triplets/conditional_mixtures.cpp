@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "truncated_normal.h"
-
 namespace pharos::vertex_triplets {
 namespace {
 
@@ -31,6 +29,7 @@ struct ConditionalMixtures<P>::Weighed {
   Weighed() {}  // leaves the members uninitialized, so that arrays of it are not cleared
 
   std::array<Float8, P> white;
+  Float8 squared;  ///< sum of the squares of `white`
   Float8 log2_weight;
   std::uint32_t run, group;
 };
@@ -132,7 +131,8 @@ bool ConditionalMixtures<P>::admits(const Mode& mode, const PathPrefix& prefix) 
 template <int P>
 void ConditionalMixtures<P>::weigh(const Group& group, const std::array<float, P>& prefix,
                                    Weighed& weighed) const {
-  Float8 squared{}, farthest{};
+  Float8 farthest{};
+  weighed.squared = Float8{};
   for (int row = 0; row < P; ++row) {
     const int begin = triangle(row);
     Float8 rest = prefix[row] - group.mean[row];
@@ -140,10 +140,10 @@ void ConditionalMixtures<P>::weigh(const Group& group, const std::array<float, P
       rest -= group.factor[begin + column] * weighed.white[column];
     }
     weighed.white[row] = rest * group.factor[begin + row];
-    squared += weighed.white[row] * weighed.white[row];
+    weighed.squared += weighed.white[row] * weighed.white[row];
     farthest = larger(farthest, absolute(weighed.white[row]));
   }
-  const Float8 log2_weight = group.log2_weight - (0.5f * kLog2E) * squared;
+  const Float8 log2_weight = group.log2_weight - (0.5f * kLog2E) * weighed.squared;
   weighed.log2_weight = farthest <= kTruncation ? log2_weight : all8(kNever);
 }
 
@@ -176,6 +176,11 @@ std::span<const NextGroup> ConditionalMixtures<P>::given(std::size_t index,
   Weighed* weighed = arena.make_array<Weighed>(cell.group_count);
   std::size_t count = 0;
   Float8 largest8 = all8(kNever);
+  Mask8 is_near{};
+  // No distance is larger than the truncation, except by rounding.
+  const float most_squared = prefix.most_deviations < kTruncation
+                                 ? P * square(prefix.most_deviations)
+                                 : std::numeric_limits<float>::infinity();
   for (std::uint32_t r = cell.first_run; r < cell.first_run + cell.run_count; ++r) {
     const ModeRun& run = runs_[r];
     if (!admits(run.mode, prefix)) continue;
@@ -185,11 +190,12 @@ std::span<const NextGroup> ConditionalMixtures<P>::given(std::size_t index,
       w.group = g;
       weigh(groups_[g], x, w);
       largest8 = larger(largest8, w.log2_weight);
+      is_near |= (w.log2_weight > kNever) & (w.squared <= most_squared);
     }
   }
   float largest = kNever;
   for (int lane = 0; lane < 8; ++lane) largest = std::max(largest, largest8[lane]);
-  if (largest == kNever) return {};
+  if (largest == kNever || !any(is_near)) return {};
   NextGroup* result = arena.make_array<NextGroup>(count);
   std::size_t survivors = 0;
   Float8 total{};

@@ -11,6 +11,7 @@
 
 #include "component.h"
 #include "next_group.h"
+#include "truncated_normal.h"
 
 namespace pharos::vertex_triplets {
 
@@ -20,6 +21,9 @@ struct PathPrefix {
   Point3 previous, current;  ///< environment vertices are at EnvironmentShell::at()
   VertexKind previous_kind = VertexKind::surface;
   EventMask events = EventMask::all;  ///< events that are possible at `current`
+  /// The largest root mean square distance of the coordinates from the mean of the nearest
+  /// component [standard deviations]. Prefixes that are further away are unknown.
+  float most_deviations = kTruncation;
 };
 
 /// Mixtures over a prefix of P dimensions and the next vertex, one for each cell. Components of the
@@ -57,7 +61,8 @@ class ConditionalMixtures {
 
   /// Returns the mixture of the next vertex given the prefix (eq. 18, 21), allocated in `arena`.
   /// Components are left out if their mode contradicts the prefix or their support does not contain
-  /// it. The shares of the others add up to one. Returns an empty span if no component is left.
+  /// it. The shares of the others add up to one. Returns an empty span if no component is left, or
+  /// if all are further away than PathPrefix::most_deviations.
   std::span<const NextGroup> given(std::size_t cell, const PathPrefix& prefix, Arena& arena) const;
 
  private:

@@ -26,6 +26,13 @@ void VertexTripletsGuiderSettings::describe(Schema<VertexTripletsGuiderSettings>
           "Roughness (square root of GGX alpha, or of 1 - |g|) below which the BSDF or phase "
           "function samples more and more of the directions")
       .above(0);
+  s.field(
+       "prefix_deviations", &VertexTripletsGuiderSettings::prefix_deviations,
+       "Guides only after prefixes whose coordinates are, as a root mean square, at most this many "
+       "standard deviations away from the mean of a component. The truncation of the components "
+       "limits the distance to 4")
+      .above(0)
+      .at_most(kTruncation);
   s.field("guide_camera", &VertexTripletsGuiderSettings::guide_camera,
           "Guide first vertices, and with them the choice of pixels");
 }
@@ -43,8 +50,8 @@ const GuidingDistribution* VertexTripletsGuider::query(const VertexTripletsModel
   if (query.current.kind == VertexKind::sensor) {
     return arena.make<FirstDistribution>(model.camera(), query.current.position);
   }
-  const std::span<const NextGroup> next =
-      model.next_vertices(query, possible_events(*query.scattering), arena);
+  const std::span<const NextGroup> next = model.next_vertices(
+      query, possible_events(*query.scattering), arena, settings_.prefix_deviations);
   if (next.empty()) return nullptr;
   constexpr float kLeastDistance = 1e-6f;  // relative to the cell's edge
   return NextDistribution::make(next, *query.scattering, query.current.position,

@@ -12,6 +12,7 @@ namespace pharos::vertex_triplets {
 struct VertexTripletsGuiderSettings {
   SurfaceTechnique surfaces = SurfaceTechnique::projected;
   float specular_roughness = 0.2f;
+  float prefix_deviations = kTruncation;
   bool guide_camera = true;
   static void describe(Schema<VertexTripletsGuiderSettings>& schema);
 };

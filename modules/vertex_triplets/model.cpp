@@ -98,8 +98,8 @@ double VertexTripletsModel::density(Point3 point, const Vec3* direction) const {
 }
 
 std::span<const NextGroup> VertexTripletsModel::next_vertices(const GuidingQuery& query,
-                                                              EventMask events,
-                                                              Arena& arena) const {
+                                                              EventMask events, Arena& arena,
+                                                              float most_deviations) const {
   const bool from_lights = query.transport == Transport::importance;
   if (query.previous == nullptr || (from_lights && !kind_.both_ways)) return {};
   const Point3 current = query.current.position;
@@ -109,7 +109,8 @@ std::span<const NextGroup> VertexTripletsModel::next_vertices(const GuidingQuery
                                           : query.previous->position,
                           .current = current,
                           .previous_kind = query.previous->kind,
-                          .events = events};
+                          .events = events,
+                          .most_deviations = most_deviations};
   const std::uint32_t cell = query.region;
   if (kind_.prefix == Prefix::pair) return pairs_.given(cell, prefix, arena);
   return (from_lights ? reversed_ : triplets_).given(cell, prefix, arena);

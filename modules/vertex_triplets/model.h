@@ -57,9 +57,9 @@ class VertexTripletsModel final : public GuidingModel, public SpatialMixture {
                                               Arena& arena) const override;
 
   /// Returns the mixture over the next vertex, for events among `events`, allocated in `arena`. It
-  /// is empty if nothing is known.
+  /// is empty if nothing is known. `most_deviations`: see PathPrefix.
   std::span<const NextGroup> next_vertices(const GuidingQuery& query, EventMask events,
-                                           Arena& arena) const;
+                                           Arena& arena, float most_deviations = kTruncation) const;
   const CameraMixture& camera() const { return camera_; }
   const ModelKind& kind() const { return kind_; }
   std::size_t component_count() const {

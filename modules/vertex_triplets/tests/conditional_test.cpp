@@ -174,6 +174,32 @@ TEST_CASE("conditional: beyond four standard deviations nothing is known") {
   }
 }
 
+TEST_CASE("conditional: prefixes can be unknown nearer than the truncation") {
+  Gaussian<9> g;  // a unit one
+  Mixtures mixtures(Mixtures::Direction::from_sensor);
+  mixtures.add_cell(kCenter, std::vector{run_of({g})});
+  Arena arena;
+  const auto is_known = [&](Vec3 previous, Vec3 current) {
+    PathPrefix prefix{.previous = kCenter + previous, .current = kCenter + current};
+    prefix.most_deviations = 1.5f;
+    return !mixtures.given(0, prefix, arena).empty();
+  };
+  const auto all = [](float x) { return Vec3{x, x, x}; };
+  CHECK(is_known(all(1.499f), all(-1.499f)));
+  CHECK(!is_known(all(1.501f), all(-1.501f)));
+  // The root of the mean of the squares decides, not the largest coordinate.
+  CHECK(is_known({3.67f, 0, 0}, {}));  // 3.67^2 / 6 = 1.498^2
+  CHECK(!is_known({0, 0, 0}, {0, 3.68f, 0}));
+  // One component that is near enough suffices.
+  Gaussian<9> other = g;
+  other.mean[0] = 3;
+  mixtures.add_cell(kCenter, std::vector{run_of({g, other})});
+  const PathPrefix between{
+      .previous = kCenter + Vec3{3.7f, 0, 0}, .current = kCenter, .most_deviations = 1.5f};
+  CHECK(mixtures.given(0, between, arena).empty());
+  CHECK(vertices_of(mixtures.given(1, between, arena)).size() == 2);
+}
+
 TEST_CASE("conditional: components that contradict the path are left out") {
   using enum VertexKind;
   const auto g = any_gaussians(1, 5);

@@ -60,5 +60,27 @@ TEST_CASE("guides: where reflection is total, nothing aims at transmission") {
   }
 }
 
+TEST_CASE("guides: unlikely prefixes are left to the BSDF if the config says so") {
+  const SurfacePoint surface{.normal = {0, 0, 1}, .shading = Frame::from_normal({0, 0, 1})};
+  const Vec3 back = normalize(Vec3{0.6f, 0, 0.8f});
+  const GuidingVertex previous{.position = {1, 0, 1}};
+  const Pane pane(false);
+  const LocalScattering scattering(surface, pane, back, Transport::radiance);
+  // The prefix of a pair is the current vertex, here 0.6 / sqrt(0.1) = 1.9 deviations away along
+  // one of three axes: 1.1 as a root mean square.
+  const GuidingVertex current{.position = {0.6f, 0, 0}};
+  for (const float most : {1.0f, 1.2f, kTruncation}) {
+    const VertexTripletsGuider guider({.prefix_deviations = most});
+    const BoundGuider bound(guider, pairs_at_a_pane());
+    const GuidingQuery query{.previous = &previous,
+                             .current = current,
+                             .towards_previous = back,
+                             .scattering = &scattering,
+                             .region = bound.model().place(current).region};
+    Arena arena;
+    CHECK((bound.query(query, arena) != nullptr) == (most > 1.1f));
+  }
+}
+
 }  // namespace
 }  // namespace pharos::vertex_triplets
