@@ -7,8 +7,7 @@
 
 #include <pharos/config/values.h>
 #include <pharos/guiding/record/path_record.h>
-
-#include "pixel_estimates.h"
+#include <pharos/guiding/toolkit/pixel_estimates.h>
 
 namespace pharos {
 namespace practical_path_guiding {
