@@ -1,6 +1,7 @@
 #include "learning_state.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include <pharos/core/counting_sort.h>
@@ -42,12 +43,32 @@ VertexTripletsLearningState::VertexTripletsLearningState(const VertexTripletsSet
                                  .tolerance = settings.em_tolerance}}},
       seed_(context.seed),
       tree_(cube_around(context.region)),
-      cells_{Cell{Reservoir(settings.reservoir)}} {}
+      cells_{Cell{Reservoir(settings.reservoir)}},
+      pixels_(settings.weights == SampleWeights::relative ? context.window : PixelRect{}) {}
 
 void VertexTripletsLearningState::absorb(const PathLog& log) {
-  const SampleRule rule{rule_.kind.environment, settings_.light_paths};
-  for (std::size_t i = 0; i < log.size(); ++i) extract_samples(log[i], rule, incident_, samples_);
+  SampleRule rule{.environment = rule_.kind.environment,
+                  .light_paths = settings_.light_paths,
+                  .light_samples = settings_.light_samples,
+                  .suffixes = settings_.weights == SampleWeights::suffix};
+  for (std::size_t i = 0; i < log.size(); ++i) {
+    const PathView path = log[i];
+    const bool is_relative = settings_.weights == SampleWeights::relative;
+    if (is_relative && path.transport == Transport::importance) continue;
+    if (is_relative) rule.scale = static_cast<float>(pixels_.mean() / pixels_.at(path.film));
+    extract_samples(path, rule, incident_, samples_);
+    if (is_relative) add_to_pixel(path);
+  }
   if (samples_.size() >= kBatch) insert();
+}
+
+void VertexTripletsLearningState::add_to_pixel(const PathView& path) {
+  const RecordedVertex& lens = path.vertices[0];
+  const double value = luminance(lens.throughput * lens.local_weight * incident_[0]);
+  const std::span<const Technique> techniques = path.techniques(lens);
+  // A guide of the camera chooses some pixels more often than others.
+  const double paths = techniques.empty() ? 1 : double{techniques[0].density} / lens.pdf;
+  if (std::isfinite(value) && std::isfinite(paths)) pixels_.add(path.film, value, paths);
 }
 
 std::uint32_t VertexTripletsLearningState::jittered_cell(const Sample& sample,
@@ -86,6 +107,7 @@ Learned VertexTripletsLearningState::update(const TrainingStage&) {
   camera_region_ = static_cast<std::uint32_t>(cells_.size());
   divide(threshold);
   for (Cell& cell : cells_) cell.count = 0;
+  pixels_.update(settings_.pixel_radius, settings_.least_pixel);
   return learned;
 }
 
@@ -183,8 +205,8 @@ Learned VertexTripletsLearningState::fit() const {
 }
 
 void VertexTripletsLearningState::archive(Archive& archive) {
-  archive.heading("vertex_triplets_learning", 3);
-  archive(camera_region_, lessons_, tree_, samples_);
+  archive.heading("vertex_triplets_learning", 4);
+  archive(camera_region_, lessons_, tree_, samples_, pixels_);
   archive.list(cells_, [&] { return Cell{Reservoir(settings_.reservoir)}; });
   bool is_sound = cells_.size() == tree_.cell_count();
   for (const Cell& cell : cells_) is_sound &= cell.count >= 0;

@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include <pharos/guiding/toolkit/pixel_estimates.h>
+
 #include "cell_fit.h"
 #include "learner.h"
 #include "sample.h"
@@ -38,6 +40,8 @@ class VertexTripletsLearningState final : public LearningState {
   std::vector<double> counts() const;
   void collapse(double threshold);
   void divide(double threshold);
+  /// Adds a path to the estimates of pixels. Requires its radiance in `incident_`.
+  void add_to_pixel(const PathView& path);
   Learned fit() const;
   std::uint64_t sample_bytes() const;
 
@@ -49,6 +53,7 @@ class VertexTripletsLearningState final : public LearningState {
   std::uint32_t camera_region_ = 0;  ///< region of the camera in the last model
   std::uint64_t lessons_ = 0;        ///< number of calls of insert()
   std::vector<Sample> samples_;      ///< samples that wait for insert()
+  PixelEstimates pixels_;            ///< for SampleWeights::relative
   std::vector<Rgb> incident_;        ///< scratch
 };
 
