@@ -1,5 +1,6 @@
 #include "cell_fit.h"
 
+#include <cmath>
 #include <map>
 
 namespace pharos::vertex_triplets {
@@ -79,11 +80,20 @@ Mixture<D> fit_group(const Group& group, const Coordinates<D>& coordinates,
 /// Components with smaller weights are not worth keeping in single precision.
 constexpr double kLeastWeight = 1e-9;
 
+/// Standard deviation of a point that is evenly distributed over a cell, along each axis [edges].
+const double kEvenDeviation = std::sqrt(1.0 / 12);
+
 template <int P>
 typename ConditionalMixtures<P>::Run fit_run(const Mode& mode, const Group& group, double share,
                                              const Cube& cell, const FitRule& rule) {
   const Coordinates<P + 3> coordinates(cell, rule.kind.environment.radius, mode);
-  const Mixture<P + 3> mixture = fit_group(group, coordinates, rule.clusters);
+  ClusterSettings settings = rule.clusters;
+  if (rule.translation) {
+    Regularization& regularization = settings.fit.regularization;
+    regularization.shift = kEvenDeviation;
+    regularization.shift_of_last = kEvenDeviation * cell.size / coordinates.unit[P];
+  }
+  const Mixture<P + 3> mixture = fit_group(group, coordinates, settings);
   typename ConditionalMixtures<P>::Run run{mode, {}};
   for (std::size_t k = 0; k < mixture.size(); ++k) {
     const double weight = share * mixture.weights[k];

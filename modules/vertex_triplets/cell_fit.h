@@ -22,12 +22,20 @@ struct CellFit {
 struct FitRule {
   ModelKind kind;
   ClusterSettings clusters;
+  bool translation = false;  ///< whether the vertices of a single sample have a shift in common
 };
 
 /// Fits mixtures to the samples of a cell: one for each mode (Schuessler et al. 2022, section 6),
 /// and one for each kind of first vertices. Lengths are in units of the cell's edge. Vertices on
 /// the environment are in units of its distance, so the deviation of a single sample is an angle
 /// there.
+///
+/// With `translation`, all vertices of a single sample have a shift in common, in addition to the
+/// published independent deviations: a light path that was found once is expected to be possible
+/// beside itself, in parallel. A single sample does not tell for which part of the cell this
+/// holds. The shift therefore has the variance of a point that is evenly distributed over the
+/// cell, a twelfth of its squared edge along each axis. It fades together with the independent
+/// deviations (eq. 42), because with more samples the covariance shows the correlation itself.
 CellFit fit_cell(const Reservoir& reservoir, const Cube& cell, const FitRule& rule);
 
 }  // namespace pharos::vertex_triplets

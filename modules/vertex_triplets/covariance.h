@@ -16,7 +16,26 @@ struct Regularization {
   bool is_on = true;
   double deviation = 0.1;         ///< of a single point, r in eq. 40
   double least_deviation = 1e-4;  ///< its square is the lower bound of eigenvalues
+  /// Standard deviation of a shift that all vertices of a single point have in common, along each
+  /// axis. 0: the vertices are independent, as published.
+  double shift = 0;
+  double shift_of_last = 0;  ///< the same shift in the unit of the last vertex
 };
+
+/// Returns the covariance of a random shift that all vertices have in common, in addition to eq.
+/// 40: s_i s_j times the identity in each 3 x 3 block, where s is the shift in the unit of the
+/// vertex.
+template <int D>
+Matrix<D> covariance_of_shift(const Regularization& rule) {
+  Matrix<D> covariance = Matrix<D>::Zero();
+  const auto of = [&](int i) { return i + 3 == D ? rule.shift_of_last : rule.shift; };
+  for (int i = 0; i < D; i += 3) {
+    for (int j = 0; j < D; j += 3) {
+      covariance.template block<3, 3>(i, j).diagonal().setConstant(of(i) * of(j));
+    }
+  }
+  return covariance;
+}
 
 /// Returns the isotropic part of a covariance of 3D vertices: each 3 x 3 block is a third of its
 /// trace times the identity (eq. 41). It is positive semidefinite if `sample` is.
@@ -45,6 +64,9 @@ Matrix<D> regularized(const Matrix<D>& sample, double count, const Regularizatio
       of_sample * sample + (1 - of_sample) * of_blocks * isotropic_blocks<D>(sample);
   completed.diagonal().array() +=
       (1 - of_sample) * (1 - of_blocks) * rule.deviation * rule.deviation;
+  if (rule.shift > 0) {
+    completed += (1 - of_sample) * (1 - of_blocks) * covariance_of_shift<D>(rule);
+  }
   return statistics::with_eigenvalues_above<D>(rule.least_deviation * rule.least_deviation,
                                                completed);
 }

@@ -49,6 +49,9 @@ void VertexTripletsSettings::describe(Schema<VertexTripletsSettings>& s) {
   s.field("environment_distance", &S::environment_distance,
           "Distance at which the environment is placed, relative to the diagonal of the scene")
       .above(0);
+  s.field("translation", &S::translation,
+          "Expect paths that are parallel to a single sample: its vertices also get a shift in "
+          "common, by as much as points of the cell differ");
   s.field("light_samples", &S::light_samples,
           "Learn the way to the lights that next event estimation samples; if false, only from "
           "what steps hit and from the light that arrives at the vertices after it");
@@ -65,7 +68,7 @@ void VertexTripletsSettings::describe(Schema<VertexTripletsSettings>& s) {
           "For `relative`: lower bound of the pixel values, relative to the mean of the image")
       .above(0);
   s.example("{ vertices: pairs }");
-  s.example("{ light_samples: false, weights: suffix }");
+  s.example("{ translation: true, light_samples: false, weights: suffix }");
   s.example("{ weights: relative }");
 }
 
