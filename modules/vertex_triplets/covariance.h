@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 #include <pharos/statistics/gaussian.h>
 
@@ -51,6 +52,14 @@ Matrix<D> isotropic_blocks(const Matrix<D>& sample) {
   return blocks;
 }
 
+/// Returns the share of the sample covariance in the regularized covariance of effectively `count`
+/// points: lambda of eq. 44, corrected, with D in place of 9.
+template <int D>
+double share_of_sample(double count) {
+  const double degrees = std::max(count - 1, 0.0);
+  return degrees / (degrees + D);
+}
+
 /// Returns the regularized covariance of effectively `count` >= 1 points with the covariance
 /// `sample` (eq. 39 to 44). The printed equations exchange both shares; here more points give
 /// `sample` a larger share. The 9 of eq. 44 is the number of dimensions D here.
@@ -58,7 +67,7 @@ template <int D>
 Matrix<D> regularized(const Matrix<D>& sample, double count, const Regularization& rule) {
   if (!rule.is_on) return sample;
   const double degrees = std::max(count - 1, 0.0);
-  const double of_sample = degrees / (degrees + D);
+  const double of_sample = share_of_sample<D>(count);
   const double of_blocks = std::min(degrees / 3, 1.0);
   Matrix<D> completed =
       of_sample * sample + (1 - of_sample) * of_blocks * isotropic_blocks<D>(sample);
@@ -69,6 +78,14 @@ Matrix<D> regularized(const Matrix<D>& sample, double count, const Regularizatio
   }
   return statistics::with_eigenvalues_above<D>(rule.least_deviation * rule.least_deviation,
                                                completed);
+}
+
+/// Returns the mean of log N(x) over points whose covariance about the Gaussian's mean is `sample`.
+template <int D>
+double mean_log_density(const Matrix<D>& sample, const Matrix<D>& covariance) {
+  const Eigen::LLT<Matrix<D>> factor(covariance);
+  const double log_determinant = 2 * Matrix<D>(factor.matrixL()).diagonal().array().log().sum();
+  return -0.5 * (D * std::log(2 * EIGEN_PI) + log_determinant + factor.solve(sample).trace());
 }
 
 }  // namespace pharos::vertex_triplets

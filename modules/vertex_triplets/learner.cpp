@@ -49,6 +49,11 @@ void VertexTripletsSettings::describe(Schema<VertexTripletsSettings>& s) {
   s.field("environment_distance", &S::environment_distance,
           "Distance at which the environment is placed, relative to the diagonal of the scene")
       .above(0);
+  s.field(
+       "inherit", &S::inherit,
+       "Number of effective samples for which the mixture of a divided cell counts in the fits of "
+       "its parts. 0: parts are fitted to their own samples alone")
+      .at_least(0);
   s.field("translation", &S::translation,
           "Expect paths that are parallel to a single sample: its vertices also get a shift in "
           "common, by as much as points of the cell differ");
@@ -68,7 +73,7 @@ void VertexTripletsSettings::describe(Schema<VertexTripletsSettings>& s) {
           "For `relative`: lower bound of the pixel values, relative to the mean of the image")
       .above(0);
   s.example("{ vertices: pairs }");
-  s.example("{ translation: true, light_samples: false, weights: suffix }");
+  s.example("{ inherit: 10, translation: true, light_samples: false, weights: suffix }");
   s.example("{ weights: relative }");
 }
 

@@ -25,6 +25,7 @@ struct VertexTripletsSettings {
   int em_iterations = 50;
   double em_tolerance = 1e-3;
   float environment_distance = 5;
+  double inherit = 0;
   bool translation = false;
   bool light_samples = true;
   SampleWeights weights = SampleWeights::path;

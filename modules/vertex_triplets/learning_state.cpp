@@ -41,6 +41,7 @@ VertexTripletsLearningState::VertexTripletsLearningState(const VertexTripletsSet
                                                     .least_deviation = settings.least_deviation},
                                  .most_iterations = settings.em_iterations,
                                  .tolerance = settings.em_tolerance}},
+            .inherit = settings.inherit,
             .translation = settings.translation},
       seed_(context.seed),
       tree_(cube_around(context.region)),
@@ -106,7 +107,7 @@ Learned VertexTripletsLearningState::update(const TrainingStage&) {
   if (learned.model == nullptr) return learned;
   for (std::uint32_t i = 0; i < cells_.size(); ++i) cells_[i].origin = i;
   camera_region_ = static_cast<std::uint32_t>(cells_.size());
-  divide(threshold);
+  divide(threshold, static_cast<const VertexTripletsModel&>(*learned.model));
   for (Cell& cell : cells_) cell.count = 0;
   pixels_.update(settings_.pixel_radius, settings_.least_pixel);
   return learned;
@@ -126,6 +127,7 @@ void VertexTripletsLearningState::collapse(double threshold) {
   for (std::size_t c = 0; c < origins.size(); ++c) {
     joined.push_back(std::move(cells_[origins[c][0]]));
     Cell& cell = joined.back();
+    if (origins[c].size() > 1) cell.inheritance = {};
     RandomStream random(seed_, lessons_, static_cast<std::uint64_t>(Draw::join), c);
     for (const std::uint32_t other : std::span(origins[c]).subspan(1)) {
       cells_[other].reservoir.for_each([&](const Triplet& triplet, double weight) {
@@ -137,7 +139,16 @@ void VertexTripletsLearningState::collapse(double threshold) {
   cells_ = std::move(joined);
 }
 
-void VertexTripletsLearningState::divide(double threshold) {
+void VertexTripletsLearningState::inherit(std::span<Cell> parts, const VertexTripletsModel& model,
+                                          std::uint32_t divided_cell, const Cube& divided) const {
+  if (!(settings_.inherit > 0)) return;
+  const CellKnowledge knowledge = model.knowledge(divided_cell);
+  for (unsigned c = 0; c < parts.size(); ++c) {
+    parts[c].inheritance = inheritance(knowledge, divided, divided.part(c));
+  }
+}
+
+void VertexTripletsLearningState::divide(double threshold, const VertexTripletsModel& model) {
   const Octree before = tree_;
   const Octree::Origins origins = tree_.divide(counts(), threshold);
   std::vector<Cell> divided;
@@ -152,6 +163,7 @@ void VertexTripletsLearningState::divide(double threshold) {
     }
     const std::size_t first = divided.size();
     divided.resize(first + 8, Cell{Reservoir(settings_.reservoir), 0, cell.origin});
+    inherit(std::span(divided).subspan(first), model, from, before.cube(from));
     const Point3 center = before.cube(from).center;
     // The parts share the samples of one reservoir. Therefore none overflows, and no random number
     // is drawn.
@@ -180,8 +192,9 @@ Learned VertexTripletsLearningState::fit() const {
   std::vector<CellFit> fits(cells_.size());
   parallel_for(cells_.size(), [&](std::size_t c) {
     const Reservoir& reservoir = cells_[c].reservoir;
-    if (reservoir.size() == 0) return;
-    fits[c] = fit_cell(reservoir, tree_.cube(static_cast<std::uint32_t>(c)), rule_);
+    const Inheritance& inheritance = cells_[c].inheritance;
+    if (reservoir.size() == 0 && inheritance.empty()) return;
+    fits[c] = fit_cell(reservoir, tree_.cube(static_cast<std::uint32_t>(c)), rule_, inheritance);
   });
   double total = 0;
   for (const CellFit& f : fits) total += f.knowledge.share;
@@ -210,7 +223,11 @@ void VertexTripletsLearningState::archive(Archive& archive) {
   archive(camera_region_, lessons_, tree_, samples_, pixels_);
   archive.list(cells_, [&] { return Cell{Reservoir(settings_.reservoir)}; });
   bool is_sound = cells_.size() == tree_.cell_count();
-  for (const Cell& cell : cells_) is_sound &= cell.count >= 0;
+  const bool pairs = settings_.vertices == Prefix::pair;
+  for (const Cell& cell : cells_) {
+    const Inheritance& inherited = cell.inheritance;
+    is_sound &= cell.count >= 0 && (pairs ? inherited.triplets.empty() : inherited.pairs.empty());
+  }
   archive.expect(is_sound, "what was learned of vertex triplets");
 }
 
