@@ -7,9 +7,9 @@
 #include <pharos/core/random.h>
 #include <pharos/guiding/contract/learner.h>
 #include <pharos/guiding/toolkit/kd_tree.h>
+#include <pharos/guiding/toolkit/pixel_estimates.h>
 
 #include "learner.h"
-#include "pixel_estimates.h"
 #include "quad_tree.h"
 
 namespace pharos::practical_path_guiding {

@@ -8,8 +8,7 @@
 #include <pharos/config/values.h>
 #include <pharos/guiding/record/path_record.h>
 #include <pharos/guiding/toolkit/guidable_steps.h>
-
-#include "pixel_estimates.h"
+#include <pharos/guiding/toolkit/pixel_estimates.h>
 
 namespace pharos {
 namespace practical_path_guiding {

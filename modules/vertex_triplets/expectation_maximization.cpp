@@ -57,6 +57,17 @@ std::vector<Term<D>> terms_of(const Mixture<D>& mixture) {
 /// Number of registers that are processed together, so that their terms stay in the L1 cache.
 constexpr std::size_t kBlock = 8;
 
+/// Returns the mean logarithm of the density over points and believed points.
+template <int D>
+double log_likelihood_with(const Beliefs<D>& beliefs, const Mixture<D>& mixture,
+                           const Expectation<D>& found) {
+  if (beliefs.empty()) return found.log_likelihood;
+  double weight = 0;
+  for (const Sums<D>& sums : found.sums) weight += sums.weight;
+  return (weight * found.log_likelihood + log_prior(mixture, beliefs)) /
+         (weight + weight_of<D>(beliefs));
+}
+
 }  // namespace
 
 template <int D>
@@ -109,37 +120,40 @@ Expectation<D> expectation(const Mixture<D>& mixture, const Points<D>& points) {
 
 template <int D>
 Mixture<D> maximization(const Mixture<D>& mixture, const Expectation<D>& expectation,
-                        const Regularization& rule) {
-  double total = 0;
+                        const Regularization& rule, const Beliefs<D>& beliefs) {
+  double total = weight_of<D>(beliefs);
   for (const Sums<D>& sums : expectation.sums) total += sums.weight;
   Mixture<D> next;
   for (std::size_t k = 0; k < mixture.size(); ++k) {
     const Sums<D>& sums = expectation.sums[k];
-    if (!(sums.weight > 0) || !(sums.squared_weight > 0)) continue;
-    next.weights.push_back(sums.weight / total);
-    next.components.push_back({mixture.components[k].mean + sums.offset(),
-                               regularized<D>(sums.covariance(), sums.count(), rule)});
+    const Belief<D> belief = belief_in(beliefs, k);
+    const bool has_points = sums.weight > 0 && sums.squared_weight > 0;
+    if (!has_points && !(belief.weight > 0)) continue;
+    next.weights.push_back((sums.weight + belief.weight) / total);
+    next.components.push_back(most_probable(sums, mixture.components[k].mean, belief, rule));
   }
   return next;
 }
 
 template <int D>
-Fit<D> fit(const Mixture<D>& start, const Points<D>& points, const FitSettings& settings) {
+Fit<D> fit(const Mixture<D>& start, const Points<D>& points, const FitSettings& settings,
+           const Beliefs<D>& beliefs) {
   Fit<D> best{.log_likelihood = -std::numeric_limits<double>::infinity()};
   Mixture<D> mixture = start;
   double last = 0;
   for (int iteration = 0; iteration < settings.most_iterations; ++iteration) {
     const Expectation<D> found = expectation(mixture, points);
+    const double reached = log_likelihood_with(beliefs, mixture, found);
     best.iterations = iteration + 1;
-    if (found.log_likelihood > best.log_likelihood) {
+    if (reached > best.log_likelihood) {
       best.mixture = mixture;
-      best.log_likelihood = found.log_likelihood;
+      best.log_likelihood = reached;
     }
     constexpr double kLeast = 1e-12;
-    const double change = std::abs(found.log_likelihood - last);
+    const double change = std::abs(reached - last);
     if (iteration > 0 && !(change >= settings.tolerance * std::max(std::abs(last), kLeast))) break;
-    last = found.log_likelihood;
-    mixture = maximization(mixture, found, settings.regularization);
+    last = reached;
+    mixture = maximization(mixture, found, settings.regularization, beliefs);
   }
   return best;
 }
@@ -162,11 +176,12 @@ std::vector<std::size_t> assignment(const Mixture<D>& mixture, const Points<D>& 
 }
 
 // Instances for mixtures at the camera, of pairs and of triplets.
-#define PHAROS_FOR_DIMENSION(D)                                                    \
-  template Expectation<D> expectation<D>(const Mixture<D>&, const Points<D>&);     \
-  template Mixture<D> maximization<D>(const Mixture<D>&, const Expectation<D>&,    \
-                                      const Regularization&);                      \
-  template Fit<D> fit<D>(const Mixture<D>&, const Points<D>&, const FitSettings&); \
+#define PHAROS_FOR_DIMENSION(D)                                                   \
+  template Expectation<D> expectation<D>(const Mixture<D>&, const Points<D>&);    \
+  template Mixture<D> maximization<D>(const Mixture<D>&, const Expectation<D>&,   \
+                                      const Regularization&, const Beliefs<D>&);  \
+  template Fit<D> fit<D>(const Mixture<D>&, const Points<D>&, const FitSettings&, \
+                         const Beliefs<D>&);                                      \
   template std::vector<std::size_t> assignment<D>(const Mixture<D>&, const Points<D>&);
 PHAROS_FOR_DIMENSION(3)
 PHAROS_FOR_DIMENSION(6)

@@ -4,18 +4,13 @@
 #include <cstddef>
 #include <vector>
 
-#include <pharos/statistics/gaussian_mixture.h>
-
-#include "covariance.h"
+#include "belief.h"
 #include "points.h"
 
 /// Expectation-maximization of mixtures of Gaussians with weighted points (Schuessler et al. 2022,
 /// section 6.2). It uses single precision, because points are near the origin, in units of their
 /// cell.
 namespace pharos::vertex_triplets {
-
-template <int D>
-using Mixture = statistics::GaussianMixture<D>;
 
 struct FitSettings {
   Regularization regularization;
@@ -36,24 +31,26 @@ struct Expectation {
 template <int D>
 Expectation<D> expectation(const Mixture<D>& mixture, const Points<D>& points);
 
-/// The M step (eq. 37 with covariances about the new means; eq. 39). Components without points are
-/// left out.
+/// The M step (eq. 37 with covariances about the new means; eq. 39), given beliefs in the first
+/// components. Components without points and belief are left out.
 template <int D>
 Mixture<D> maximization(const Mixture<D>& mixture, const Expectation<D>& expectation,
-                        const Regularization& rule);
+                        const Regularization& rule, const Beliefs<D>& beliefs = {});
 
 /// The result of fit().
 template <int D>
 struct Fit {
   Mixture<D> mixture;
-  double log_likelihood = 0;  ///< as in Expectation
+  double log_likelihood = 0;  ///< as in Expectation, but over points and believed points
   int iterations = 0;
 };
 
 /// Alternates both steps, beginning with `start`, and returns the mixture with the highest
-/// likelihood on the way: with regularization a step may lower the likelihood.
+/// likelihood on the way: with regularization a step may lower the likelihood. The likelihood is
+/// the one of points and believed points.
 template <int D>
-Fit<D> fit(const Mixture<D>& start, const Points<D>& points, const FitSettings& settings);
+Fit<D> fit(const Mixture<D>& start, const Points<D>& points, const FitSettings& settings,
+           const Beliefs<D>& beliefs = {});
 
 /// Returns for each point the most likely component.
 template <int D>

@@ -49,12 +49,42 @@ void VertexTripletsSettings::describe(Schema<VertexTripletsSettings>& s) {
   s.field("environment_distance", &S::environment_distance,
           "Distance at which the environment is placed, relative to the diagonal of the scene")
       .above(0);
+  s.field(
+       "inherit", &S::inherit,
+       "Number of effective samples for which the mixture of a divided cell counts in the fits of "
+       "its parts. 0: parts are fitted to their own samples alone")
+      .at_least(0);
+  s.field("translation", &S::translation,
+          "Expect paths that are parallel to a single sample: its vertices also get a shift in "
+          "common, by as much as points of the cell differ");
+  s.field("light_samples", &S::light_samples,
+          "Learn the way to the lights that next event estimation samples; if false, only from "
+          "what steps hit and from the light that arrives at the vertices after it");
+  s.field("weights", &S::weights,
+          "Weights of samples: the path's part of the image; only the part of the path after the "
+          "sample's first two vertices (`suffix`); or the path's part of its pixel (`relative`). "
+          "With `light_paths` only `path`");
+  s.field(
+       "pixel_radius", &S::pixel_radius,
+       "For `relative`: pixel values are averaged over pixels up to this far away along both axes")
+      .at_least(0)
+      .at_most(16);
+  s.field("least_pixel", &S::least_pixel,
+          "For `relative`: lower bound of the pixel values, relative to the mean of the image")
+      .above(0);
   s.example("{ vertices: pairs }");
+  s.example("{ inherit: 10, translation: true, light_samples: false, weights: suffix }");
+  s.example("{ weights: relative }");
 }
 
 VertexTripletsLearner::VertexTripletsLearner(const Settings& settings) : settings_(settings) {
   if (settings.light_paths && settings.vertices == Prefix::pair) {
     throw InputError("'light_paths' needs 'vertices: triplets': pairs know one way only");
+  }
+  if (settings.light_paths && settings.weights != SampleWeights::path) {
+    throw InputError(
+        "'light_paths' needs 'weights: path': only these weights are comparable between paths from "
+        "both ends");
   }
 }
 

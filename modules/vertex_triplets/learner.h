@@ -7,7 +7,7 @@
 #include <pharos/config/schema.h>
 #include <pharos/guiding/contract/learner.h>
 
-#include "triplet.h"
+#include "sample.h"
 
 namespace pharos::vertex_triplets {
 
@@ -25,6 +25,12 @@ struct VertexTripletsSettings {
   int em_iterations = 50;
   double em_tolerance = 1e-3;
   float environment_distance = 5;
+  double inherit = 0;
+  bool translation = false;
+  bool light_samples = true;
+  SampleWeights weights = SampleWeights::path;
+  int pixel_radius = 2;
+  double least_pixel = 0.01;
 
   static void describe(Schema<VertexTripletsSettings>& schema);
 };
@@ -34,7 +40,7 @@ class VertexTripletsLearner final : public Learner {
  public:
   using Settings = VertexTripletsSettings;
   /// Throws InputError if paths from lights are to be learned from as pairs, because pairs know one
-  /// direction of paths only.
+  /// direction of paths only, or with weights that suit paths from the sensor only.
   explicit VertexTripletsLearner(const Settings& settings);
 
   LearnerTraits traits() const override;
@@ -52,5 +58,12 @@ template <>
 struct EnumNames<vertex_triplets::Prefix> {
   static constexpr auto names = std::to_array<EnumName<vertex_triplets::Prefix>>(
       {{"pairs", vertex_triplets::Prefix::pair}, {"triplets", vertex_triplets::Prefix::triplet}});
+};
+template <>
+struct EnumNames<vertex_triplets::SampleWeights> {
+  static constexpr auto names = std::to_array<EnumName<vertex_triplets::SampleWeights>>(
+      {{"path", vertex_triplets::SampleWeights::path},
+       {"suffix", vertex_triplets::SampleWeights::suffix},
+       {"relative", vertex_triplets::SampleWeights::relative}});
 };
 }  // namespace pharos

@@ -1,6 +1,7 @@
 #include "learning_state.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include <pharos/core/counting_sort.h>
@@ -39,15 +40,37 @@ VertexTripletsLearningState::VertexTripletsLearningState(const VertexTripletsSet
                          .fit = {.regularization = {.deviation = settings.single_deviation,
                                                     .least_deviation = settings.least_deviation},
                                  .most_iterations = settings.em_iterations,
-                                 .tolerance = settings.em_tolerance}}},
+                                 .tolerance = settings.em_tolerance}},
+            .inherit = settings.inherit,
+            .translation = settings.translation},
       seed_(context.seed),
       tree_(cube_around(context.region)),
-      cells_{Cell{Reservoir(settings.reservoir)}} {}
+      cells_{Cell{Reservoir(settings.reservoir)}},
+      pixels_(settings.weights == SampleWeights::relative ? context.window : PixelRect{}) {}
 
 void VertexTripletsLearningState::absorb(const PathLog& log) {
-  const SampleRule rule{rule_.kind.environment, settings_.light_paths};
-  for (std::size_t i = 0; i < log.size(); ++i) extract_samples(log[i], rule, incident_, samples_);
+  SampleRule rule{.environment = rule_.kind.environment,
+                  .light_paths = settings_.light_paths,
+                  .light_samples = settings_.light_samples,
+                  .suffixes = settings_.weights == SampleWeights::suffix};
+  for (std::size_t i = 0; i < log.size(); ++i) {
+    const PathView path = log[i];
+    const bool is_relative = settings_.weights == SampleWeights::relative;
+    if (is_relative && path.transport == Transport::importance) continue;
+    if (is_relative) rule.scale = static_cast<float>(pixels_.mean() / pixels_.at(path.film));
+    extract_samples(path, rule, incident_, samples_);
+    if (is_relative) add_to_pixel(path);
+  }
   if (samples_.size() >= kBatch) insert();
+}
+
+void VertexTripletsLearningState::add_to_pixel(const PathView& path) {
+  const RecordedVertex& lens = path.vertices[0];
+  const double value = luminance(lens.throughput * lens.local_weight * incident_[0]);
+  const std::span<const Technique> techniques = path.techniques(lens);
+  // A guide of the camera chooses some pixels more often than others.
+  const double paths = techniques.empty() ? 1 : double{techniques[0].density} / lens.pdf;
+  if (std::isfinite(value) && std::isfinite(paths)) pixels_.add(path.film, value, paths);
 }
 
 std::uint32_t VertexTripletsLearningState::jittered_cell(const Sample& sample,
@@ -84,8 +107,9 @@ Learned VertexTripletsLearningState::update(const TrainingStage&) {
   if (learned.model == nullptr) return learned;
   for (std::uint32_t i = 0; i < cells_.size(); ++i) cells_[i].origin = i;
   camera_region_ = static_cast<std::uint32_t>(cells_.size());
-  divide(threshold);
+  divide(threshold, static_cast<const VertexTripletsModel&>(*learned.model));
   for (Cell& cell : cells_) cell.count = 0;
+  pixels_.update(settings_.pixel_radius, settings_.least_pixel);
   return learned;
 }
 
@@ -103,6 +127,7 @@ void VertexTripletsLearningState::collapse(double threshold) {
   for (std::size_t c = 0; c < origins.size(); ++c) {
     joined.push_back(std::move(cells_[origins[c][0]]));
     Cell& cell = joined.back();
+    if (origins[c].size() > 1) cell.inheritance = {};
     RandomStream random(seed_, lessons_, static_cast<std::uint64_t>(Draw::join), c);
     for (const std::uint32_t other : std::span(origins[c]).subspan(1)) {
       cells_[other].reservoir.for_each([&](const Triplet& triplet, double weight) {
@@ -114,7 +139,16 @@ void VertexTripletsLearningState::collapse(double threshold) {
   cells_ = std::move(joined);
 }
 
-void VertexTripletsLearningState::divide(double threshold) {
+void VertexTripletsLearningState::inherit(std::span<Cell> parts, const VertexTripletsModel& model,
+                                          std::uint32_t divided_cell, const Cube& divided) const {
+  if (!(settings_.inherit > 0)) return;
+  const CellKnowledge knowledge = model.knowledge(divided_cell);
+  for (unsigned c = 0; c < parts.size(); ++c) {
+    parts[c].inheritance = inheritance(knowledge, divided, divided.part(c));
+  }
+}
+
+void VertexTripletsLearningState::divide(double threshold, const VertexTripletsModel& model) {
   const Octree before = tree_;
   const Octree::Origins origins = tree_.divide(counts(), threshold);
   std::vector<Cell> divided;
@@ -129,6 +163,7 @@ void VertexTripletsLearningState::divide(double threshold) {
     }
     const std::size_t first = divided.size();
     divided.resize(first + 8, Cell{Reservoir(settings_.reservoir), 0, cell.origin});
+    inherit(std::span(divided).subspan(first), model, from, before.cube(from));
     const Point3 center = before.cube(from).center;
     // The parts share the samples of one reservoir. Therefore none overflows, and no random number
     // is drawn.
@@ -157,8 +192,9 @@ Learned VertexTripletsLearningState::fit() const {
   std::vector<CellFit> fits(cells_.size());
   parallel_for(cells_.size(), [&](std::size_t c) {
     const Reservoir& reservoir = cells_[c].reservoir;
-    if (reservoir.size() == 0) return;
-    fits[c] = fit_cell(reservoir, tree_.cube(static_cast<std::uint32_t>(c)), rule_);
+    const Inheritance& inheritance = cells_[c].inheritance;
+    if (reservoir.size() == 0 && inheritance.empty()) return;
+    fits[c] = fit_cell(reservoir, tree_.cube(static_cast<std::uint32_t>(c)), rule_, inheritance);
   });
   double total = 0;
   for (const CellFit& f : fits) total += f.knowledge.share;
@@ -183,11 +219,15 @@ Learned VertexTripletsLearningState::fit() const {
 }
 
 void VertexTripletsLearningState::archive(Archive& archive) {
-  archive.heading("vertex_triplets_learning", 3);
-  archive(camera_region_, lessons_, tree_, samples_);
+  archive.heading("vertex_triplets_learning", 4);
+  archive(camera_region_, lessons_, tree_, samples_, pixels_);
   archive.list(cells_, [&] { return Cell{Reservoir(settings_.reservoir)}; });
   bool is_sound = cells_.size() == tree_.cell_count();
-  for (const Cell& cell : cells_) is_sound &= cell.count >= 0;
+  const bool pairs = settings_.vertices == Prefix::pair;
+  for (const Cell& cell : cells_) {
+    const Inheritance& inherited = cell.inheritance;
+    is_sound &= cell.count >= 0 && (pairs ? inherited.triplets.empty() : inherited.pairs.empty());
+  }
   archive.expect(is_sound, "what was learned of vertex triplets");
 }
 

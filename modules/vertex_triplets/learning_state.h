@@ -1,6 +1,9 @@
 #pragma once
 
+#include <span>
 #include <vector>
+
+#include <pharos/guiding/toolkit/pixel_estimates.h>
 
 #include "cell_fit.h"
 #include "learner.h"
@@ -9,7 +12,8 @@
 namespace pharos::vertex_triplets {
 
 /// The state of learning during one render: samples in the cells of an octree that adapts to them.
-/// Each update fits all mixtures from scratch.
+/// Each update fits all mixtures from scratch. If VertexTripletsSettings::inherit is above 0, the
+/// fits of cells made by division also use the mixtures that they inherited.
 class VertexTripletsLearningState final : public LearningState {
  public:
   VertexTripletsLearningState(const VertexTripletsSettings& settings,
@@ -26,8 +30,12 @@ class VertexTripletsLearningState final : public LearningState {
     double count = 0;  ///< number of samples since the last update
     /// Cell of the last model from which this cell comes; the first one if there are several.
     std::uint32_t origin = 0;
+    /// What the cell inherited when it was made by division. It counts for all fits, until the cell
+    /// is divided itself or joined with others: cells with few samples need it, and it has little
+    /// weight in cells with many. Empty if VertexTripletsSettings::inherit is 0.
+    Inheritance inheritance = {};
 
-    void archive(Archive& archive) { archive(reservoir, count, origin); }
+    void archive(Archive& archive) { archive(reservoir, count, origin, inheritance); }
   };
 
   /// Inserts the waiting samples into the reservoirs of their cells.
@@ -37,7 +45,13 @@ class VertexTripletsLearningState final : public LearningState {
   /// the effective number of the samples that it keeps.
   std::vector<double> counts() const;
   void collapse(double threshold);
-  void divide(double threshold);
+  /// Divides cells. `model` is the model of the cells before.
+  void divide(double threshold, const VertexTripletsModel& model);
+  /// Gives the eight parts of a cell of the model their inheritance.
+  void inherit(std::span<Cell> parts, const VertexTripletsModel& model, std::uint32_t divided_cell,
+               const Cube& divided) const;
+  /// Adds a path to the estimates of pixels. Requires its radiance in `incident_`.
+  void add_to_pixel(const PathView& path);
   Learned fit() const;
   std::uint64_t sample_bytes() const;
 
@@ -49,6 +63,7 @@ class VertexTripletsLearningState final : public LearningState {
   std::uint32_t camera_region_ = 0;  ///< region of the camera in the last model
   std::uint64_t lessons_ = 0;        ///< number of calls of insert()
   std::vector<Sample> samples_;      ///< samples that wait for insert()
+  PixelEstimates pixels_;            ///< for SampleWeights::relative
   std::vector<Rgb> incident_;        ///< scratch
 };
 

@@ -50,7 +50,7 @@ void ModelKind::archive(Archive& archive) {
 void VertexTripletsModel::archive(Archive& archive) {
   std::vector<CellKnowledge> cells;
   for (std::uint32_t i = 0; !archive.loads() && i < tree_.cell_count(); ++i) {
-    cells.push_back({shares_[i], samples_[i], pairs_.runs(i), triplets_.runs(i)});
+    cells.push_back(knowledge(i));
   }
   archive(kind_, sample_bytes_, tree_, cells, camera_);
   if (!archive.loads()) return;
@@ -60,6 +60,10 @@ void VertexTripletsModel::archive(Archive& archive) {
   }
   archive.expect(is_sound, "the model of vertex triplets");
   *this = VertexTripletsModel(kind_, std::move(tree_), cells, std::move(camera_), sample_bytes_);
+}
+
+CellKnowledge VertexTripletsModel::knowledge(std::uint32_t cell) const {
+  return {shares_[cell], samples_[cell], pairs_.runs(cell), triplets_.runs(cell)};
 }
 
 Place VertexTripletsModel::place(const GuidingVertex& vertex) const {

@@ -61,6 +61,8 @@ class VertexTripletsModel final : public GuidingModel, public SpatialMixture {
   std::span<const NextGroup> next_vertices(const GuidingQuery& query, EventMask events,
                                            Arena& arena, float most_deviations = kTruncation) const;
   const CameraMixture& camera() const { return camera_; }
+  /// Returns the learned data of a cell.
+  CellKnowledge knowledge(std::uint32_t cell) const;
   const ModelKind& kind() const { return kind_; }
   std::size_t component_count() const {
     return pairs_.component_count() + triplets_.component_count();

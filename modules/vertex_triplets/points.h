@@ -30,10 +30,7 @@ class Points {
   }
   /// Adds point `i` of other points.
   void add(const Points& others, std::size_t i) {
-    const Register& from = others.registers_[i / 8];
-    std::array<float, D> x;
-    for (int axis = 0; axis < D; ++axis) x[axis] = from.x[axis][i % 8];
-    add(x, from.weight[i % 8]);
+    add(others.at(i), others.registers_[i / 8].weight[i % 8]);
   }
   void add(const Points& others) {
     for (std::size_t i = 0; i < others.size(); ++i) add(others, i);
@@ -44,6 +41,12 @@ class Points {
     Float8 weight{};
   };
   std::size_t size() const { return size_; }
+  /// Returns point `i`.
+  std::array<float, D> at(std::size_t i) const {
+    std::array<float, D> x;
+    for (int axis = 0; axis < D; ++axis) x[axis] = registers_[i / 8].x[axis][i % 8];
+    return x;
+  }
   const std::vector<Register>& registers() const { return registers_; }
 
  private:

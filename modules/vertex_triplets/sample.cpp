@@ -22,8 +22,9 @@ class Extraction {
   /// Adds the step that was taken from vertex `i`.
   void add_step(std::uint32_t i, Rgb incident) {
     const RecordedVertex& here = path_.vertices[i];
-    const Rgb value = here.throughput * here.local_weight * incident;
-    if (here.parent == kNoVertex || is_black(value)) return;
+    if (here.parent == kNoVertex) return;
+    const Rgb value = prefix(here) * here.local_weight * incident;
+    if (is_black(value)) return;
     if (here.next == kNoVertex) return;
     const RecordedVertex& next = path_.vertices[here.next];
     add(here, here.event, outer(here.position, here.direction, next.position, next.kind), value);
@@ -37,7 +38,7 @@ class Extraction {
     // No step can hit such an end. The sample is still of use to first vertices, and to paths that
     // start at this end.
     if (found.discrete) end.kind = VertexKind::light;
-    add(here, found.event, end, here.throughput * contribution(found));
+    add(here, found.event, end, prefix(here) * contribution(found));
   }
 
   Rgb contribution(const RecordedLightSample& found) const {
@@ -45,6 +46,12 @@ class Extraction {
   }
 
  private:
+  /// Returns the factor of the path up to a vertex in the weights of samples at this vertex.
+  Rgb prefix(const RecordedVertex& here) const {
+    const bool is_first = path_.vertices[here.parent].kind == VertexKind::sensor;
+    return rule_.suffixes && !is_first ? Rgb(1) : here.throughput;
+  }
+
   Outer outer(Point3 from, Vec3 direction, Point3 position, VertexKind kind) const {
     const bool is_environment = kind == VertexKind::environment;
     return {is_environment ? rule_.environment.at(from, direction) : position, kind};
@@ -56,7 +63,7 @@ class Extraction {
     const bool from_sensor = path_.transport == Transport::radiance;
     const Outer& before = from_sensor ? previous : next;
     const Outer& after = from_sensor ? next : previous;
-    const float weight = luminance(value);
+    const float weight = rule_.scale * luminance(value);
     if (!(weight > 0) || !std::isfinite(weight)) return;
     samples_.push_back(
         {{{before.position, here.position, after.position}, {before.kind, event, after.kind}},
@@ -77,6 +84,7 @@ void extract_samples(const PathView& path, const SampleRule& rule, std::vector<R
                              rule.light_paths ? WeightedAmong::both_ends : WeightedAmong::own_end);
   Extraction extraction(path, rule, samples);
   for (std::uint32_t i = 1; i < path.vertices.size(); ++i) extraction.add_step(i, incident[i]);
+  if (!rule.light_samples && path.transport == Transport::radiance) return;
   for (const RecordedLightSample& found : path.light_samples) extraction.add_connection(found);
 }
 

@@ -38,11 +38,17 @@ inline Point3 truncated_point(const SpatialGaussian& g, Vec2 u, float v) {
   return g.mean + spread(g, {truncated_normal(u.x), truncated_normal(u.y), truncated_normal(v)});
 }
 
+/// Returns the probability that a unit normal number is below `z`.
+inline double normal_below(double z) {
+  return 0.5 * std::erfc(-z / 1.4142135623730951);
+}
+
 /// The distribution of a unit normal number within [low, high], for finite limits. It exists if the
 /// interval has a positive probability.
 class NormalWithin {
  public:
-  NormalWithin(double low, double high) : low_(below(low)), mass_(below(high) - low_) {}
+  NormalWithin(double low, double high)
+      : low_(normal_below(low)), mass_(normal_below(high) - low_) {}
 
   bool is_possible() const { return mass_ > 0; }
   /// Maps u in [0, 1) to a number within the limits.
@@ -54,8 +60,6 @@ class NormalWithin {
   }
 
  private:
-  static double below(double z) { return 0.5 * std::erfc(-z / 1.4142135623730951); }
-
   double low_, mass_;
 };
 

@@ -1,10 +1,7 @@
 #include "../records.h"
 
-#include <sstream>
-
 #include <doctest/doctest.h>
 
-#include <pharos/core/error.h>
 #include <pharos/core/warp.h>
 
 namespace pharos::practical_path_guiding {
@@ -76,33 +73,6 @@ TEST_CASE("light that a step hits can be left out, and light from further away s
     const double share = rest / all;
     CHECK(share == doctest::Approx(target == GuidingTarget::radiance ? 0.4 : 0.16));
   }
-}
-
-TEST_CASE("pixels are averaged with their neighbors") {
-  PixelEstimates pixels({4, 2, 7, 3});
-  pixels.add({4.5f, 2.5f}, 3);
-  pixels.add({5.5f, 2.5f}, 1);
-  pixels.update(1, 1e-6);
-  CHECK(pixels.at({4.2f, 2.9f}) == doctest::Approx(2));
-  CHECK(pixels.at({5.2f, 2.9f}) == doctest::Approx(2));
-  CHECK(pixels.at({6.2f, 2.9f}) == doctest::Approx(1));
-  CHECK(pixels.at({99, 99}) == pixels.at({6.2f, 2.9f}));
-}
-
-TEST_CASE("saved estimates of pixels are those of one window, new paths included") {
-  PixelEstimates pixels({4, 2, 7, 3});
-  pixels.add({4.5f, 2.5f}, 3);
-  pixels.update(1, 1e-6);
-  pixels.add({4.5f, 2.5f}, 1);
-  std::stringstream file;
-  save(file, pixels);
-  std::stringstream again(file.str());
-  PixelEstimates same({4, 2, 7, 3}), other({0, 0, 3, 1});
-  load(file, same);
-  CHECK(same.at({4.5f, 2.5f}) == doctest::Approx(3));
-  same.update(1, 1e-6);
-  CHECK(same.at({4.5f, 2.5f}) == doctest::Approx(2));
-  CHECK_THROWS_AS(load(again, other), InputError);
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
-#include "pixel_estimates.h"
-
 #include <algorithm>
+#include <cmath>
 
 #include <pharos/core/parallel.h>
+#include <pharos/guiding/toolkit/pixel_estimates.h>
 
-namespace pharos::practical_path_guiding {
+namespace pharos {
 
 PixelEstimates::PixelEstimates(const PixelRect& window)
     : window_(window),
@@ -17,23 +17,22 @@ std::size_t PixelEstimates::index(Vec2 film) const {
                        std::clamp(static_cast<int>(film.y), window_.y0, window_.y1 - 1));
 }
 
-void PixelEstimates::add(Vec2 film, double value) {
+void PixelEstimates::add(Vec2 film, double value, double paths) {
   Pixel& pixel = new_[index(film)];
   pixel.sum += value;
-  ++pixel.paths;
+  pixel.paths += paths;
 }
 
 void PixelEstimates::update(int radius, double least) {
-  double sum = 0, paths = 0;
   for (std::size_t i = 0; i < pixels_.size(); ++i) {
     pixels_[i].sum += new_[i].sum;
     pixels_[i].paths += new_[i].paths;
     new_[i] = {};
-    sum += pixels_[i].sum;
-    paths += pixels_[i].paths;
   }
-  if (!(sum > 0)) return;
-  const double floor = least * sum / paths;
+  const Pixel all = sum_of_all();
+  if (!(all.sum > 0)) return;
+  mean_ = all.sum / all.paths;
+  const double floor = least * all.sum / all.paths;
   parallel_for(static_cast<std::size_t>(window_.height()), [&](std::size_t row) {
     const int y = window_.y0 + static_cast<int>(row);
     for (int x = window_.x0; x < window_.x1; ++x) {
@@ -42,6 +41,15 @@ void PixelEstimates::update(int radius, double least) {
       estimates_[window_.index(x, y)] = std::max(mean, floor);
     }
   });
+}
+
+PixelEstimates::Pixel PixelEstimates::sum_of_all() const {
+  Pixel all;
+  for (const Pixel& pixel : pixels_) {
+    all.sum += pixel.sum;
+    all.paths += pixel.paths;
+  }
+  return all;
 }
 
 PixelEstimates::Pixel PixelEstimates::sum_around(int x, int y, int radius) const {
@@ -69,7 +77,10 @@ void PixelEstimates::archive(Archive& archive) {
   archive(pixels_, new_, estimates_);
   bool is_sound = pixels_.size() == count && new_.size() == count && estimates_.size() == count;
   for (const double estimate : estimates_) is_sound &= estimate > 0;
+  const Pixel all = sum_of_all();
+  mean_ = all.sum > 0 ? all.sum / all.paths : 1;
+  is_sound &= mean_ > 0 && std::isfinite(mean_);
   archive.expect(is_sound, "the estimates of the pixels");
 }
 
-}  // namespace pharos::practical_path_guiding
+}  // namespace pharos
