@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <pharos/core/parallel.h>
+#include <pharos/core/saved_rect.h>
 
 namespace pharos::practical_path_guiding {
 
@@ -63,7 +64,7 @@ double PixelEstimates::at(Vec2 film) const {
 
 void PixelEstimates::archive(Archive& archive) {
   PixelRect window = window_;
-  archive(window.x0, window.y0, window.x1, window.y1);
+  archive_rect(archive, window);
   if (window != window_) throw InputError("what was learned belongs to a film of another size");
   const std::size_t count = pixels_.size();
   archive(pixels_, new_, estimates_);
