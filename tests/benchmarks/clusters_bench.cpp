@@ -33,6 +33,7 @@ struct Design {
 };
 constexpr Design kDesigns[]{{"all-logs", LearningPlace::rank_0, 0},
                             {"recorded-16", LearningPlace::rank_0, 16},
+                            {"recorded-2", LearningPlace::rank_0, 2},
                             {"owners", LearningPlace::owners, 0}};
 
 /// A way to guide: settings on one line.

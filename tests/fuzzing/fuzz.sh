@@ -17,6 +17,7 @@ mkdir -p "$corpus" "$build/found"
 words=$build/corpus/$name.dict
 export ASAN_OPTIONS=${ASAN_OPTIONS:-detect_leaks=0:allocator_may_return_null=0}
 
+memory=1024  # of one allocation [MiB]
 case $name in
   config)
     # Configs with every value in force, their scenes in place, and the scenes by themselves.
@@ -47,7 +48,7 @@ case $name in
     # A scene in each dialect; include files of the fuzzer's own.
     printf '<scene version="0.6.0"><default name="n" value="1"/><integrator type="path"><integer name="maxDepth" value="$n"/></integrator><sensor type="perspective"><transform name="toWorld"><scale value="2"/><rotate y="1" angle="30"/><lookAt origin="0,0,1" target="0 0 0" up="0 1 0"/><matrix value="1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1"/></transform><film type="hdrfilm"/></sensor><bsdf type="diffuse" id="a"><srgb name="reflectance" value="#ff8000"/></bsdf><alias id="a" as="b"/><shape type="sphere"><point name="center" x="0" y="1" z="2"/><ref id="b"/><emitter type="area"><blackbody name="radiance" temperature="5000K" scale="2"/></emitter></shape></scene>' >"$corpus/old.xml"
     printf '<?xml version="1.0"?>\n<!-- c -->\n<scene version="3.0.0"><path value="."/><include filename="a.xml"/><include filename="b.xml"/><bsdf type="conductor"><spectrum name="eta" value="400:0.1, 500:0.2, 700:1"/><spectrum name="k" filename="s.spd"/></bsdf><shape type="cube"><transform name="to_world"><translate value="1 2 3"/></transform><boolean name="flip_normals" value="true"/><string name="filename" value="m.ply"/><ref name="bsdf" id="inc"/></shape></scene>' >"$corpus/new.xml"
-    grep -o '"[A-Za-z]*"' "$root/plugins/importers/names.h" >"$words"
+    grep -o '"[A-Za-z]*"' "$root/plugins/importers/document/names.h" >"$words"
     printf '"%s"\n' name value type id as filename version temperature origin target up angle \
       '<!--' '-->' '<![CDATA[' ']]>' '<?xml' '&quot;' '<scene version=\"0.6.0\">' '</scene>' >>"$words"
     limit=4096 ;;
@@ -65,6 +66,7 @@ case $name in
       { printf '\0' && cat "$left/a.exr"; } >"$corpus/a.exr"
       { printf '\3' && cat "$left/a.png"; } >"$corpus/a.png"
       printf '\4P6 2 2 255\n123456789012' >"$corpus/a.ppm"
+      memory=6144  # the largest images that Pharos reads take 4 GiB
     else
       for learner in 0 1 2 3 4 5 6 7; do
         { printf "\\$learner" && head -c 512 /dev/zero; } >"$corpus/$learner"
@@ -79,4 +81,4 @@ case $name in
     exit 2 ;;
 esac
 exec "$build/fuzz-$name" "$corpus" -dict="$words" -max_total_time="$seconds" -max_len="$limit" \
-  -timeout=20 -rss_limit_mb=2048 -malloc_limit_mb=1024 -artifact_prefix="$build/found/$name-" "$@"
+  -timeout=20 -rss_limit_mb=$((2 * memory)) -malloc_limit_mb=$memory -artifact_prefix="$build/found/$name-" "$@"

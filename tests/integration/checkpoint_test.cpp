@@ -1,5 +1,6 @@
 // A render that goes on from a state gives the same bits as one that never stopped.
 
+#include <cstring>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -196,6 +197,13 @@ TEST_CASE("checkpoints: a damaged state is refused") {
       CHECK_THROWS_AS(bits_after(config, state.substr(0, length)), InputError);
     }
     CHECK_THROWS_AS(bits_after(config, state + "x"), InputError);
+  }
+  // The time that was used comes first, after the heading, which ends its line.
+  const std::string& last = whole.states.back();
+  for (const double seconds : {-1.0, 1e240}) {
+    std::string odd = last;
+    std::memcpy(odd.data() + odd.find('\n') + 1, &seconds, sizeof seconds);
+    CHECK_THROWS_AS(bits_after(config, odd), InputError);
   }
 }
 

@@ -14,6 +14,7 @@
 #include <pharos/core/atomic_file.h>
 #include <pharos/core/error.h>
 #include <pharos/core/export.h>
+#include <pharos/core/exr_header.h>
 #include <pharos/core/image_files.h>
 
 namespace pharos {
@@ -88,6 +89,9 @@ std::unique_ptr<OIIO::ImageInput> open_image(const std::filesystem::path& path) 
   keep_to_one_thread();
   const std::string problem = file_problem(path);
   if (!problem.empty()) fail_reading(path, problem);
+  if (!exr_header_fits(path)) {
+    fail_reading(path, "it is damaged: an attribute of its header is longer than the file");
+  }
   // Keep colors under transparent pixels as they were stored.
   OIIO::ImageSpec wishes;
   wishes.attribute("oiio:UnassociatedAlpha", 1);

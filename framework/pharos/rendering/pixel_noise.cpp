@@ -3,6 +3,7 @@
 #include <numeric>
 #include <utility>
 
+#include <pharos/core/saved_rect.h>
 #include <pharos/rendering/pixel_noise.h>
 
 namespace pharos {
@@ -136,7 +137,7 @@ PixelShares PixelNoise::shares() const {
 }
 
 void PixelNoise::archive(Archive& archive) {
-  archive(window_.x0, window_.y0, window_.x1, window_.y1);
+  archive_rect(archive, window_);
   archive.block(pixels_);
   archive.expect(pixels_.size() == window_.area(), "the noise of the pixels");
 }

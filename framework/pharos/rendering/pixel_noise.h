@@ -29,6 +29,8 @@ class PixelNoise {
   /// Returns the shares for the final image on a film like those that were added. They are even as
   /// long as nothing is known.
   PixelShares shares() const;
+  /// Returns the window of the films that were added; it is empty if there were none.
+  const PixelRect& window() const { return window_; }
 
   void archive(Archive& archive);
 

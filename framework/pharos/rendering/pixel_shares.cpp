@@ -1,12 +1,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include <pharos/core/saved_rect.h>
 #include <pharos/rendering/pixel_shares.h>
 
 namespace pharos {
 
 void PixelShares::archive(Archive& archive) {
-  archive(window_.x0, window_.y0, window_.x1, window_.y1);
+  archive_rect(archive, window_);
   archive.block(shares_);
   const bool fits = shares_.empty() || shares_.size() == window_.area();
   archive.expect(

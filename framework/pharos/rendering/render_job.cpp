@@ -22,6 +22,12 @@
 #include <pharos/rendering/unit_runner.h>
 
 namespace pharos {
+namespace {
+
+/// More than any render takes [s].
+constexpr double kLongest = 1e9;
+
+}  // namespace
 
 class RenderJob::Implementation {
  public:
@@ -324,6 +330,10 @@ class RenderJob::Implementation {
     archive(watch_seconds, result_.times.training, result_.times.update, result_.times.rendering,
             result_.counters, result_.samples_per_pixel, result_.first_invalid, *schedule_,
             spending_, iteration_, *images_, noise_);
+    archive.expect(
+        noise_.window() == PixelRect() || noise_.window() == prepared_.make_film().window(),
+        "the noise of the pixels");
+    archive.expect(watch_seconds >= 0 && watch_seconds <= kLongest, "the state of the render");
     if (archive.loads()) watch_ = Stopwatch(watch_seconds);
     if (guiding_ != nullptr) guiding_->archive(archive);
     if (guiding_ != nullptr) frame_ = guiding_->frame();

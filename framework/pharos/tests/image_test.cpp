@@ -173,6 +173,32 @@ TEST_CASE("images that are cut off are input errors, also where the reader fills
   }
 }
 
+TEST_CASE("attributes of an image that claim more bytes than the file has are input errors") {
+  const test::TemporaryFolder folder;
+  write_exr(noise(4, 4, {"R", "G", "B"}), folder / "a.exr", {{"note", "short"}});
+  std::string bytes = test::bytes_of(folder / "a.exr");
+  const std::string attribute("note\0string\0", 12);
+  const std::size_t size = bytes.find(attribute) + attribute.size();
+  REQUIRE(size < bytes.size());
+  REQUIRE(bytes.substr(size, 4) == std::string("\5\0\0\0", 4));
+  const auto error = [&](const std::string& file) {
+    folder.write("long.exr", file);
+    return test::input_error_in(folder, [&] { read_metadata(folder / "long.exr"); });
+  };
+  const std::string expected =
+      "cannot read the image 'long.exr': it is damaged: an attribute of its header is longer than "
+      "the file";
+  for (const char highest : {'\x4e', '\xff'}) {
+    bytes[size + 3] = highest;
+    CHECK(error(bytes) == expected);
+  }
+  // A file of several parts has several headers, each with a zero at its end.
+  const std::string one_part("\x76\x2f\x31\x01\2\0\0\0", 8), parts("\x76\x2f\x31\x01\2\x10\0\0", 8);
+  const std::string first("a\0string\0\1\0\0\0x\0", 15), second("b\0string\0\0\0\0\x4e", 13);
+  CHECK(error(parts + first + second) == expected);
+  CHECK(error(one_part + first + second) != expected);
+}
+
 TEST_CASE("images that cannot be written leave nothing behind") {
   const test::TemporaryFolder folder;
   const Image image = gray(1);

@@ -1,6 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <limits>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -196,6 +199,20 @@ TEST_CASE("shares do not shift the light that a wide filter spreads") {
   const Image image = film.layers();
   for (int x = 2; x < kWidth - 2; ++x) {
     CHECK(image.rgb(x, 0).g == doctest::Approx(x + 0.5).epsilon(0.005));
+  }
+}
+
+TEST_CASE("saved noise of a rectangle that cannot be is refused") {
+  PixelNoise noise;
+  noise.add(film_with(16, 1, [](int, int, float) { return 1.0f; }));
+  const std::string bytes = saved_bytes([&](Archive& archive) { archive(noise); });
+  const int low = std::numeric_limits<int>::min(), high = std::numeric_limits<int>::max();
+  // A corner of four numbers; the upper one must not be below the lower one.
+  for (const auto& [index, number] : {std::pair{0, low}, {1, -1}, {0, high}, {3, 0}, {2, high}}) {
+    std::string damaged = bytes;
+    std::memcpy(damaged.data() + index * sizeof number, &number, sizeof number);
+    PixelNoise loaded;
+    CHECK_THROWS_AS(load_bytes(damaged, [&](Archive& archive) { archive(loaded); }), InputError);
   }
 }
 

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include <pharos/core/parallel.h>
+#include <pharos/core/saved_rect.h>
 #include <pharos/guiding/toolkit/pixel_estimates.h>
 
 namespace pharos {
@@ -71,7 +72,7 @@ double PixelEstimates::at(Vec2 film) const {
 
 void PixelEstimates::archive(Archive& archive) {
   PixelRect window = window_;
-  archive(window.x0, window.y0, window.x1, window.y1);
+  archive_rect(archive, window);
   if (window != window_) throw InputError("what was learned belongs to a film of another size");
   const std::size_t count = pixels_.size();
   archive(pixels_, new_, estimates_);
