@@ -10,10 +10,10 @@
 
 namespace pharos {
 
-/// What a step learns of the light that it hits.
+/// Whether the results of a step contain the light that the step hits.
 enum class LightHits {
-  weighted,  ///< the light, times its MIS weight
-  left_out   ///< nothing. Light samples find such light, so that a guide need not
+  weighted,  ///< yes, times its MIS weight
+  left_out   ///< no. Light samples find such light, so that a guide need not
 };
 
 /// A step of a recorded path from the sensor that a guide could have sampled, together with its
