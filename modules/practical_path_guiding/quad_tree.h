@@ -41,8 +41,8 @@ class QuadTree {
   /// Returns the density for the masses of the leaves, which must not all be zero.
   std::vector<QuadNode> density(LeafMass kind) const;
   /// Returns a tree refined for these masses: quarters with more than the threshold's share are
-  /// divided, others are collapsed. It keeps the part `kept` of all added values, those of a
-  /// divided leaf spread evenly over its square.
+  /// divided, others are collapsed. It keeps the part `kept` of all added values. If a leaf is
+  /// divided, its value is spread evenly over its square.
   QuadTree refined(LeafMass kind, const QuadRefinement& rule, double kept = 0) const;
   /// Multiplies all added values by a factor.
   void scale(double factor);

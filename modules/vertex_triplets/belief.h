@@ -8,9 +8,8 @@
 #include "covariance.h"
 #include "points.h"
 
-/// What is believed of a mixture before its points are seen. Fits then find the most probable
-/// mixture given the belief and the points (maximum a posteriori), as if the believed points were
-/// among the points.
+/// Prior knowledge of a mixture. Fits find the most probable mixture given this knowledge and the
+/// points (maximum a posteriori). A belief counts like points, the *believed points*.
 namespace pharos::vertex_triplets {
 
 template <int D>
@@ -36,8 +35,8 @@ Belief<D> belief_in(const Beliefs<D>& beliefs, std::size_t k) {
 
 /// Returns the Gaussian of a component, given the sums about `origin` over its points and the
 /// belief. Without points, it is the believed Gaussian. Without belief, it is the Gaussian of the
-/// points with the regularized covariance. Otherwise, the mean and the covariance are those of the
-/// points and of the believed points together. In this case, the regularization draws the
+/// points with the regularized covariance. Otherwise, it has the mean and the covariance of all
+/// points together, real and believed ones. In this case, the regularization draws the
 /// covariance to the believed one (in place of Sigma_reg in eq. 39): the few points that need
 /// regularization know less of the covariance than the belief does. Requires points or a belief.
 template <int D>

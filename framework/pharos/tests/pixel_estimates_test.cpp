@@ -19,7 +19,7 @@ TEST_CASE("pixel estimates: pixels are averaged with their neighbors") {
   CHECK(pixels.at({99, 99}) == pixels.at({6.2f, 2.9f}));
 }
 
-TEST_CASE("pixel estimates: saved ones are those of one window, new paths included") {
+TEST_CASE("pixel estimates: saved and loaded, they go on as before; other windows are refused") {
   PixelEstimates pixels({4, 2, 7, 3});
   pixels.add({4.5f, 2.5f}, 3);
   pixels.update(1, 1e-6);

@@ -140,7 +140,7 @@ TEST_CASE("quarters are divided exactly where they have more than their share") 
   }
 }
 
-TEST_CASE("a refined tree keeps the part of the sums that it is told to") {
+TEST_CASE("a refined tree keeps the given part of all values") {
   const QuadTree tree = peaked({0.3f, 0.7f});
   for (const LeafMass kind : {LeafMass::sum, LeafMass::root}) {
     for (const double threshold : {0.3, 0.01, 0.001}) {

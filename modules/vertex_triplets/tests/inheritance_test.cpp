@@ -28,7 +28,7 @@ std::array<float, D> filled(float value) {
 
 // --- the most probable mixture -------------------------------------------------------------------
 
-TEST_CASE("beliefs: mean, covariance and weights are those of points and believed points") {
+TEST_CASE("beliefs: components have the moments and the weights of real and believed points together") {
   const Belief<3> belief{30, {Vector<3>(1, 0, 0), 0.5 * Matrix<3>::Identity()}};
   Sums<3> sums;
   sums.weight = 10;
