@@ -31,8 +31,8 @@ class VertexTripletsLearningState final : public LearningState {
     /// Cell of the last model from which this cell comes; the first one if there are several.
     std::uint32_t origin = 0;
     /// The part of the parent's mixture that the cell got when its parent was divided. All fits use
-    /// it as prior knowledge until the cell is divided or joined. It has little weight in cells with
-    /// many samples. Empty if VertexTripletsSettings::inherit is 0.
+    /// it as prior knowledge until the cell is divided or joined. It has little weight in cells
+    /// with many samples. Empty if VertexTripletsSettings::inherit is 0.
     Inheritance inheritance = {};
 
     void archive(Archive& archive) { archive(reservoir, count, origin, inheritance); }
