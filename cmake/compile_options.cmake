@@ -20,7 +20,8 @@ target_compile_options(pharos_warnings INTERFACE
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   # GCC 12 warns of overlapping copies in "text" + std::string (GCC bug 105651). It also warns of
   # uninitialized values inside its own AVX-512 headers (GCC bug 105593).
-  target_compile_options(pharos_warnings INTERFACE -Wno-restrict -Wno-maybe-uninitialized)
+  target_compile_options(pharos_warnings INTERFACE
+    -Wno-restrict -Wno-stringop-overflow -Wno-maybe-uninitialized)
 endif()
 if(PHAROS_WERROR)
   target_compile_options(pharos_warnings INTERFACE -Werror)
@@ -28,5 +29,9 @@ endif()
 
 find_program(PHAROS_CCACHE ccache)
 if(PHAROS_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${PHAROS_CCACHE})
+  # ccache asks for these settings and flags where headers are precompiled.
+  set(CMAKE_CXX_COMPILER_LAUNCHER
+      ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${PHAROS_CCACHE})
+  add_compile_options($<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>
+                      "$<$<CXX_COMPILER_ID:Clang>:SHELL:-Xclang -fno-pch-timestamp>")
 endif()
