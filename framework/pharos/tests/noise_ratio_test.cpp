@@ -71,7 +71,7 @@ TEST_CASE("noise ratio: the standard error is how much the ratio scatters") {
     NoiseRatio ratio(kTiles);
     for (const std::uint64_t iteration : {0u, 1u}) {
       for (std::uint64_t tile = 0; tile < 64; ++tile) {
-        const Vec2 film(8.0f * static_cast<float>(tile % 8), 8.0f * static_cast<float>(tile / 8));
+        const Vec2 film{8.0f * static_cast<float>(tile % 8), 8.0f * static_cast<float>(tile / 8)};
         const std::uint64_t seed = (2 * repeat + iteration) * 64 + tile;
         ratio.absorb(guided_paths(0.75, 50, seed, film));
       }
@@ -136,7 +136,7 @@ TEST_CASE("noise ratio: what distinguishes pixels makes no noise, if they have e
   // Ends an iteration in which pixel x of a row has paths(x) paths and the brightness 100 x.
   const auto iterate_row = [](NoiseRatio& ratio, std::uint64_t seed, auto&& paths) {
     for (int x = 0; x < 8; ++x) {
-      const Vec2 film(static_cast<float>(x), 0);
+      const Vec2 film{static_cast<float>(x), 0};
       ratio.absorb(paths_to_rare_light(0.25, 100 * x, paths(x), 10 * seed + x, film));
     }
     ratio.end_iteration(true);
@@ -221,7 +221,7 @@ TEST_CASE("noise ratio: paths of several guided steps that find light at each ve
     PathLog log;
     for (int i = 0; i < kCount; ++i) {
       log.begin_path({}, Transport::radiance);
-      double throughput = 1, quotient = 1, found = 0;
+      double throughput = 1, found = 0;
       for (std::uint32_t step = 0; step < 3; ++step) {
         const bool lit = random.next_1d() < kMixed;
         const double p = lit ? kMixed : 1 - kMixed, p_u = lit ? kUnguided : 1 - kUnguided;
@@ -236,7 +236,6 @@ TEST_CASE("noise ratio: paths of several guided steps that find light at each ve
         log.set_techniques(step, techniques);
         if (step > 0) found += throughput;
         throughput *= lit ? p_u / p * (1 / kUnguided) : 0;
-        quotient *= p / p_u;
         if (!lit) break;
       }
       sum += found, squares += found * found;
