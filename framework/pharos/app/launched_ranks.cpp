@@ -62,9 +62,12 @@ std::unique_ptr<Ranks> join(int launched) {
   return ranks;
 }
 
-/// Returns the number of threads of a rank: its part of its cores.
-int threads_of(const Ranks& ranks) {
-  return std::max(1, tbb::this_task_arena::max_concurrency() / ranks.count_on_cores());
+/// Runs `work` with `threads` threads, or with this rank's part of its cores if that is 0. While
+/// the other ranks on these cores are idle, it may use theirs.
+void with_threads_of(const Ranks& ranks, int threads, const std::function<void()>& work) {
+  const int cores = tbb::this_task_arena::max_concurrency(), sharers = ranks.count_on_cores();
+  const int own = threads > 0 ? threads : std::max(1, cores / sharers);
+  with_threads(own, work, std::min(cores, own * sharers));
 }
 
 }  // namespace
@@ -78,7 +81,7 @@ void with_launched_ranks(int threads, const std::function<void(Ranks*)>& work) {
     if (leader->rank() == 0) dismiss_helpers(*leader);
   };
   const std::unique_ptr<Ranks, decltype(dismiss)> at_end(ranks.get(), dismiss);
-  with_threads(threads > 0 ? threads : threads_of(*ranks), [&] { work(ranks.get()); });
+  with_threads_of(*ranks, threads, [&] { work(ranks.get()); });
 }
 
 }  // namespace pharos

@@ -1,14 +1,16 @@
 #include "threads.h"
 
+#include <algorithm>
+
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
 namespace pharos {
 
-void with_threads(int threads, const std::function<void()>& work) {
+void with_threads(int threads, const std::function<void()>& work, int most_threads) {
   if (threads <= 0) return work();
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                  static_cast<std::size_t>(threads));
+                                  static_cast<std::size_t>(std::max(threads, most_threads)));
   tbb::task_arena(threads).execute(work);
 }
 

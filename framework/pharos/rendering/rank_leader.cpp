@@ -264,6 +264,11 @@ void RankLeader::run(const UnitPass& pass) {
   Pass(*this, pass).run();
 }
 
+void RankLeader::on_idle_cores(const std::function<void()>& work) {
+  const int threads = tbb::this_task_arena::max_concurrency();
+  tbb::task_arena(threads * ranks_.count_on_cores()).execute(work);
+}
+
 void dismiss_helpers(Ranks& ranks) {
   for (int rank = 1; rank < ranks.count(); ++rank) ranks.send(rank, write(Kind::end));
   for (int waiting = ranks.count() - 1; waiting > 0;) {

@@ -26,6 +26,9 @@ class RankLeader final : public UnitRunner {
   void begin_iteration(bool trains, const std::function<std::string()>& save_frozen) override;
   /// A pass that must not go on does not wait for what other ranks still render.
   void run(const UnitPass& pass) override;
+  /// The ranks that share the cores of this one are idle between two passes, so `work` gets their
+  /// threads too.
+  void on_idle_cores(const std::function<void()>& work) override;
 
  private:
   class Pass;

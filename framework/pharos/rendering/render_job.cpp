@@ -213,7 +213,7 @@ class RenderJob::Implementation {
     }
     spending_.largest_share = guiding_->worthwhile_share();
     const TrainingStage stage{iteration_.index, iteration_.training_left};
-    guiding_->update(stage);
+    units_->on_idle_cores([&] { guiding_->update(stage); });
     if (stage.is_last()) spare_logs_.clear();
     frame_ = guiding_->frame();
     spending_.region_minimum = region_minimum(samples);

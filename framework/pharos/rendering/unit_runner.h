@@ -33,6 +33,9 @@ class UnitRunner {
   virtual void begin_iteration(bool trains, const std::function<std::string()>& save_frozen) = 0;
   /// Runs a pass to its end, or until it must not go on. Throws what a unit has thrown.
   virtual void run(const UnitPass& pass) = 0;
+  /// Runs `work` between two passes, on all cores that would render otherwise. It gives the same
+  /// result with any number of threads.
+  virtual void on_idle_cores(const std::function<void()>& work) = 0;
 };
 
 /// Renders all units in this process, on TBB.
@@ -40,6 +43,7 @@ class LocalUnits final : public UnitRunner {
  public:
   void begin_iteration(bool, const std::function<std::string()>&) override {}
   void run(const UnitPass& pass) override;
+  void on_idle_cores(const std::function<void()>& work) override { work(); }
 };
 
 }  // namespace pharos
