@@ -66,7 +66,7 @@ TEST_CASE("three processes share the runs and references of an experiment") {
   CHECK(parts == 8);
   const std::map<std::string, int> runs = runs_in(outcomes);
   CHECK(runs.size() == 80);
-  for (const auto& [run, count] : runs) CHECK_MESSAGE(count == 1, run);
+  for (const auto& run : runs) CHECK_MESSAGE(run.second == 1, run.first);
   CHECK(table_of(folder.path()) == table);
   CHECK(fs::is_empty(folder.path() / "test/claims"));
   CHECK(fs::is_empty(folder.path() / "cache/claims"));

@@ -48,7 +48,9 @@ TEST_CASE("the page of the program: all commands and their options") {
   std::set<std::string> described;
   for (const auto& [command, text] : sections) described.insert(command);
   CHECK(described == help.subcommands());
-  for (const auto& [command, text] : sections) {
+  for (const auto& section : sections) {
+    const auto& command = section.first;
+    const auto& text = section.second;
     // The page need not repeat the parameters of commands that the reference of plugins lists.
     if (text.find("pharos plugins " + command) != std::string::npos) continue;
     for (const std::string& option : help.options(command)) {
