@@ -18,8 +18,8 @@ target_compile_options(pharos_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual
   -Wno-missing-field-initializers)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-  # GCC 12 warns of overlapping copies in "text" + std::string (GCC bug 105651). It also warns of
-  # uninitialized values inside its own AVX-512 headers (GCC bug 105593).
+  # GCC 12 warns of overlapping and too long copies in "text" + std::string (GCC bug 105651). It
+  # also warns of uninitialized values inside its own AVX-512 headers (GCC bug 105593).
   target_compile_options(pharos_warnings INTERFACE
     -Wno-restrict -Wno-stringop-overflow -Wno-maybe-uninitialized)
 endif()

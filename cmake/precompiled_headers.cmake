@@ -1,6 +1,6 @@
-# Precompiles headers of the standard library and of fmt for all targets. This halves the time
-# that a build takes. Every source still includes what it uses, so that
-# -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON builds the same program.
+# Precompiles headers of the standard library and of fmt for all targets. Compiling then takes about
+# half of the time (measured with GCC 12). Every source still includes what it uses. The preset
+# `clang` does not precompile headers, so that it finds missing includes.
 set(precompiled_headers
   <algorithm> <array> <atomic> <bit> <chrono> <cmath> <cstdint> <cstring> <filesystem> <fstream>
   <functional> <limits> <map> <memory> <mutex> <numeric> <optional> <random> <set> <span>

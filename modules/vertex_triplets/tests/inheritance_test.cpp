@@ -28,7 +28,8 @@ std::array<float, D> filled(float value) {
 
 // --- the most probable mixture -------------------------------------------------------------------
 
-TEST_CASE("beliefs: components have the moments and the weights of real and believed points together") {
+TEST_CASE(
+    "beliefs: components have the moments and the weights of real and believed points together") {
   const Belief<3> belief{30, {Vector<3>(1, 0, 0), 0.5 * Matrix<3>::Identity()}};
   Sums<3> sums;
   sums.weight = 10;
