@@ -20,14 +20,19 @@ foreach(target precompiled-library precompiled-hidden precompiled-executable)
   target_precompile_headers(${target} PRIVATE ${precompiled_headers})
 endforeach()
 
-# Lets all compiled targets of `folder` and of its subfolders use the precompiled headers.
+# Lets all compiled targets of `folder` and of its subfolders use the precompiled headers. Targets
+# with code generation options (-f…) of their own precompile the headers with these options: GCC
+# silently takes some options, such as -ffp-contract, from where the headers were precompiled.
 function(pharos_use_precompiled_headers folder)
   get_property(targets DIRECTORY ${folder} PROPERTY BUILDSYSTEM_TARGETS)
   list(FILTER targets EXCLUDE REGEX "^precompiled-")
   foreach(target IN LISTS targets)
     get_target_property(type ${target} TYPE)
     get_target_property(visibility ${target} CXX_VISIBILITY_PRESET)
-    if(type STREQUAL "EXECUTABLE")
+    get_target_property(options ${target} COMPILE_OPTIONS)
+    if(options MATCHES "(^|;)-f")
+      target_precompile_headers(${target} PRIVATE ${precompiled_headers})
+    elseif(type STREQUAL "EXECUTABLE")
       target_precompile_headers(${target} REUSE_FROM precompiled-executable)
     elseif(visibility STREQUAL "hidden")
       target_precompile_headers(${target} REUSE_FROM precompiled-hidden)
