@@ -324,7 +324,7 @@ class CellUpdate {
 
   void halve(std::size_t k) {
     Mixture& m = cell_.mixture_;
-    const Vector<3> axis = statistics::principal_axis<3>(m.components[k].covariance);
+    const Vector<3> axis = statistics::principal_axis(m.components[k].covariance);
     for (auto* moments : {&frozen_, &seen_}) {
       if (!((*moments)[k].weight > 0)) {
         moments->push_back({});

@@ -42,36 +42,30 @@ TEST_CASE("damaged or edited files of an experiment are made again") {
     }
     return files;
   };
-  SUBCASE("an edited number in a record") {
-    change(runs / "seed-1.json", "\"mse\": 0.", "\"mse\": 1.");
-    again(1, "seed-1.json: error: the record is damaged or was changed: moved to '");
-    CHECK(folder.has("test/runs/deep/sobol/seed-1.json.damaged"));
+  // An edited number in a record.
+  change(runs / "seed-1.json", "\"mse\": 0.", "\"mse\": 1.");
+  again(1, "seed-1.json: error: the record is damaged or was changed: moved to '");
+  CHECK(folder.has("test/runs/deep/sobol/seed-1.json.damaged"));
+  // A record that is cut off.
+  fs::resize_file(runs / "seed-1.json", 100);
+  again(1, "the record is damaged");
+  // A folder in place of a record.
+  fs::remove(runs / "seed-1.json");
+  fs::create_directory(runs / "seed-1.json");
+  again(1, "found a folder: moved to '");
+  // An image that is no image.
+  std::ofstream(runs / "seed-1.exr") << "garbage";
+  again(1, "seed-1.exr: missing or changed");
+  // References that are cut off.
+  for (const fs::path& file : references()) fs::resize_file(file, 1000);
+  again(0, ".exr.damaged', and is rendered again");
+  // References with one other pixel.
+  for (const fs::path& file : references()) {
+    Image image = read_image(file);
+    image.values()[7] *= 2;
+    write_exr(image, file, read_metadata(file));
   }
-  SUBCASE("a record that is cut off") {
-    fs::resize_file(runs / "seed-1.json", 100);
-    again(1, "the record is damaged");
-  }
-  SUBCASE("a folder in place of a record") {
-    fs::remove(runs / "seed-1.json");
-    fs::create_directory(runs / "seed-1.json");
-    again(1, "found a folder: moved to '");
-  }
-  SUBCASE("an image that is no image") {
-    std::ofstream(runs / "seed-1.exr") << "garbage";
-    again(1, "seed-1.exr: missing or changed");
-  }
-  SUBCASE("references that are cut off") {
-    for (const fs::path& file : references()) fs::resize_file(file, 1000);
-    again(0, ".exr.damaged', and is rendered again");
-  }
-  SUBCASE("references with one other pixel") {
-    for (const fs::path& file : references()) {
-      Image image = read_image(file);
-      image.values()[7] *= 2;
-      write_exr(image, file, read_metadata(file));
-    }
-    again(0, ".exr: its pixels were changed; moved to '");
-  }
+  again(0, ".exr: its pixels were changed; moved to '");
 }
 
 TEST_CASE("a run that aborts or takes too long ends nothing but itself") {

@@ -224,8 +224,8 @@ class Plan {
   }
 
   /// Adds every case of the guider with the first case of each learner of its model, and the
-  /// guider's first case with all other cases of the learner. Omits pairs of which neither was
-  /// selected.
+  /// guider's first case with all other cases of the learner. Of the one that was not selected, if
+  /// any, adds the first case only.
   void add_guider(const PluginInfo& plugin) {
     const std::vector<Subject>& guiders = cases_.at(&plugin).subjects;
     if (guiders.empty()) return;
@@ -234,9 +234,15 @@ class Plan {
     });
     if (all.empty() && is_selected(plugin)) add_no_partner(guiders.front(), "learner");
     for (const Cases* learners : all) {
-      if (!is_selected(plugin) && !is_selected(*learners->subjects.front().plugin)) continue;
-      for (const Subject& guider : guiders) add_pair(guider, learners->subjects.front());
-      for (std::size_t i = 1; i < learners->subjects.size(); ++i) {
+      const bool guider_selected = is_selected(plugin),
+                 learner_selected = is_selected(*learners->subjects.front().plugin);
+      if (guider_selected || learner_selected) {
+        add_pair(guiders.front(), learners->subjects.front());
+      }
+      for (std::size_t i = 1; guider_selected && i < guiders.size(); ++i) {
+        add_pair(guiders[i], learners->subjects.front());
+      }
+      for (std::size_t i = 1; learner_selected && i < learners->subjects.size(); ++i) {
         add_pair(guiders.front(), learners->subjects[i]);
       }
     }

@@ -81,27 +81,12 @@ std::array<Moments<D>, 2> halves(const Moments<D>& moments, const Vector<D>& dir
 }
 
 /// Returns the symmetric matrix with all eigenvalues below `floor` raised to `floor`. The
-/// eigenvectors stay the same.
+/// eigenvectors stay the same. D is 2, 3, 6 or 9.
 template <int D>
-Matrix<D> with_eigenvalues_above(double floor, const Matrix<D>& symmetric) {
-  // Most matrices need no change. A Cholesky factor proves that, and costs less than eigenvalues.
-  // The margin covers the rounding errors of both.
-  const double margin = 1e-12 * symmetric.trace();
-  const Matrix<D> excess = symmetric - (floor + margin) * Matrix<D>::Identity();
-  if (excess.llt().info() == Eigen::Success) return symmetric;
-  const Eigen::SelfAdjointEigenSolver<Matrix<D>> eigen(symmetric);
-  if (eigen.eigenvalues()[0] >= floor) return symmetric;
-  const Vector<D> raised = eigen.eigenvalues().cwiseMax(floor);
-  const Matrix<D> result =
-      eigen.eigenvectors() * raised.asDiagonal() * eigen.eigenvectors().transpose();
-  return 0.5 * (result + result.transpose());
-}
+Matrix<D> with_eigenvalues_above(double floor, const Matrix<D>& symmetric);
 
 /// Returns the unit eigenvector of the largest eigenvalue.
-template <int D>
-Vector<D> principal_axis(const Matrix<D>& symmetric) {
-  return Eigen::SelfAdjointEigenSolver<Matrix<D>>(symmetric).eigenvectors().col(D - 1);
-}
+Vector<3> principal_axis(const Matrix<3>& symmetric);
 
 /// The logarithm of a normal density, prepared for evaluation: log N(x) = constant - |W x -
 /// center|^2 / 2, where W is the inverse of the covariance's lower Cholesky factor.

@@ -1,0 +1,32 @@
+#include <Eigen/Dense>
+
+#include <pharos/statistics/gaussian.h>
+
+namespace pharos::statistics {
+
+template <int D>
+Matrix<D> with_eigenvalues_above(double floor, const Matrix<D>& symmetric) {
+  // Most matrices need no change. A Cholesky factor proves that, and costs less than eigenvalues.
+  // The margin covers the rounding errors of both.
+  const double margin = 1e-12 * symmetric.trace();
+  const Matrix<D> excess = symmetric - (floor + margin) * Matrix<D>::Identity();
+  if (excess.llt().info() == Eigen::Success) return symmetric;
+  const Eigen::SelfAdjointEigenSolver<Matrix<D>> eigen(symmetric);
+  if (eigen.eigenvalues()[0] >= floor) return symmetric;
+  const Vector<D> raised = eigen.eigenvalues().cwiseMax(floor);
+  const Matrix<D> result =
+      eigen.eigenvectors() * raised.asDiagonal() * eigen.eigenvectors().transpose();
+  return 0.5 * (result + result.transpose());
+}
+
+// Compilers need long for eigenvalues, so they are compiled once.
+template Matrix<2> with_eigenvalues_above(double, const Matrix<2>&);
+template Matrix<3> with_eigenvalues_above(double, const Matrix<3>&);
+template Matrix<6> with_eigenvalues_above(double, const Matrix<6>&);
+template Matrix<9> with_eigenvalues_above(double, const Matrix<9>&);
+
+Vector<3> principal_axis(const Matrix<3>& symmetric) {
+  return Eigen::SelfAdjointEigenSolver<Matrix<3>>(symmetric).eigenvectors().col(2);
+}
+
+}  // namespace pharos::statistics
