@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <new>
 #include <sstream>
 #include <string>
@@ -9,10 +10,13 @@
 
 namespace pharos {
 
-/// Returns what `save_all(archive)` saves. Throws std::bad_alloc if there is no memory for it.
+/// Returns what `save_all(archive)` saves. Begins with memory for `expected` bytes, because growing
+/// copies what is there. Throws std::bad_alloc if there is no memory for it.
 template <class SaveAll>
-std::string saved_bytes(SaveAll&& save_all) {
-  std::ostringstream out;
+std::string saved_bytes(SaveAll&& save_all, std::size_t expected = 0) {
+  std::string memory;
+  memory.reserve(expected);
+  std::ostringstream out(std::move(memory));
   Archive archive(out);
   save_all(archive);
   if (!out) throw std::bad_alloc();

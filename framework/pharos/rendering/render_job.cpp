@@ -310,7 +310,8 @@ class RenderJob::Implementation {
     if (!control_.checkpoint.take) return;
     std::string state;
     try {
-      state = saved_bytes([this](Archive& archive) { archive_state(archive); });
+      state = saved_bytes([this](Archive& archive) { archive_state(archive); }, state_bytes_);
+      state_bytes_ = state.size() + state.size() / 16;  // the next state may be somewhat longer
     } catch (const std::bad_alloc&) {
       if (control_.checkpoint.on_failure) {
         control_.checkpoint.on_failure("the state of the render does not fit into memory");
@@ -384,8 +385,9 @@ class RenderJob::Implementation {
   Iteration iteration_;                    ///< the current one
   std::optional<IterationState> current_;  ///< its state; none between two iterations
   std::optional<RenderImages> images_;
-  PixelNoise noise_;       ///< of the training images
-  PixelShares shares_;     ///< of the current iteration
+  PixelNoise noise_;             ///< of the training images
+  PixelShares shares_;           ///< of the current iteration
+  std::size_t state_bytes_ = 0;  ///< memory for the next saved state
   bool is_saved_ = false;  ///< the render was stopped or has finished, and has handed out its state
   std::unique_ptr<UnitRunner> units_;
   std::unique_ptr<GuidingState> guiding_;
