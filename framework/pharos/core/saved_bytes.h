@@ -11,7 +11,7 @@
 namespace pharos {
 
 /// Returns what `save_all(archive)` saves. Begins with memory for `expected` bytes, because growing
-/// copies what is there. Throws std::bad_alloc if there is no memory for it.
+/// copies what is there. Throws std::bad_alloc if memory runs out.
 template <class SaveAll>
 std::string saved_bytes(SaveAll&& save_all, std::size_t expected = 0) {
   std::string memory;
