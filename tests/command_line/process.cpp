@@ -72,8 +72,7 @@ Outcome run_on_ranks(int ranks, const std::string& arguments, const std::filesys
   // names of their functions, so these leaks cannot be suppressed.
   return run_shell(
       fmt::format("ASAN_OPTIONS=detect_leaks=0 timeout --kill-after=10 {} '{}' -n {} "
-                  "--oversubscribe --bind-to "
-                  "none {} '{}' {} --threads 1",
+                  "--oversubscribe --bind-to none {} '{}' {} --threads 1",
                   kTimeoutSeconds, PHAROS_MPIRUN, ranks, root, PHAROS_PROGRAM, arguments),
       folder);
 }

@@ -224,8 +224,8 @@ class Plan {
   }
 
   /// Adds every case of the guider with the first case of each learner of its model, and the
-  /// guider's first case with all other cases of the learner. Of the one that was not selected, if
-  /// any, adds the first case only.
+  /// guider's first case with all other cases of the learner. If only one of the two is selected,
+  /// the other takes part with its first case alone.
   void add_guider(const PluginInfo& plugin) {
     const std::vector<Subject>& guiders = cases_.at(&plugin).subjects;
     if (guiders.empty()) return;

@@ -19,7 +19,7 @@ Matrix<D> with_eigenvalues_above(double floor, const Matrix<D>& symmetric) {
   return 0.5 * (result + result.transpose());
 }
 
-// Compilers need long for eigenvalues, so they are compiled once.
+// Eigenvalues take long to compile, so they are compiled here once.
 template Matrix<2> with_eigenvalues_above(double, const Matrix<2>&);
 template Matrix<3> with_eigenvalues_above(double, const Matrix<3>&);
 template Matrix<6> with_eigenvalues_above(double, const Matrix<6>&);

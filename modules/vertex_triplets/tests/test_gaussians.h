@@ -1,7 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
-
 #include <pharos/core/random.h>
 #include <pharos/guiding/contract/spatial_mixture.h>
 #include <pharos/statistics/gaussian.h>
@@ -12,8 +10,8 @@ using statistics::Gaussian;
 using statistics::Matrix;
 using statistics::Vector;
 
-// These functions are instantiated in test_gaussians.cpp for 3, 6 and 9 dimensions: compilers need
-// long for Eigen's decompositions.
+// Eigen's decompositions take long to compile, so test_gaussians.cpp instantiates these functions
+// once, for 3, 6 and 9 dimensions.
 
 /// Returns independent standard normal numbers.
 template <int D>
