@@ -43,8 +43,9 @@ class Simulation {
   double recorded_part(double part, double samples) const {
     const double paths = part * job_.pixels, logs = sent(paths);
     const double bytes = owners_ > 1 ? rates_.sample_bytes : rates_.log_bytes;
+    const double unpack = rates_.unpack * bytes / rates_.log_bytes;
     const double steps[]{tracing(part, samples, true, rates_.trace),
-                         logs * bytes / owners_ / job_.bandwidth, logs * rates_.unpack / owners_,
+                         logs * bytes / owners_ / job_.bandwidth, logs * unpack / owners_,
                          paths * shared(rates_.absorb_serial, rates_.absorb_shared) / owners_};
     return *std::ranges::max_element(steps);
   }

@@ -25,7 +25,8 @@ enum class LearningPlace {
 /// Returns the efficiency of a render on `ranks` machines: the time that one machine takes over
 /// `ranks` times the time that they take. A part of an iteration takes as long as the slowest of
 /// its steps that overlap: tracing, receiving, loading and learning. Then the guides are updated
-/// and broadcast. A pass ends when its last work unit has been rendered.
+/// and broadcast. Owners load less than rank 0 would, by the ratio of samples to logs. A pass ends
+/// when its last work unit has been rendered.
 double cluster_efficiency(const ClusterRates& rates, const ClusterJob& job, LearningPlace place,
                           double ranks);
 

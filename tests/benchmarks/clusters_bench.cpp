@@ -1,6 +1,7 @@
 // What guided renders cost, by what ranks on many machines must do, and the efficiency of such
 // renders according to a simulation with these rates.
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <sstream>
@@ -28,13 +29,22 @@ constexpr double kGigabits[]{10, 100};
 /// A way to learn on many machines.
 struct Design {
   const char* name;
+  const char* title;
   LearningPlace place;
   double recorded;  ///< as in ClusterJob
 };
-constexpr Design kDesigns[]{{"all-logs", LearningPlace::rank_0, 0},
-                            {"recorded-16", LearningPlace::rank_0, 16},
-                            {"recorded-2", LearningPlace::rank_0, 2},
-                            {"owners", LearningPlace::owners, 0}};
+constexpr Design kDesigns[]{
+    {"all-logs", "rank 0 learns from all samples", LearningPlace::rank_0, 0},
+    {"recorded-16", "recorded_samples: 16", LearningPlace::rank_0, 16},
+    {"recorded-2", "recorded_samples: 2", LearningPlace::rank_0, 2},
+    {"owners", "each rank learns its own cells", LearningPlace::owners, 0}};
+
+std::string title_of(const std::string& network, const std::string& design) {
+  const auto* const found =
+      std::ranges::find_if(kDesigns, [&](const Design& d) { return design == d.name; });
+  return fmt::format("efficiency, {}, {}/s", found->title,
+                     network == "10-gbit" ? "10 Gbit" : "100 Gbit");
+}
 
 /// A way to guide: settings on one line.
 struct Way {
@@ -116,8 +126,9 @@ void write_cluster_plots(const std::filesystem::path& folder, const std::vector<
     if (parts.empty()) continue;
     const auto& [scene, method, network, design] = std::tie(parts[1], parts[2], parts[3], parts[4]);
     Plot& plot = plots[fmt::format("{}-{}-{}", scene, network, design)];
-    plot.title = "efficiency";
+    plot.title = title_of(network, design);
     plot.x_name = "ranks";
+    plot.least = 1e-4;
     if (plot.curves.empty() || plot.curves.back().name != method)
       plot.curves.push_back({method, {}});
     plot.curves.back().points.push_back({std::stod(parts[5]), m.median()});

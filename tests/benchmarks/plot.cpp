@@ -13,7 +13,8 @@ namespace pharos::bench {
 namespace {
 
 constexpr double kLeft = 64, kRight = 400, kTop = 36, kBottom = 220;
-constexpr std::array kColors{"#1f5fa8", "#c4501b", "#2a8a4a", "#8a4fa3", "#8c6d1f", "#d0407f"};
+constexpr std::array kColors{"#1f5fa8", "#c4501b", "#2a8a4a", "#8a4fa3",
+                             "#8c6d1f", "#d0407f", "#222222", "#2aa3b5"};
 
 /// A logarithmic axis from `low` to `high`, drawn from pixel `from` to pixel `to`.
 class Axis {
@@ -53,11 +54,19 @@ std::string line(double x1, double y1, double x2, double y2, const char* color) 
       y2, color);
 }
 
-/// Returns the grid line after `tick`: 1, 2 and 5 times each power of ten, or the powers alone if
-/// there are many.
-double next_tick(double tick, double low, double high) {
-  return high > 1000 * low ? 10 * tick : round_number(1.5 * tick, true);
-}
+/// The grid lines from below the least value to above the largest one: 1, 2 and 5 times each power
+/// of ten, or the powers alone if there are many.
+struct Ticks {
+  double low, high;
+  bool powers;
+
+  Ticks(double least, double most) : powers(most > 300 * least) {
+    low = powers ? std::pow(10, std::floor(std::log10(least))) : round_number(least, false);
+    high = powers ? std::pow(10, std::ceil(std::log10(most) - 1e-9)) : round_number(most, true);
+    high = std::max(high, 2 * low);
+  }
+  double after(double tick) const { return powers ? 10 * tick : round_number(1.5 * tick, true); }
+};
 
 /// Draws a curve. If there are several, its name follows in the legend at the right.
 std::string curve_svg(const Curve& curve, std::size_t number, bool has_name, const Axis& x,
@@ -88,9 +97,8 @@ std::string svg_of(const Plot& plot) {
   const std::vector<Point> points = all_points(plot);
   const auto [x0, x1] = std::ranges::minmax(points, {}, &Point::x);
   const auto [y0, y1] = std::ranges::minmax(points, {}, &Point::y);
-  const double low = round_number(y0.y, false);
-  const double high = std::max(round_number(y1.y, true), 2 * low);
-  const Axis x(x0.x, x1.x, kLeft, kRight), y(low, high, kBottom, kTop);
+  const Ticks ticks(plot.least > 0 ? plot.least : y0.y, y1.y);
+  const Axis x(x0.x, x1.x, kLeft, kRight), y(ticks.low, ticks.high, kBottom, kTop);
   const bool has_names = plot.curves.size() > 1;
   std::string svg = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} 270\" "
@@ -98,7 +106,7 @@ std::string svg_of(const Plot& plot) {
       "fill=\"#fff\"/>\n",
       has_names ? 620 : 430);
   svg += text(kLeft, 22, "start", plot.title);
-  for (double tick = low; tick < 1.01 * high; tick = next_tick(tick, low, high)) {
+  for (double tick = ticks.low; tick < 1.01 * ticks.high; tick = ticks.after(tick)) {
     svg += line(kLeft, y.at(tick), kRight, y.at(tick), "#ddd");
     svg += text(kLeft - 6, y.at(tick) + 4, "end", fmt::format("{:g}", tick));
   }

@@ -18,6 +18,7 @@ struct Curve {
 struct Plot {
   std::string title, x_name;
   std::vector<Curve> curves;
+  double least = 0;  ///< where the axis of the values begins; 0: at the least value
 };
 
 /// Draws a plot as an SVG file. Throws RunError if the file cannot be written.
