@@ -33,7 +33,7 @@ void OctreeNode::archive(Archive& archive) {
   for (unsigned c = 0; c < 8; ++c) {
     std::uint32_t word = children[c];
     archive(word);
-    children[c] = word;
+    if (archive.loads()) children[c] = word;
   }
 }
 

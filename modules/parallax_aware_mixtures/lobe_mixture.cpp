@@ -48,7 +48,7 @@ void LobeGroup::archive(Archive& archive) {
     for (std::size_t i = 0; i < kLanes; ++i) {
       float number = (*numbers)[i];
       archive(number);
-      (*numbers)[i] = number;
+      if (archive.loads()) (*numbers)[i] = number;
     }
   }
   for (std::size_t i = 0; archive.loads() && i < kLanes; ++i) set_shape(*this, i, kappa[i]);

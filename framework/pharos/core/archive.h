@@ -26,8 +26,9 @@ static_assert(std::endian::native == std::endian::little, "archives are little-e
 ///
 ///     void archive(Archive& archive) { archive(count_, values_); }
 ///
-/// which writes to an archive that saves and reads from one that loads. Numbers keep the form that
-/// they have in memory. Loading throws InputError if the stream ends early, if a floating-point
+/// which writes to an archive that saves and reads from one that loads. Saving changes nothing in
+/// the object, so that other threads may use it meanwhile. Numbers keep the form that they have in
+/// memory. Loading throws InputError if the stream ends early, if a floating-point
 /// number is NaN or infinite, and if an expectation fails; the object is then in an unspecified but
 /// destructible state. Memory grows only as data arrive, so a damaged count costs none.
 class Archive {
@@ -96,7 +97,7 @@ class Archive {
     if constexpr (std::is_same_v<T, bool>) {
       auto byte = static_cast<std::uint8_t>(x);
       bytes(&byte, sizeof byte);
-      x = byte != 0;
+      if (loads()) x = byte != 0;
     } else if constexpr (std::is_floating_point_v<T>) {
       bytes(&x, sizeof x);
       if (loads() && !std::isfinite(x)) throw InputError("what was saved is damaged");

@@ -62,7 +62,7 @@ std::uint32_t PassSizes::next(std::uint32_t done, double now) {
 void PassSizes::archive(Archive& archive) {
   archive(size_);
   archive.expect(size_ > 0, "the size of passes");
-  size_ = std::min(size_, std::max(limit(0), limit(recorded_)));
+  if (archive.loads()) size_ = std::min(size_, std::max(limit(0), limit(recorded_)));
 }
 
 }  // namespace pharos

@@ -337,7 +337,7 @@ class RenderJob::Implementation {
     archive.expect(watch_seconds >= 0 && watch_seconds <= kLongest, "the state of the render");
     if (archive.loads()) watch_ = Stopwatch(watch_seconds);
     if (guiding_ != nullptr) guiding_->archive(archive);
-    if (guiding_ != nullptr) frame_ = guiding_->frame();
+    if (archive.loads() && guiding_ != nullptr) frame_ = guiding_->frame();
     bool has_current = current_.has_value();
     double start = has_current ? current_->start : 0;
     archive(has_current, start);

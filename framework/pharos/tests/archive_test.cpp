@@ -7,6 +7,7 @@
 
 #include <pharos/core/archive.h>
 #include <pharos/tests/fixtures.h>
+#include <pharos/tests/read_only.h>
 
 namespace pharos {
 namespace {
@@ -83,6 +84,10 @@ TEST_CASE("what is saved comes back to the bit") {
   CHECK(copy.triple[2] == 7);
   CHECK(copy.lists == original.lists);
   CHECK(saved(copy) == saved(original));
+}
+
+TEST_CASE("saving changes nothing, so that other threads may read what is saved") {
+  CHECK(test::saved_read_only(example()) == saved(example()));
 }
 
 TEST_CASE("archives that are cut off are refused at every length") {

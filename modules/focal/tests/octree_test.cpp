@@ -7,6 +7,7 @@
 
 #include <pharos/core/warp.h>
 #include <pharos/statistics/goodness_of_fit.h>
+#include <pharos/tests/read_only.h>
 
 #include "test_trees.h"
 
@@ -194,6 +195,11 @@ TEST_CASE("octree: the number 0 is drawn from cells of almost no mass") {
   for (unsigned c = 0; c < 8; ++c) root.set_density(c, c % 2 == 0 ? 1e-36f : 1e36f);
   const Octree octree(test_box(), {root});
   CHECK(octree.sample({0, 0, 0}) == octree.box().low);
+}
+
+TEST_CASE("octree: saving changes nothing in nodes that others traverse") {
+  const Octree::Node node = pinhole_tree().nodes().front();
+  CHECK(test::saved_read_only(node) == test::saved(node));
 }
 
 }  // namespace pharos::focal

@@ -4,6 +4,7 @@
 
 #include <pharos/statistics/goodness_of_fit.h>
 #include <pharos/statistics/quadrature.h>
+#include <pharos/tests/read_only.h>
 
 #include "test_lobes.h"
 
@@ -119,6 +120,11 @@ TEST_CASE("where nothing is left there is no distribution") {
   const ScatteringLobe opposite{{0, 0, -1}, 30'000, 1};
   CHECK(SeenLobes::make(groups, {}, {&opposite, 1}, arena) == nullptr);
   CHECK(SeenLobes::make({}, {}, {}, arena) == nullptr);
+}
+
+TEST_CASE("saving changes nothing in lobes that others sample") {
+  const LobeGroup group = groups_of({{1, Direction::UnitZ(), 30}}, 0.5).front();
+  CHECK(test::saved_read_only(group) == test::saved(group));
 }
 
 }  // namespace

@@ -212,7 +212,7 @@ void NoiseRatio::archive(Archive& archive) {
     bool is_known = ratio->has_value();
     Ratio value = ratio->value_or(Ratio{});
     archive(is_known, value);
-    *ratio = is_known ? std::optional(value) : std::nullopt;
+    if (archive.loads()) *ratio = is_known ? std::optional(value) : std::nullopt;
   }
 }
 

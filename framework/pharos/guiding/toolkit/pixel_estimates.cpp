@@ -76,6 +76,7 @@ void PixelEstimates::archive(Archive& archive) {
   if (window != window_) throw InputError("what was learned belongs to a film of another size");
   const std::size_t count = pixels_.size();
   archive(pixels_, new_, estimates_);
+  if (!archive.loads()) return;
   bool is_sound = pixels_.size() == count && new_.size() == count && estimates_.size() == count;
   for (const double estimate : estimates_) is_sound &= estimate > 0;
   const Pixel all = sum_of_all();
