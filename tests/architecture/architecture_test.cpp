@@ -91,12 +91,13 @@ TEST_CASE("plugins and modules include the framework and their own folder only")
   CHECK(seen > 100);
 }
 
-TEST_CASE("one file knows yaml-cpp, one knows Embree, one OpenImageIO, one MPI") {
+TEST_CASE("one file knows yaml-cpp, one knows Embree, one OpenEXR, one OpenImageIO, one MPI") {
   for (const Include& include : includes_below("framework")) {
     const std::string file = include.file.generic_string();
     if (starts_with(include.name, "yaml-cpp/")) CHECK(file == "framework/pharos/config/yaml.cpp");
     if (starts_with(include.name, "embree"))
       CHECK(file == "framework/pharos/scene/accelerator.cpp");
+    if (starts_with(include.name, "OpenEXR/")) CHECK(file == "framework/pharos/core/exr_file.cpp");
     if (starts_with(include.name, "OpenImageIO/"))
       CHECK(file == "framework/pharos/core/image_files.cpp");
     if (include.name == "mpi.h") CHECK(file == "framework/pharos/rendering/mpi_ranks.cpp");

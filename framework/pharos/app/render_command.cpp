@@ -109,7 +109,7 @@ class Render {
   /// Renders the image and writes it, with a preview in `viewer` if one is given.
   RenderResult run(const std::optional<HostPort>& viewer) {
     std::optional<TevPreview> preview;
-    prepare_image_files();
+    if (loaded_.config.output.png) prepare_image_files();
     OutputSpace space(loaded_.config);
     RenderControl control{.on_progress = {}, .on_pass = {}, .stop = &interrupt_.flag()};
     if (!options_.quiet) control.on_progress = [this](const Progress& p) { bar_.show(p); };

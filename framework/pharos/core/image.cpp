@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <cmath>
 #include <dlfcn.h>
+#include <optional>
 #include <utility>
 
 #include <pharos/core/error.h>
+#include <pharos/core/exr_file.h>
 #include <pharos/core/image_files.h>
 
 namespace pharos {
@@ -24,12 +26,12 @@ const ImageFiles* load_image_files() {
   return reinterpret_cast<decltype(&pharos_image_files)>(entry)();
 }
 
+}  // namespace
+
 const ImageFiles& image_files() {
   static const ImageFiles* const files = load_image_files();
   return *files;
 }
-
-}  // namespace
 
 Image::Image(int width, int height, std::vector<std::string> channels)
     : width_(width),
@@ -73,19 +75,18 @@ void prepare_image_files() {
 }
 
 Image read_image(const std::filesystem::path& path, ColorSpace integer_formats) {
-  return image_files().read(path, integer_formats);
+  std::optional<Image> own = read_own_exr(path);
+  return own ? *std::move(own) : image_files().read(path, integer_formats);
 }
 
 ColorImage read_colors(const std::filesystem::path& path, ColorSpace integer_formats) {
-  return image_files().read_colors(path, integer_formats);
+  std::optional<ColorImage> own = read_own_exr_colors(path);
+  return own ? *std::move(own) : image_files().read_colors(path, integer_formats);
 }
 
 Metadata read_metadata(const std::filesystem::path& path) {
-  return image_files().read_metadata(path);
-}
-
-void write_exr(const Image& image, const std::filesystem::path& path, const Metadata& metadata) {
-  image_files().write_exr(image, path, metadata);
+  std::optional<Metadata> own = read_own_exr_metadata(path);
+  return own ? *std::move(own) : image_files().read_metadata(path);
 }
 
 void write_png(const Image& image, const std::filesystem::path& path, float exposure, bool filmic) {

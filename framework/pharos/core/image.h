@@ -69,17 +69,17 @@ enum class ColorSpace { linear, srgb };
 /// The most pixels of an image file that is read. A small file may claim to be huge.
 inline constexpr std::size_t kMostPixels = std::size_t{1} << 28;
 
-/// Loads the library that reads and writes image files, which otherwise happens at the first use.
-/// Throws RunError if it cannot be loaded.
+/// Loads the library for image files that are not OpenEXR files of Pharos, which otherwise happens
+/// at the first use. Throws RunError if it cannot be loaded.
 void prepare_image_files();
 
 /// Reads all channels of an image file as float, in any format that OpenImageIO knows. Values of
 /// 8-bit and 16-bit formats are decoded from sRGB unless `integer_formats` is `linear`; values of
-/// float formats are linear. Channels keep their names but not always their order, so look them up
-/// by channel_index(). Throws InputError with the path if the file is missing, unreadable or cut
-/// off, if the image is over 65,536 pixels wide or high or has more than kMostPixels, and if it is
-/// deep or cropped (the OpenEXR data window is not the display window). The size is checked before
-/// any pixel is read.
+/// float formats are linear. Channels keep their names, but only files of write_exr() keep their
+/// order, so look them up by channel_index(). Throws InputError with the path if the file is
+/// missing, unreadable or cut off, if the image is over 65,536 pixels wide or high or has more than
+/// kMostPixels, and if it is deep or cropped (the OpenEXR data window is not the display window).
+/// The size is checked before any pixel is read.
 Image read_image(const std::filesystem::path& path, ColorSpace integer_formats = ColorSpace::srgb);
 
 /// Reads the text entries of an image file's header. Throws InputError like read_image().

@@ -20,12 +20,6 @@
 namespace pharos {
 namespace {
 
-constexpr int kLargestEdge = 65536;
-/// More than any image format of textures and renders needs.
-constexpr int kMostChannels = 1024;
-/// Values of all channels together, 4 GiB as floats.
-constexpr std::size_t kMostValues = std::size_t{1} << 30;
-
 /// Makes the image libraries work on the caller's thread. Their own thread pools would compete with
 /// the renderer's.
 void keep_to_one_thread() {
@@ -285,16 +279,6 @@ Metadata read_file_metadata(const std::filesystem::path& path) {
   });
 }
 
-void write_exr_file(const Image& image, const std::filesystem::path& path,
-                    const Metadata& metadata) {
-  OIIO::ImageSpec spec(image.width(), image.height(), image.channel_count(), OIIO::TypeDesc::FLOAT);
-  spec.channelnames = image.channels();
-  for (const auto& [key, text] : metadata) spec.attribute(key, text);
-  spec.attribute("compression", "zip");
-  spec.attribute("DateTime", "");  // otherwise the time, which makes equal images differ
-  write_image(path, "openexr", spec, OIIO::TypeDesc::FLOAT, image.values().data());
-}
-
 void write_png_file(const Image& image, const std::filesystem::path& path, float exposure,
                     bool filmic) {
   const float scale = std::exp2(exposure);
@@ -312,8 +296,7 @@ void write_png_file(const Image& image, const std::filesystem::path& path, float
   write_image(path, "png", spec, OIIO::TypeDesc::UINT8, bytes.data());
 }
 
-const ImageFiles kImageFiles{read_image_file, read_color_file, read_file_metadata, write_exr_file,
-                             write_png_file};
+const ImageFiles kImageFiles{read_image_file, read_color_file, read_file_metadata, write_png_file};
 
 }  // namespace
 }  // namespace pharos

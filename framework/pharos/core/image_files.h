@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 
 #include <pharos/core/color_image.h>
@@ -7,19 +8,27 @@
 
 namespace pharos {
 
-/// The functions behind image.h, which read and write image files by OpenImageIO. They live in a
-/// library of their own, libpharos_images, which is loaded when the first image is read or written.
-/// OpenImageIO depends on some 250 libraries, and loading these takes longer than loading a small
-/// scene.
+// Limits of the image files that are read, besides kMostPixels.
+inline constexpr int kLargestEdge = 65536;
+/// More than any image format of textures and renders needs.
+inline constexpr int kMostChannels = 1024;
+/// Values of all channels together, 4 GiB as floats.
+inline constexpr std::size_t kMostValues = std::size_t{1} << 30;
+
+/// The functions behind image.h that read and write image files by OpenImageIO: all files except
+/// the OpenEXR files of Pharos (exr_file.h). They live in a library of their own, libpharos_images,
+/// which is loaded at the first such file. OpenImageIO depends on some 250 libraries, and loading
+/// these takes longer than loading a small scene.
 struct ImageFiles {
   Image (*read)(const std::filesystem::path& path, ColorSpace integer_formats);
   ColorImage (*read_colors)(const std::filesystem::path& path, ColorSpace integer_formats);
   Metadata (*read_metadata)(const std::filesystem::path& path);
-  void (*write_exr)(const Image& image, const std::filesystem::path& path,
-                    const Metadata& metadata);
   void (*write_png)(const Image& image, const std::filesystem::path& path, float exposure,
                     bool filmic);
 };
+
+/// Returns the functions; loads the library at the first call. Throws RunError if that fails.
+const ImageFiles& image_files();
 
 }  // namespace pharos
 

@@ -2,12 +2,10 @@
 // or loads anything.
 
 #include <cmath>
-#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
-#include <sys/resource.h>
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
@@ -17,6 +15,7 @@
 #include <pharos/experiments/report/report.h>
 
 #include "../../tests/fixtures.h"
+#include "../../tests/small_files.h"
 #include "sample_report.h"
 
 namespace pharos {
@@ -24,27 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-
-/// Limits the size of files to 100 kB during its lifetime, so that writing fails as on a full disk.
-class SmallFiles {
- public:
-  SmallFiles() : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-    getrlimit(RLIMIT_FSIZE, &before_);
-    rlimit limit = before_;
-    limit.rlim_cur = 100'000;
-    setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~SmallFiles() {
-    setrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, handler_);
-  }
-  SmallFiles(const SmallFiles&) = delete;
-  SmallFiles& operator=(const SmallFiles&) = delete;
-
- private:
-  rlimit before_{};
-  void (*handler_)(int);
-};
 
 std::string content(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);
@@ -223,7 +201,7 @@ TEST_CASE("a disk that is full leaves the older file") {
   const fs::path path = folder / "report.html";
   std::ofstream(path) << "before";
   {
-    const SmallFiles limit;
+    const test::SmallFiles limit;
     CHECK_THROWS_AS(write_report(test::sample_report(), path), RunError);
   }
   CHECK(content(path) == "before");
