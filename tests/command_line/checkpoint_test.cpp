@@ -36,18 +36,23 @@ void write_config(const ScratchFolder& folder, const std::string& integrator, in
 
 constexpr const char* kGuided = "{ type: path, guiding: pavmm }";
 
+/// Leaves out the many checkpoints that a test needs only before an interruption.
+constexpr const char* kFewCheckpoints = " --set output.every=300";
+
 /// Renders the config of another folder without interruption.
 BoxOutputs undisturbed(const ScratchFolder& other) {
   const ScratchFolder folder;
   fs::copy_file(other.path() / "box.yaml", folder.path() / "box.yaml");
-  const Outcome outcome = run_pharos("render box.yaml -q", folder.path());
+  const Outcome outcome =
+      run_pharos(std::string("render box.yaml -q") + kFewCheckpoints, folder.path());
   REQUIRE_MESSAGE(outcome.exit_code == 0, outcome.err);
   return box_outputs_in(folder);
 }
 
 /// Goes on until the render is done, and compares.
 void check_ends_like(const ScratchFolder& folder, const BoxOutputs& whole) {
-  const Outcome outcome = run_pharos("render box.yaml -q --resume", folder.path());
+  const Outcome outcome =
+      run_pharos(std::string("render box.yaml -q --resume") + kFewCheckpoints, folder.path());
   REQUIRE_MESSAGE(outcome.exit_code == 0, outcome.err);
   const bool same = box_outputs_in(folder) == whole;
   CHECK(same);

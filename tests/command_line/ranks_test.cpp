@@ -28,6 +28,9 @@ void write_config(const ScratchFolder& folder, const std::string& preset, int sp
                            PHAROS_SCENES, spp, every, preset));
 }
 
+/// Goes on to the end, without the many checkpoints that a test needs before.
+constexpr const char* kResume = "render box.yaml -q --resume --set output.every=300";
+
 BoxOutputs outputs_alone(const std::string& preset, int spp) {
   const ScratchFolder folder;
   write_config(folder, preset, spp);
@@ -81,11 +84,11 @@ pid_t process_of(int rank, const fs::path& folder) {
 }
 
 TEST_CASE("mpirun: a killed rank ends the job, and its checkpoint goes on with other ranks") {
-  const BoxOutputs whole = outputs_alone("pavmm", 256);
+  const BoxOutputs whole = outputs_alone("pavmm", 128);
   for (const int killed : {0, 1}) {
     CAPTURE(killed);
     const ScratchFolder folder;
-    write_config(folder, "pavmm", 256, 0.02);
+    write_config(folder, "pavmm", 128, 0.02);
     Outcome outcome;
     std::jthread job([&] { outcome = run_on_ranks(2, "render box.yaml -q", folder.path()); });
     REQUIRE(appears(folder.path() / "box.checkpoint"));
@@ -96,7 +99,7 @@ TEST_CASE("mpirun: a killed rank ends the job, and its checkpoint goes on with o
     CHECK(outcome.exit_code != 0);
     CHECK_MESSAGE(outcome.err.find("signal 9") != std::string::npos, outcome.err);
     const int ranks = killed == 0 ? 3 : 1;
-    const Outcome rest = run_on_ranks(ranks, "render box.yaml -q --resume", folder.path());
+    const Outcome rest = run_on_ranks(ranks, kResume, folder.path());
     CHECK_MESSAGE(rest.exit_code == 0, rest.err);
     const bool same = box_outputs_in(folder) == whole;
     CHECK(same);
@@ -116,9 +119,9 @@ pid_t starter_in(const fs::path& folder) {
 }
 
 TEST_CASE("mpirun: SIGUSR2 ends a render, which goes on from there") {
-  const BoxOutputs whole = outputs_alone("pavmm", 256);
+  const BoxOutputs whole = outputs_alone("pavmm", 128);
   const ScratchFolder folder;
-  write_config(folder, "pavmm", 256, 0.02);
+  write_config(folder, "pavmm", 128, 0.02);
   Outcome outcome;
   std::jthread job([&] { outcome = run_on_ranks(2, "render box.yaml", folder.path()); });
   CHECK(appears(folder.path() / "box.checkpoint"));
@@ -129,7 +132,7 @@ TEST_CASE("mpirun: SIGUSR2 ends a render, which goes on from there") {
   CHECK_MESSAGE(outcome.exit_code == 130, outcome.err);
   CHECK(folder.has("box.exr"));
   CHECK(outcome.err.find("--resume goes on from here") != std::string::npos);
-  const Outcome rest = run_on_ranks(2, "render box.yaml -q --resume", folder.path());
+  const Outcome rest = run_on_ranks(2, kResume, folder.path());
   CHECK_MESSAGE(rest.exit_code == 0, rest.err);
   const bool same = box_outputs_in(folder) == whole;
   CHECK(same);
