@@ -5,6 +5,7 @@
 #include "multi_jittered.h"
 #include "pmj02.h"
 #include "pmj02bn.h"
+#include "point_list.h"
 #include "sheared.h"
 #include "sobol.h"
 #include "stratified.h"
@@ -17,6 +18,7 @@ PHAROS_MODULE(registry) {
   registry.add<pharos::MultiJitteredSampler>("multi_jittered", "Correlated multi-jittered points");
   registry.add<pharos::Pmj02Sampler>("pmj02", "Progressive multi-jittered (0,2) sequences");
   registry.add<pharos::Pmj02bnSampler>("pmj02bn", "pmj02 with larger distances between points");
+  registry.add<pharos::PointListSampler>("point_list", "Points from a file, moved on the torus");
   registry.add<pharos::ShearedSampler>("sheared",
                                        "Points stratified along lines of a given direction");
   registry.add<pharos::SobolSampler>("sobol", "Padded (0,2)-sequences with Owen scrambling");

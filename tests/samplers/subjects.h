@@ -12,7 +12,7 @@ namespace pharos::testing {
 /// declares.
 struct SamplerSubject {
   std::string name;
-  std::string settings;  ///< with `type`, as YAML on one line
+  std::string settings;  ///< with `type` and absolute paths, as YAML on one line
 };
 
 /// Returns every sampler of the build's modules, except stand-ins of tests.

@@ -118,7 +118,7 @@ class Schema {
   /// Gives settings worth trying, as a YAML mapping on one line without `type`. The conformance
   /// suites test a plugin with its defaults and with every example; the documentation shows them. A
   /// plugin that cannot be built from its defaults needs one. Examples may name the files
-  /// `example.exr` (an image of the sphere of directions), `example.png` and `example.ply`.
+  /// `example.exr` (an image of all directions), `example.png`, `example.ply` and `example.txt`.
   void example(std::string yaml) { examples_.push_back(std::move(yaml)); }
   const std::vector<std::string>& examples() const { return examples_; }
 

@@ -12,6 +12,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// A Hammersley set of eight points, centered in their strata.
+constexpr const char* kExamplePoints = R"(0.0625 0.0625
+0.1875 0.5625
+0.3125 0.3125
+0.4375 0.8125
+0.5625 0.1875
+0.6875 0.6875
+0.8125 0.4375
+0.9375 0.9375
+)";
+
 /// An octahedron with smooth shading normals.
 constexpr const char* kExamplePly = R"(ply
 format ascii 1.0
@@ -132,6 +143,7 @@ ExampleFolder::ExampleFolder() {
   write_exr(example_sky(), path_ / "example.exr");
   write_png(example_picture(), path_ / "example.png", 0, false);
   std::ofstream(path_ / "example.ply") << kExamplePly;
+  std::ofstream(path_ / "example.txt") << kExamplePoints;
 }
 
 ExampleFolder::~ExampleFolder() {

@@ -10,8 +10,8 @@
 
 namespace pharos::conformance {
 
-/// A folder with the files that examples may name: `example.exr`, `example.png` and `example.ply`.
-/// The folder exists as long as the object.
+/// A folder with the files that examples may name: `example.exr`, `example.png`, `example.ply` and
+/// `example.txt` (eight points). The folder exists as long as the object.
 class ExampleFolder {
  public:
   ExampleFolder();
