@@ -89,7 +89,7 @@ TEST_CASE("three processes share the runs and references of an experiment") {
 }
 
 TEST_CASE("what killed processes have begun is done by the one that lives") {
-  constexpr int kSeeds = 8, kKills = 6;
+  constexpr int kSeeds = 8, kKills = 10;
   const std::string table = undisturbed_table(kSeeds);
   const ScratchFolder folder;
   write_experiment(folder, "spp: 16", kSeeds);

@@ -185,7 +185,7 @@ bool is_in_line_table(const std::string& bytes, std::size_t i) {
   return i >= table && i < table + 8;
 }
 
-/// What a reader makes of a file: an image or a message.
+/// Reads an image by `read`. Returns the message of the error; empty if there is none.
 template <class Read>
 std::string outcome(Read&& read, std::optional<Image>& image) {
   return input_error([&] { image = read(); });
@@ -203,7 +203,7 @@ TEST_CASE("own files with any byte changed, or cut off anywhere, are read as by 
   };
   for (std::size_t i = 0; i < bytes.size(); ++i) {
     CAPTURE(i);
-    // OpenEXR may return memory that nobody has written if the table points to another place.
+    // If the table of lines is wrong, OpenEXR may return values that are not in the file.
     const bool values = !is_in_line_table(bytes, i);
     for (const int flipped : {1, 0x80, 0xff}) {
       std::string damaged = bytes;

@@ -3,14 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <string>
 
 #include <doctest/doctest.h>
 
-#include <pharos/core/error.h>
+#include <pharos/tests/fixtures.h>
 
 #include "point_lists.h"
 
@@ -19,32 +16,10 @@ namespace {
 
 constexpr Dimension kLight{Purpose::light_position, 2};
 
-/// A file that is removed with the object.
-class ListFile {
- public:
-  explicit ListFile(const std::string& content) {
-    std::string pattern = (std::filesystem::temp_directory_path() / "point-list-XXXXXX").string();
-    REQUIRE(mkdtemp(pattern.data()) != nullptr);
-    folder_ = pattern;
-    std::ofstream(path()) << content;
-  }
-  ~ListFile() { std::filesystem::remove_all(folder_); }
-  ListFile(const ListFile&) = delete;
-  ListFile& operator=(const ListFile&) = delete;
-  std::filesystem::path path() const { return folder_ / "points.txt"; }
-
- private:
-  std::filesystem::path folder_;
-};
-
 std::string message_of(const std::string& content) {
-  const ListFile file(content);
-  try {
-    read_point_list(file.path());
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  const test::TemporaryFolder folder;
+  const auto file = folder.write("points.txt", content);
+  return test::input_error_in(folder, [&] { read_point_list(file); });
 }
 
 /// Returns whether `p`, moved back by (x, y) on the torus, is `point`.
@@ -67,10 +42,11 @@ bool is_moved(const std::vector<Vec2>& samples, const std::vector<Vec2>& points)
 }  // namespace
 
 TEST_CASE("point_list: a set holds the points of the file, moved on the torus") {
-  const ListFile file("# x y\n0.125 0.5\n0.25\t0\n\n  0.5 0.75 \r\n");
-  const std::vector<Vec2> points = read_point_list(file.path());
+  const test::TemporaryFolder folder;
+  const auto file = folder.write("points.txt", "# x y\n0.125 0.5\n0.25\t0\n\n  0.5 0.75 \r\n");
+  const std::vector<Vec2> points = read_point_list(file);
   CHECK(points == std::vector<Vec2>{{0.125f, 0.5f}, {0.25f, 0}, {0.5f, 0.75f}});
-  const PointListSampler sampler({.file = file.path()});
+  const PointListSampler sampler({.file = file});
   CHECK(sampler.preferred_samples({}) == 3);
   const auto prepared = sampler.prepare({}, {.seed = 7}, nullptr);
   for (const std::uint64_t pixel : {0, 1, 50}) {
