@@ -55,10 +55,11 @@ class PreparedPointList final : public PreparedSampler {
   DrawnPermutations orders_;
 };
 
+constexpr std::string_view kSpaces = " \t\r";
+
 /// Reads a number in [0, 1) from the beginning of `text` and removes it and spaces around it.
 /// Returns a negative number if there is none.
 double take_number(std::string_view& text) {
-  constexpr std::string_view kSpaces = " \t\r";
   const auto skip_spaces = [&] {
     text.remove_prefix(std::min(text.find_first_not_of(kSpaces), text.size()));
   };
@@ -83,7 +84,7 @@ std::vector<Vec2> read_point_list(const std::filesystem::path& file) {
   for (std::string line; std::getline(in, line);) {
     ++number;
     std::string_view rest = line;
-    if (line.find_first_not_of(" \t\r") == std::string::npos || line.front() == '#') continue;
+    if (line.find_first_not_of(kSpaces) == std::string::npos || line.front() == '#') continue;
     const double x = take_number(rest), y = take_number(rest);
     const Location here{.file = file.string(), .line = number};
     if (x < 0 || y < 0 || !rest.empty()) {
