@@ -1,6 +1,7 @@
 #include <pharos/laboratory/integrands/add_integrands.h>
 #include <pharos/laboratory/integrands/disk.h>
 #include <pharos/laboratory/integrands/edge.h>
+#include <pharos/laboratory/integrands/half_sky.h>
 #include <pharos/laboratory/integrands/smooth.h>
 #include <pharos/laboratory/integrands/smooth_disk.h>
 #include <pharos/laboratory/integrands/smooth_edge.h>
@@ -13,6 +14,7 @@ void add_integrands(Registry& registry) {
   registry.set_current_module("laboratory");
   registry.add<IntegrandOf<Disk>>("disk", "1 in a disk, 0 outside");
   registry.add<IntegrandOf<Edge>>("edge", "1 in the intersection of half planes, 0 outside");
+  registry.add<IntegrandOf<HalfSky>>("half_sky", "Half a sky by a map of the hemisphere");
   registry.add<IntegrandOf<Smooth>>("smooth", "A Gaussian on the torus");
   registry.add<IntegrandOf<SmoothDisk>>("smooth_disk", "A disk blurred along its radius");
   registry.add<IntegrandOf<SmoothEdge>>("smooth_edge", "A straight edge blurred by a Gaussian");

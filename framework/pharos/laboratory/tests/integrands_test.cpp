@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <pharos/laboratory/integrand.h>
 #include <pharos/laboratory/integrands/add_integrands.h>
@@ -68,8 +69,18 @@ TEST_CASE("every registered integrand has the mean of a fine grid") {
   Registry all;
   add_integrands(all);
   const std::vector<std::string> names = all.names("integrand");
-  CHECK(names.size() >= 7);
+  CHECK(names.size() >= 8);
   for (const std::string& name : names) check_mean(name, 2e-5);
+}
+
+TEST_CASE("half a sky has the same mean by all maps of the hemisphere") {
+  for (const char* map : {"polar", "concentric", "octahedral"}) {
+    for (const char* edge : {"azimuth: 20, tilt: 60", "azimuth: 155, tilt: 120",
+                             "azimuth: 300, tilt: 90", "azimuth: 0, tilt: 0"}) {
+      check_mean(fmt::format("{{ type: half_sky, map: {}, {} }}", map, edge), 2e-5);
+    }
+  }
+  CHECK(integrand("{ type: half_sky, tilt: 60 }")->mean() == doctest::Approx(0.75));
 }
 
 TEST_CASE("means of textured edges are those of a fine grid") {
