@@ -31,10 +31,12 @@ Vec3 direction_at(HemisphereMap map, Vec2 u) {
   return {};
 }
 
-/// The light per unit of density in this direction: the cosine over pi times the density [1/sr].
+/// Returns cos / (pi p). For the octahedral map it is written without the division, because the
+/// cosine and the density p are both 0 at the horizon.
 double weight(HemisphereMap map, Vec3 direction) {
   if (map != HemisphereMap::octahedral) return 1;
-  return direction.z / (std::numbers::pi * warp::octahedral_hemisphere_pdf(direction));
+  const double sum = std::abs(direction.x) + std::abs(direction.y) + direction.z;
+  return direction.z * 2 * sum * sum * sum / std::numbers::pi;
 }
 
 }  // namespace

@@ -81,6 +81,8 @@ TEST_CASE("half a sky has the same mean by all maps of the hemisphere") {
     }
   }
   CHECK(integrand("{ type: half_sky, tilt: 60 }")->mean() == doctest::Approx(0.75));
+  // The corners of the square are horizontal directions.
+  CHECK(integrand("{ type: half_sky, tilt: 0 }")->value({0, 0}) == doctest::Approx(0));
 }
 
 TEST_CASE("means of textured edges are those of a fine grid") {
