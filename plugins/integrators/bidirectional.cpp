@@ -8,8 +8,9 @@
 //
 // One model guides both kinds of path if its guider supports it. The densities of either kind,
 // including guides, enter the weights of the other kind. Guides learn from the paths that start at
-// the lens, as in `path`, or from both kinds if their learner needs light paths. There is no
-// Russian roulette, because its probabilities would have to be known from the other end.
+// the lens, as in `path`, or from both kinds if their learner needs light paths. A termination may
+// end paths from either end by Russian roulette. The weights ignore its probabilities, which depend
+// on the whole prefix of a path: weights need only sum to one for each path.
 //
 //     integrator:
 //       type: bidirectional
@@ -32,13 +33,22 @@ void BidirectionalIntegrator::Settings::describe(Schema<Settings>& s) {
   s.field("light_paths", &Settings::light_paths,
           "Whether paths start at lights always, or only to train guides, in which case the final "
           "image is that of path tracing");
+  s.field("termination", &Settings::termination,
+          "Where paths from either end end by Russian roulette; they do not split");
   s.field("guiding", &Settings::guiding, "Path guiding: what is learned and how it is used");
+}
+
+BidirectionalIntegrator::BidirectionalIntegrator(Settings settings)
+    : settings_(std::move(settings)) {
+  check_learns_nothing(settings_.termination);
 }
 
 PathSettings BidirectionalIntegrator::Settings::path_settings() const {
   PathSettings path;
   path.max_depth = max_depth;
   path.light_selection = light_selection;
+  path.termination = termination;
+  path.most_branches = 0;  // the final image may be that of path tracing
   return path;
 }
 

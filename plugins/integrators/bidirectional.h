@@ -25,13 +25,15 @@ class BidirectionalIntegrator final : public Integrator {
     std::uint16_t max_depth = 12;
     LightSelection light_selection = LightSelection::one;
     LightPaths light_paths = LightPaths::always;
+    Ref<Termination> termination;  ///< null: paths end at `max_depth` only
     std::optional<GuidingSettings> guiding;
     static void describe(Schema<Settings>& s);
 
     PathSettings path_settings() const;
     LightPathRules light_path_rules() const;
   };
-  explicit BidirectionalIntegrator(Settings settings) : settings_(std::move(settings)) {}
+  /// Throws InputError if the termination learns.
+  explicit BidirectionalIntegrator(Settings settings);
 
   IntegratorTraits traits() const override;
   const GuidingSettings* guiding() const override;

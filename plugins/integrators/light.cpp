@@ -12,6 +12,7 @@
 
 #include "light.h"
 
+#include <pharos/config/registry.h>
 #include <pharos/core/error.h>
 #include <pharos/transport/prepared_light.h>
 
@@ -22,12 +23,21 @@ void LightIntegrator::Settings::describe(Schema<Settings>& s) {
           "Length of the longest path from the light to the lens")
       .unit("segments")
       .at_least(1);
+  s.field("termination", &Settings::termination,
+          "Where paths end by Russian roulette; paths from lights do not split");
+}
+
+LightIntegrator::LightIntegrator(const Settings& settings) : settings_(settings) {
+  check_learns_nothing(settings.termination);
 }
 
 std::unique_ptr<const PreparedIntegrator> LightIntegrator::prepare(
     const RenderTarget& target) const {
   if (!target.jitter) throw InputError("the integrator 'light' needs a film with 'jitter: true'");
-  return std::make_unique<PreparedLightTracing<>>(settings_.max_depth, target);
+  const Ref<Termination>& termination = settings_.termination;
+  return std::make_unique<PreparedLightTracing<>>(
+      settings_.max_depth, target,
+      termination != nullptr ? termination->begin({})->rule() : nullptr);
 }
 
 }  // namespace pharos

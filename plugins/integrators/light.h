@@ -1,6 +1,7 @@
 #pragma once
 
 #include <pharos/config/schema.h>
+#include <pharos/guiding/contract/termination.h>
 #include <pharos/rendering/integrator.h>
 
 namespace pharos {
@@ -10,9 +11,11 @@ class LightIntegrator final : public Integrator {
  public:
   struct Settings {
     std::uint16_t max_depth = 12;
+    Ref<Termination> termination;  ///< null: paths end at `max_depth` only
     static void describe(Schema<Settings>& s);
   };
-  explicit LightIntegrator(const Settings& settings) : settings_(settings) {}
+  /// Throws InputError if the termination learns.
+  explicit LightIntegrator(const Settings& settings);
 
   IntegratorTraits traits() const override { return {}; }
   std::unique_ptr<const PreparedIntegrator> prepare(const RenderTarget& target) const override;

@@ -6,10 +6,15 @@
 // density of the mixture (Veach 1997, ch. 9). In media, distances are sampled. Guides may choose
 // the first vertex.
 //
+// Paths end at `max_depth`. A `termination` may end them earlier by Russian roulette, or split them
+// where much of the light of their pixel is still to come. `roulette: throughput` is the short form
+// of `termination: throughput`.
+//
 //     integrator:
 //       type: path
 //       max_depth: 12            # segments: 1 shows only emitters, 2 adds direct light
 //       light_selection: all     # one | all
+//       termination: adjoint     # none | throughput | adjoint | efficiency
 //       guiding: { learner: …, guider: … }
 
 #include "path.h"
@@ -18,7 +23,9 @@
 
 namespace pharos {
 
-PathIntegrator::PathIntegrator(Settings settings) : settings_(std::move(settings)) {}
+PathIntegrator::PathIntegrator(Settings settings) : settings_(std::move(settings)) {
+  settings_.check();
+}
 
 IntegratorTraits PathIntegrator::traits() const {
   return {
@@ -27,6 +34,15 @@ IntegratorTraits PathIntegrator::traits() const {
 
 const GuidingSettings* PathIntegrator::guiding() const {
   return settings_.guiding ? &*settings_.guiding : nullptr;
+}
+
+const Termination* PathIntegrator::learned_termination() const {
+  const Termination* termination = settings_.termination.get();
+  return termination != nullptr && termination->learns() ? termination : nullptr;
+}
+
+const TrainingSettings* PathIntegrator::training() const {
+  return settings_.training_of_all();
 }
 
 std::unique_ptr<const PreparedIntegrator> PathIntegrator::prepare(

@@ -11,10 +11,13 @@ namespace pharos {
 class PathIntegrator final : public Integrator {
  public:
   using Settings = PathSettings;
+  /// Throws InputError if settings contradict each other.
   explicit PathIntegrator(Settings settings);
 
   IntegratorTraits traits() const override;
   const GuidingSettings* guiding() const override;
+  const Termination* learned_termination() const override;
+  const TrainingSettings* training() const override;
   std::unique_ptr<const PreparedIntegrator> prepare(const RenderTarget& target) const override;
 
  private:

@@ -13,4 +13,5 @@ PHAROS_MODULE(registry) {
   register_probing_sampler(registry);
   register_mixture(registry);
   register_memory(registry);
+  register_termination(registry);
 }

@@ -217,6 +217,56 @@ TEST_CASE("records of guided paths add up to the image, too") {
   check_record(path_config(kGlassInFogScene, 20, "", 2), state.frame().get());
 }
 
+/// Returns a config of path tracing with a factor at every vertex.
+std::string with_factor(std::string config, double factor) {
+  const std::string path = "type: path\n";
+  return config.insert(config.find(path) + path.size(),
+                       fmt::format("  termination: {{ type: stub_factor, factor: {} }}\n", factor));
+}
+
+TEST_CASE("records of paths that split or survive roulette add up to the image") {
+  for (const double factor : {0.6, 1.4, 3.0}) {
+    CAPTURE(factor);
+    check_record(with_factor(path_config(kDiffuseScene, 4, "", 2), factor));
+  }
+  for (const double factor : {0.8, 1.2}) {
+    CAPTURE(factor);
+    check_record(with_factor(path_config(kGlassInFogScene, 20, "", 2), factor));
+  }
+}
+
+TEST_CASE("records of branches: one for each step, with its weight and random numbers") {
+  Unit unit(with_factor(path_config(kDiffuseScene, 3, "", 2), 2.5));
+  const WorkResult result = unit.render(true);
+  double weights = 0;
+  std::size_t steps = 0, firsts = 0;
+  for (std::size_t p = 0; p < result.log.size(); ++p) {
+    const PathView path = result.log[p];
+    std::uint32_t branches = 0;
+    for (const RecordedVertex& vertex : path.vertices) {
+      if (vertex.twin != kNoVertex) {
+        const RecordedVertex& twin = path.vertices[vertex.twin];
+        CHECK(twin.position == vertex.position);
+        CHECK(twin.parent == vertex.parent);
+        CHECK(twin.branch > branches);
+        CHECK(twin.direction != vertex.direction);
+        CHECK(is_black(twin.emission));
+        branches = twin.branch;
+      }
+      if (vertex.parent != 0) continue;  // the first vertex after the lens
+      CHECK(vertex.continuation == doctest::Approx(1 / 2.5));
+      firsts += path.vertices[0].next == &vertex - path.vertices.data() ? 1 : 0;
+      weights += vertex.continuation;
+      ++steps;
+    }
+    for (std::size_t i = 1; i < path.light_samples.size(); ++i) {
+      CHECK(path.light_samples[i - 1].vertex <= path.light_samples[i].vertex);
+    }
+  }
+  CHECK(static_cast<double>(steps) / firsts == doctest::Approx(2.5).epsilon(0.02));
+  CHECK(weights / firsts == doctest::Approx(1).epsilon(0.02));
+}
+
 TEST_CASE("recording changes nothing") {
   Unit unit(path_config(kGlassInFogScene, 20, "", 2));
   Film silent = unit.film, recorded = unit.film;

@@ -15,5 +15,6 @@ void register_probing_sampler(Registry& registry);  // (f)
 void register_mixture(Registry& registry);          // (g), the model
 void register_mixture_guiders(Registry& registry);  // (g), the guiders, in another module
 void register_memory(Registry& registry);           // (h)
+void register_termination(Registry& registry);      // (i)
 
 }  // namespace pharos::stubs

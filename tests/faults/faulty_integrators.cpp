@@ -46,6 +46,8 @@ class Faulty : public Integrator {
 
   IntegratorTraits traits() const override { return right_.traits(); }
   const GuidingSettings* guiding() const override { return right_.guiding(); }
+  const Termination* learned_termination() const override { return right_.learned_termination(); }
+  const TrainingSettings* training() const override { return right_.training(); }
   std::unique_ptr<const PreparedIntegrator> prepare(const RenderTarget& target) const override {
     planted_fault = settings_.fault;
     return prepare_faulty(settings_.right, target);

@@ -42,6 +42,19 @@ scene:
 film: { width: 32, height: 32, filter: box }
 )";
 
+/// A square of reflectance one half, seen from above, under a white sky. A black screen hides half
+/// of the sky, so steps from the square find light half of the time, and each pixel shows 1/4.
+constexpr double kHalfLit = 0.25;
+const std::string kHalfLitScene = R"(
+scene:
+  shapes:
+    - { type: quad, material: { type: diffuse, reflectance: 0.5 }, to_world: [ { scale: 0.1 }, { rotate: { axis: [1, 0, 0], degrees: -90 } } ] }
+    - { type: quad, material: { type: diffuse, reflectance: 0 }, to_world: [ { scale: 10000 }, { rotate: { axis: [0, 1, 0], degrees: 90 } }, { translate: [-1, 0, 0] } ] }
+  emitters: [ { type: constant, radiance: 1 } ]
+  sensor: { type: orthographic, width: 0.1, to_world: { look_at: { origin: [1, 100, 0], target: [0, 0, 0], up: [0, 0, 1] } } }
+film: { width: 16, height: 16, filter: box }
+)";
+
 /// A ball of fog that only scatters, under a white sky. It is invisible.
 const std::string kFogBallScene = R"(
 scene:
@@ -86,14 +99,39 @@ std::vector<Furnace> mixed_furnaces() {
        kDiffuseFurnace}};
 }
 
+/// Furnaces in which paths split, and in which they survive roulette before a step is drawn.
+std::vector<Furnace> split_furnaces() {
+  return {{"split", kDiffuseScene, "max_depth: 4, termination: { type: stub_factor, factor: 2.5 }",
+           kDiffuseFurnace},
+          {"ended", kDiffuseScene, "max_depth: 4, termination: { type: stub_factor, factor: 0.6 }",
+           kDiffuseFurnace},
+          {"whole", kDiffuseScene, "max_depth: 4", kDiffuseFurnace}};
+}
+
+/// Returns the config of a furnace with a fault.
+std::string config_of(const Furnace& furnace, const std::string& fault) {
+  return furnace.scene + fmt::format(
+                             "integrator: {{ type: faulty_{}, fault: {}, settings: {{ {} }} }}\n"
+                             "sampler: independent\nbudget: {{ spp: {} }}\n",
+                             furnace.integrator, fault, furnace.settings, furnace.spp);
+}
+
 /// Returns whether the test of a furnace fails under a fault.
 bool turns_red(const Furnace& furnace, const std::string& fault) {
-  const std::string config =
-      furnace.scene + fmt::format(
-                          "integrator: {{ type: faulty_{}, fault: {}, settings: {{ {} }} }}\n"
-                          "sampler: independent\nbudget: {{ spp: {} }}\n",
-                          furnace.integrator, fault, furnace.settings, furnace.spp);
-  return std::abs(furnace_t(config, furnace.answer)) > kLimit;
+  return std::abs(furnace_t(config_of(furnace, fault), furnace.answer)) > kLimit;
+}
+
+/// Returns the mean variance of the pixels of a furnace, as they scatter about its answer.
+double variance_of_pixels(const Furnace& furnace, const std::string& fault) {
+  const Image image = render(config_of(furnace, fault)).image;
+  double sum = 0;
+  for (int y = 0; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x) {
+      const double error = mean(image.rgb(x, y)) - furnace.answer;
+      sum += error * error;
+    }
+  }
+  return sum / (image.width() * image.height());
 }
 
 void check_row(const std::string& fault, const std::vector<bool>& expected,
@@ -154,6 +192,23 @@ TEST_CASE("faults of mixtures") {
   check_row("shares_forgotten", {red, green}, mixed_furnaces());
   check_row("shares_learned_too_early", {red, red}, mixed_furnaces());
   check_row("resampling_unweighted", {green, red}, mixed_furnaces());
+}
+
+TEST_CASE("faults of branches") {
+  check_row("none", {green, green, green}, split_furnaces());
+  check_row("branches_unweighted", {red, red, green}, split_furnaces());
+}
+
+TEST_CASE("fault: branches share random numbers, so splitting lowers no noise") {
+  const auto quotient = [](const std::string& fault) {
+    const std::string settings = "max_depth: 2, next_event_estimation: false";
+    const Furnace whole{"whole", kHalfLitScene, settings, kHalfLit};
+    const Furnace split{"split", kHalfLitScene,
+                        settings + ", termination: { type: stub_factor, factor: 16 }", kHalfLit};
+    return variance_of_pixels(split, fault) / variance_of_pixels(whole, fault);
+  };
+  CHECK(quotient("none") < 0.1);
+  CHECK(quotient("branches_share_numbers") > 0.9);
 }
 
 }  // namespace pharos::testing

@@ -27,6 +27,8 @@ enum class PlantedFault {
   shares_forgotten,             ///< MIS weights of emission omit the shares of the techniques
   shares_learned_too_early,     ///< a step is weighted by shares that were learned from it
   resampling_unweighted,        ///< steps chosen among candidates do not represent the others
+  branches_unweighted,          ///< each branch of a path counts as much as the whole path
+  branches_share_numbers,       ///< all branches of a path have the same random numbers
 };
 template <>
 struct EnumNames<PlantedFault> {
@@ -44,7 +46,9 @@ struct EnumNames<PlantedFault> {
        {"pixel_shares_forgotten", PlantedFault::pixel_shares_forgotten},
        {"shares_forgotten", PlantedFault::shares_forgotten},
        {"shares_learned_too_early", PlantedFault::shares_learned_too_early},
-       {"resampling_unweighted", PlantedFault::resampling_unweighted}});
+       {"resampling_unweighted", PlantedFault::resampling_unweighted},
+       {"branches_unweighted", PlantedFault::branches_unweighted},
+       {"branches_share_numbers", PlantedFault::branches_share_numbers}});
 };
 
 /// The current fault, set before a render.
@@ -118,6 +122,14 @@ struct FaultyRules : EstimatorRules {
   }
   static float survivor_weight(float survival) {
     return planted(PlantedFault::roulette_unweighted) ? 1 : 1 / survival;
+  }
+  static float branch_weight(float factor) {
+    return planted(PlantedFault::branches_unweighted) ? 1 : EstimatorRules::branch_weight(factor);
+  }
+  static std::uint64_t branch_seed(std::uint64_t seed, std::uint32_t branch) {
+    return planted(PlantedFault::branches_share_numbers)
+               ? seed
+               : EstimatorRules::branch_seed(seed, branch);
   }
   static float foreshortening(float cosine) {
     return planted(PlantedFault::camera_cosine_forgotten) ? 1 : cosine;

@@ -46,6 +46,18 @@ TEST_CASE("same bits: what light paths splat") {
               "training: { iterations: 2 } } }\n"));
 }
 
+TEST_CASE("same bits: paths that split, unguided and guided") {
+  constexpr const char* kSplit = "termination: { type: stub_factor, factor: 1.6 }";
+  for (const char* sampler : {"sobol", "independent"}) {
+    check_same_bits(
+        cornell(fmt::format("sampler: {}\nintegrator: {{ type: path, {} }}\n", sampler, kSplit)));
+  }
+  check_same_bits(cornell(
+      fmt::format("integrator: {{ type: path, {}, guiding: {{ learner: stub_direction, guider: "
+                  "stub_direction, training: {{ iterations: 2 }} }} }}\n",
+                  kSplit)));
+}
+
 TEST_CASE("same bits: guided, with the learned model and either learned mixing") {
   for (const char* mixing : {"stub_learned", "learned"}) {
     check_same_bits(cornell(fmt::format(

@@ -7,7 +7,7 @@ namespace pharos {
 
 /// The version of the binary interface. It changes with the binary interface of any contract.
 /// Modules built for another version are refused.
-inline constexpr int kAbiVersion = 20;
+inline constexpr int kAbiVersion = 21;
 
 }  // namespace pharos
 

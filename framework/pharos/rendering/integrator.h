@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include <pharos/config/component.h>
+#include <pharos/guiding/contract/termination.h>
 #include <pharos/guiding/pipeline/guiding_frame.h>
 #include <pharos/guiding/record/path_record.h>
 #include <pharos/rendering/film.h>
@@ -59,6 +60,8 @@ struct IterationContext {
   bool record = false;                    ///< fill WorkResult::log
   bool training = false;                  ///< this is a training iteration
   const PixelShares* pixels = nullptr;    ///< how samples are shared among pixels; null: evenly
+  /// What was learned of where paths end and split; null: nothing.
+  const TerminationRule* termination = nullptr;
 };
 
 /// The scene, sensor and film for which an integrator is prepared. All referenced objects outlive
@@ -115,6 +118,12 @@ class Integrator : public Component {
   virtual IntegratorTraits traits() const = 0;
   /// Returns the guiding part of the settings; null: unguided.
   virtual const GuidingSettings* guiding() const { return nullptr; }
+  /// Returns the termination of paths that the render is to teach; null: there is none that learns.
+  virtual const Termination* learned_termination() const { return nullptr; }
+  /// Returns how the render trains what it learns; null: nothing learns.
+  virtual const TrainingSettings* training() const {
+    return guiding() != nullptr && guiding()->learns() ? &guiding()->training : nullptr;
+  }
   virtual std::unique_ptr<const PreparedIntegrator> prepare(const RenderTarget& target) const = 0;
 };
 

@@ -32,9 +32,8 @@ PreparedRender::PreparedRender(const RenderConfig& config, const Stopwatch& watc
           config.integrator->prepare({scene_, *sensor_, config.film.width, config.film.height,
                                       config.film.window(), config.film.jitter})),
       tiles_(tiles_of(config.film.window(), config.film.tile)) {
-  const GuidingSettings* guiding = config.integrator->guiding();
-  training_ = guiding != nullptr && guiding->learns() ? guiding->training
-                                                      : TrainingSettings{.iterations = 0};
+  const TrainingSettings* training = config.integrator->training();
+  training_ = training != nullptr ? *training : TrainingSettings{.iterations = 0};
   set_size_ = config.sampler->preferred_samples({config.seed, config.budget.spp.value_or(0)});
   preparation_seconds_ = watch.seconds();
   const auto probe = config.sampler->needs_probe() ? integrator_->probe() : nullptr;
@@ -48,12 +47,10 @@ PreparedRender::PreparedRender(const RenderConfig& config, const Stopwatch& watc
   sampler_seconds_ = watch.seconds() - preparation_seconds_;
 }
 
-std::unique_ptr<GuidingState> PreparedRender::make_guiding() const {
-  const GuidingSettings* settings = config_.integrator->guiding();
-  if (settings == nullptr) return nullptr;
-  const LearningContext learning{
+RenderLearning PreparedRender::make_learning() const {
+  const LearningContext context{
       .region = scene_.bounds(), .seed = config_.seed, .window = config_.film.window()};
-  return std::make_unique<GuidingState>(*settings, learning);
+  return {*config_.integrator, context};
 }
 
 Film PreparedRender::make_film() const {

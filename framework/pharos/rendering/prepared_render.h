@@ -5,10 +5,10 @@
 #include <vector>
 
 #include <pharos/core/stopwatch.h>
-#include <pharos/guiding/pipeline/guiding_state.h>
 #include <pharos/rendering/film.h>
 #include <pharos/rendering/integrator.h>
 #include <pharos/rendering/render_config.h>
+#include <pharos/rendering/render_learning.h>
 #include <pharos/rendering/schedule.h>
 
 namespace pharos {
@@ -38,9 +38,8 @@ class PreparedRender {
 
   /// Returns the schedule before its first iteration.
   Schedule schedule() const { return {config_.budget, training_, set_size_}; }
-  /// Returns the guiding before it has learned anything; null: unguided. It must not outlive this
-  /// object.
-  std::unique_ptr<GuidingState> make_guiding() const;
+  /// Returns the learning of a render that begins. It must not outlive this object.
+  RenderLearning make_learning() const;
   Film make_film() const;
   /// Adds the samples that the sampler has left over to the film of the final image. Returns how
   /// many of them are NaN or infinite; they count as black.

@@ -45,11 +45,11 @@ class RenderJob::Implementation {
     result_.image = images_->result();
     result_.stopped = stopped();
     result_.invalid_pixels = invalid_colors(result_.image);
-    if (guiding_ != nullptr) {
-      result_.gain = guiding_->gain();
-      result_.model_bytes = guiding_->model_bytes();
-      result_.model = guiding_->model(0);
-      result_.learned = guiding_->learned();
+    if (const GuidingState* guiding = learning_->guiding()) {
+      result_.gain = guiding->gain();
+      result_.model_bytes = guiding->model_bytes();
+      result_.model = guiding->model(0);
+      result_.learned = guiding->learned();
     }
     return std::move(result_);
   }
@@ -108,8 +108,7 @@ class RenderJob::Implementation {
     shares_ = {};
     current_.reset();
     is_saved_ = false;
-    guiding_ = prepared_.make_guiding();
-    frame_ = guiding_ == nullptr ? nullptr : guiding_->frame();
+    learning_.emplace(prepared_.make_learning());
   }
 
   std::unique_ptr<UnitRunner> unit_runner(Ranks* ranks) const {
@@ -124,8 +123,8 @@ class RenderJob::Implementation {
 
   /// Returns what the units of the current iteration share. `records`: their paths are recorded.
   IterationContext context(bool records) const {
-    return {prepared_.sampler(), config().seed, frame_.get(), records,
-            iteration_.training, &shares_};
+    return {prepared_.sampler(), config().seed, learning_->frame(), records,
+            iteration_.training, &shares_,      learning_->rule()};
   }
 
   /// Makes the next iteration the current one. Returns false if there is none.
@@ -145,7 +144,7 @@ class RenderJob::Implementation {
   }
 
   bool adapts_pixels() const { return prepared_.training().pixels == FinalPixels::adaptive; }
-  bool guides_camera() const { return frame_ != nullptr && frame_->guides_camera(); }
+  bool guides_camera() const { return learning_->guides_camera(); }
 
   /// Returns how the samples of the final image are shared among the pixels. A guide of the camera
   /// chooses the pixels itself.
@@ -187,7 +186,7 @@ class RenderJob::Implementation {
     result_.samples_per_pixel += film.samples_per_pixel();
     spending_.samples += state.done;
     spending_.seconds_per_sample = taken / std::max(state.done, 1u);
-    if (iteration_.training && !is_stopped) update_guiding(state.done, taken);
+    if (iteration_.training && !is_stopped) update_learning(state.done, taken);
   }
 
   void show(const Film& film) const {
@@ -197,9 +196,9 @@ class RenderJob::Implementation {
     control_.on_pass({progress(film.samples_per_pixel()), image});
   }
 
-  /// Updates the guides after a training iteration of `samples` samples per pixel, which were
+  /// Updates what is learned after a training iteration of `samples` samples per pixel, which were
   /// rendered in `taken` seconds.
-  void update_guiding(std::uint32_t samples, double taken) {
+  void update_learning(std::uint32_t samples, double taken) {
     const double start = watch_.seconds();
     IterationCost cost{.spent = schedule_->fraction(result_.samples_per_pixel, seconds())};
     // What a budget of samples renders does not depend on the clock.
@@ -207,15 +206,14 @@ class RenderJob::Implementation {
       cost.samples = samples;
       cost.seconds = taken;
     }
-    if (guiding_->may_end_training(cost)) {
+    if (learning_->may_end_training(cost)) {
       schedule_->end_training();
       iteration_.training_left = 0;
     }
-    spending_.largest_share = guiding_->worthwhile_share();
+    spending_.largest_share = learning_->worthwhile_share();
     const TrainingStage stage{iteration_.index, iteration_.training_left};
-    units_->on_idle_cores([&] { guiding_->update(stage); });
+    units_->on_idle_cores([&] { learning_->update(stage); });
     if (stage.is_last()) spare_logs_.clear();
-    frame_ = guiding_->frame();
     spending_.region_minimum = region_minimum(samples);
     spending_.update_seconds = watch_.seconds() - start;
     result_.times.update += spending_.update_seconds;
@@ -224,7 +222,7 @@ class RenderJob::Implementation {
   /// Returns the samples per pixel with which every region of the new models has enough training
   /// samples on average, according to the last iteration, which had `samples`.
   std::uint32_t region_minimum(std::uint32_t samples) const {
-    const double found = guiding_->samples_per_region();
+    const double found = learning_->samples_per_region();
     if (!(found > 0)) return 1;
     const TrainingSettings& training = prepared_.training();
     const double wanted = std::ceil(training.recorded(samples) * training.region_samples / found);
@@ -285,7 +283,7 @@ class RenderJob::Implementation {
   void merge(const WorkUnit& unit, WorkResult& work) {
     current_->merge(unit, work.film);
     if (is_recorded(unit)) {
-      guiding_->absorb(work.log);
+      learning_->absorb(work.log);
       work.log.clear();
       spare_logs_.push(std::move(work.log));
     }
@@ -336,8 +334,7 @@ class RenderJob::Implementation {
         "the noise of the pixels");
     archive.expect(watch_seconds >= 0 && watch_seconds <= kLongest, "the state of the render");
     if (archive.loads()) watch_ = Stopwatch(watch_seconds);
-    if (guiding_ != nullptr) guiding_->archive(archive);
-    if (archive.loads() && guiding_ != nullptr) frame_ = guiding_->frame();
+    learning_->archive(archive);
     bool has_current = current_.has_value();
     double start = has_current ? current_->start : 0;
     archive(has_current, start);
@@ -355,10 +352,8 @@ class RenderJob::Implementation {
 
   /// Saves what other ranks need to render the units of an iteration as this one does, or loads it.
   void archive_frozen(Archive& archive) {
-    bool has_guides = frame_ != nullptr;
-    archive(shares_, has_guides);
-    if (has_guides) guiding_->archive_guides(archive);
-    if (archive.loads()) frame_ = has_guides ? guiding_->frame() : nullptr;
+    archive(shares_);
+    learning_->archive_frozen(archive);
   }
 
   /// Returns the progress after `samples` samples per pixel of the current iteration.
@@ -390,11 +385,10 @@ class RenderJob::Implementation {
   std::size_t state_bytes_ = 0;  ///< memory for the next saved state
   bool is_saved_ = false;  ///< the render was stopped or has finished, and has handed out its state
   std::unique_ptr<UnitRunner> units_;
-  std::unique_ptr<GuidingState> guiding_;
+  std::optional<RenderLearning> learning_;
   /// Empty logs whose memory is used again until training ends. Fresh memory would cost page
   /// faults.
   tbb::concurrent_queue<PathLog> spare_logs_;
-  std::shared_ptr<const GuidingFrame> frame_;
 };
 
 RenderJob::RenderJob(const RenderConfig& config)

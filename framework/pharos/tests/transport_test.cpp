@@ -23,7 +23,8 @@ struct Stage {
   RenderTarget target{scene, *sensor, kEdge, kEdge};
   PathSettings settings{.roulette = Roulette::throughput, .roulette_depth = 2};
   LightSelector lights{scene, LightSelection::one};
-  CameraScene shared{target, settings, lights};
+  std::shared_ptr<const TerminationRule> roulette = settings.first_rule();
+  CameraScene shared{target, settings, lights, roulette.get()};
   conformance::KeyedSampler sampler;
   IterationContext context{.sampler = sampler, .seed = 3};
   TransportArenas arenas;

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <utility>
 
 #include <pharos/transport/kernel.h>
+#include <pharos/transport/termination_choice.h>
 
 namespace pharos {
 
@@ -14,6 +16,8 @@ struct CameraScene {
   const RenderTarget& target;
   const PathSettings& settings;
   const LightSelector& lights;  ///< chooses lights for next event estimation
+  /// Ends and splits paths in iterations that state no rule; null: paths neither end nor split.
+  const TerminationRule* termination = nullptr;
 };
 
 /// The result of one path from the sensor.
@@ -50,14 +54,24 @@ class CameraWalk {
         scene_(shared.target.scene),
         settings_(shared.settings),
         counters_(counters),
+        arenas_(arenas),
+        sampler_(context.sampler),
+        termination_(context.termination != nullptr ? context.termination : shared.termination),
         kernel_(shared.target.scene, context.guiding, arenas, counters, recorder) {}
 
-  /// Traces a path from its beginning to its end. The path has at most `max_depth` segments.
+  /// Traces a path from its beginning to its end, with all of its branches. The path has at most
+  /// `max_depth` segments.
   PathSample run(const SampleStream& stream, std::uint16_t max_depth,
                  Counterparts counterparts = {}) const {
     InFlight flight{Path(stream), {}, std::move(counterparts)};
+    WaitingPaths* waiting = Counterparts::kExist ? nullptr : &arenas_.waiting;
+    if (waiting != nullptr) waiting->begin(settings_.most_branches);
     bool goes = begin(flight);
-    while (goes) goes = proceed(flight, max_depth);
+    while (goes) goes = proceed(flight, max_depth, waiting);
+    while (waiting != nullptr && waiting->take(flight.path)) {
+      kernel_.settle(flight.path);
+      for (goes = true; goes;) goes = proceed(flight, max_depth, waiting);
+    }
     return flight.found;
   }
 
@@ -99,12 +113,13 @@ class CameraWalk {
     return goes;
   }
 
-  /// Collects light at the current vertex and traces the path to the next vertex. Returns false if
-  /// the path ends.
-  bool proceed(InFlight& flight, std::uint16_t max_depth) const {
+  /// Collects light at the current vertex and traces the path to the next vertex. If the path
+  /// splits, the other branches wait in `waiting`; if this is null, the path does not split.
+  /// Returns false if the path ends.
+  bool proceed(InFlight& flight, std::uint16_t max_depth, WaitingPaths* waiting = nullptr) const {
     add_emission(flight);
     if (!goes_on(flight.path, max_depth)) return false;
-    Visitor visitor{*this, flight};
+    Visitor visitor{*this, flight, waiting};
     return kernel_.extend(flight.path, visitor, flight.counterparts);
   }
 
@@ -114,7 +129,7 @@ class CameraWalk {
   void visit_vertex(InFlight& flight, std::uint16_t bounce, Visit&& visit) const {
     bool goes = begin(flight);
     while (goes && goes_on(flight.path, settings_.max_depth)) {
-      VertexVisitor<Visit> visitor{*this, bounce, visit};
+      VertexVisitor<Visit> visitor{*this, flight, bounce, visit};
       goes = kernel_.extend(flight.path, visitor, flight.counterparts);
     }
   }
@@ -138,10 +153,11 @@ class CameraWalk {
   }
 
  private:
-  /// The visitor of ordinary paths: samples lights and plays Russian roulette at each vertex.
+  /// The visitor of ordinary paths: samples lights at each vertex, and ends or splits paths.
   struct Visitor {
     const CameraWalk& walk;
     InFlight& flight;
+    WaitingPaths* waiting;
 
     bool meets(Path&, const LocalScattering&) const { return true; }
     void leaves(Path& path, const LocalScattering& scattering, const Guidance& guidance) const {
@@ -152,14 +168,27 @@ class CameraWalk {
       }
     }
     bool survives(Path& path, const LocalScattering& scattering, ScatterStep& step) const {
-      return walk.survives(path, scattering, step);
+      return walk.termination_.survives(path, flight.found.film, scattering, step);
     }
+    Branching branches(const Path& path, const LocalScattering& scattering) const {
+      const bool may_split = waiting != nullptr && !scattering.purely_discrete();
+      return walk.termination_.branching(path, flight.found.film, may_split ? waiting->left() : 0);
+    }
+    Path& add_branch(const Path& trunk) const {
+      Path& branch = waiting->add(trunk);
+      PathKey key = trunk.stream.key();
+      key.seed = Rules::branch_seed(key.seed, branch.branch);
+      branch.stream = SampleStream(walk.sampler_, key);
+      return branch;
+    }
+    void drop_branch() const { waiting->drop(); }
   };
 
   /// The visitor of visit_vertex(): ends the path at the vertex number `bounce`.
   template <class Visit>
   struct VertexVisitor {
     const CameraWalk& walk;
+    InFlight& flight;
     std::uint16_t bounce;
     Visit& visit;
     bool is_there = false;
@@ -172,7 +201,7 @@ class CameraWalk {
       if (is_there && walk.samples_lights(scattering)) visit(scattering, guidance);
     }
     bool survives(Path& path, const LocalScattering& scattering, ScatterStep& step) const {
-      return !is_there && walk.survives(path, scattering, step);
+      return !is_there && walk.termination_.survives(path, flight.found.film, scattering, step);
     }
   };
 
@@ -326,34 +355,13 @@ class CameraWalk {
                                {weight, whole_weight, unguided_weight}, value);
   }
 
-  // --- Russian roulette -----------------------------------------------------------------------
-
-  bool survives(Path& path, const LocalScattering& scattering, ScatterStep& step) const {
-    if (settings_.roulette == Roulette::off) return true;
-    const bool refracts =
-        step.event == Event::smooth_transmit || step.event == Event::discrete_transmit;
-    if (refracts) note_refraction(path, scattering);
-    if (path.bounce < settings_.roulette_depth) return true;
-    const float value =
-        max_component(path.throughput) * path.solid_angle_scale / path.first_throughput;
-    const float survival = std::min(settings_.roulette_limit, value);
-    if (path.numbers().get_1d(Purpose::roulette) >= survival) return false;
-    step.continuation = Rules::survivor_weight(survival);
-    return true;
-  }
-
-  /// Accounts for refraction. Refraction compresses radiance into a smaller solid angle, and
-  /// roulette must not mistake this for a loss of light.
-  static void note_refraction(Path& path, const LocalScattering& scattering) {
-    const float ratio = square(scattering.bsdf().relative_ior());
-    const bool enters = dot(path.towards_previous, path.here().surface.normal) > 0;
-    path.solid_angle_scale *= enters ? 1 / ratio : ratio;
-  }
-
   const CameraScene& shared_;
   const Scene& scene_;
   const PathSettings& settings_;
   RenderCounters& counters_;
+  TransportArenas& arenas_;
+  const PreparedSampler& sampler_;
+  TerminationChoice<Rules> termination_;
   TransportKernel<Recorder, Rules> kernel_;
 };
 

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+
+#include <pharos/core/random.h>
 #include <pharos/scene/scene.h>
 #include <pharos/transport/path.h>
 #include <pharos/transport/path_settings.h>
@@ -41,6 +44,15 @@ struct EstimatorRules {
 
   /// Returns the factor that compensates for Russian roulette with this probability of survival.
   static float survivor_weight(float survival) { return 1 / survival; }
+
+  /// Returns the weight of each step from a vertex where a path takes `factor` steps on average.
+  static float branch_weight(float factor) { return 1 / factor; }
+
+  /// Returns the seed of the random numbers of a branch. The path from which it has split has the
+  /// seed `seed`.
+  static std::uint64_t branch_seed(std::uint64_t seed, std::uint32_t branch) {
+    return hash_combine(seed, branch);
+  }
 
   /// Returns the density by which the weight of a step is divided. The step was drawn from a
   /// mixture with this share of unguided samples.

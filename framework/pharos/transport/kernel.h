@@ -6,13 +6,15 @@
 #include <pharos/rendering/integrator.h>
 #include <pharos/transport/estimator_rules.h>
 #include <pharos/transport/recorder.h>
+#include <pharos/transport/waiting_paths.h>
 
 namespace pharos {
 
-/// Memory for guides during one work unit.
+/// Memory for guides and branches during one work unit.
 struct TransportArenas {
   Arena vertex;  ///< objects that live until the next vertex is known
   Arena path;    ///< objects that guides remember along paths; reset when no path is in flight
+  WaitingPaths waiting;  ///< branches of the path in flight
 };
 
 /// The counterparts of a walk whose paths cannot be produced from the other end. Such a walk needs
@@ -62,8 +64,22 @@ class TransportKernel {
   ///     bool meets(Path&, const LocalScattering&)
   ///     // Called before the path leaves the vertex, for example to sample lights.
   ///     void leaves(Path&, const LocalScattering&, const Guidance&)
-  ///     // Plays Russian roulette. Returns false if the path ends here.
+  ///     // Plays Russian roulette: sets `continuation` of the step, 0 if the path ends. Returns
+  ///     // false if the path ends here.
   ///     bool survives(Path&, const LocalScattering&, ScatterStep&)
+  ///
+  /// A visitor may decide before a step is drawn, too:
+  ///
+  ///     // Returns how many steps are taken; 0: the path ends here.
+  ///     Branching branches(const Path&, const LocalScattering&)
+  ///
+  /// If there may be more than one step, it has two more functions:
+  ///
+  ///     // Returns a copy of the path, with other random numbers, which the kernel takes to its
+  ///     // next vertex. There it waits for settle().
+  ///     Path& add_branch(const Path&)
+  ///     // Called if the branch that was added last has ended.
+  ///     void drop_branch()
   ///
   /// Returns false if the path ends; its throughput no longer matters then.
   template <class Visitor, class Counterparts>
@@ -78,15 +94,69 @@ class TransportKernel {
     recorder_.leave(path, scattering, guidance);
     visitor.leaves(path, scattering, guidance);
     ScatterStep step;
-    return sample_step(scattering, guidance, path.numbers(), step) &&
-           visitor.survives(path, scattering, step) && advance(path, step, guidance, counterparts);
+    if constexpr (requires { visitor.branches(path, scattering); }) {
+      const Branching branching = visitor.branches(path, scattering);
+      if (branching.count != 1 || branching.weight != 1) {
+        return split(path, scattering, guidance, branching, visitor, counterparts);
+      }
+    }
+    if (!sample_step(scattering, guidance, path.numbers(), step)) return false;
+    const bool survives = visitor.survives(path, scattering, step);
+    if (step.continuation != 1) recorder_.weigh(path, step.continuation);
+    return survives && advance(path, step, guidance, counterparts);
   }
+
+  /// Continues a branch that has waited at its current vertex.
+  void settle(Path& branch) const { describe_arrival(branch); }
 
   /// Traces a step to the next vertex and weights it. Returns false if the path cannot contribute
   /// any more.
   template <class Counterparts>
   bool advance(Path& path, const ScatterStep& step, const Guidance& guidance,
                Counterparts& counterparts) const {
+    if (!travel(path, step, guidance, counterparts)) return false;
+    describe_arrival(path);
+    return !is_black(path.throughput);
+  }
+
+ private:
+  /// Takes `branching.count` steps from the current vertex of a path. All of them share the
+  /// guidance. The path itself takes the last step, because the others need its state. Paths with
+  /// counterparts take one step at most.
+  template <class Visitor, class Counterparts>
+  bool split(Path& path, const LocalScattering& scattering, const Guidance& guidance,
+             Branching branching, Visitor& visitor, Counterparts& counterparts) const {
+    recorder_.weigh(path, branching.count > 0 ? branching.weight : 0);
+    if constexpr (requires { visitor.add_branch(path); }) {
+      NoCounterparts none;
+      for (std::uint32_t i = 1; i < branching.count; ++i) {
+        Path& branch = visitor.add_branch(path);
+        recorder_.split(path, branch);
+        ScatterStep step;
+        const bool goes = draw(branch, scattering, guidance, branching.weight, step) &&
+                          travel(branch, step, guidance, none) && !is_black(branch.throughput);
+        if (!goes) visitor.drop_branch();
+      }
+    }
+    ScatterStep step;
+    return branching.count > 0 && draw(path, scattering, guidance, branching.weight, step) &&
+           advance(path, step, guidance, counterparts);
+  }
+
+  /// Draws a step that stands for `weight` of the steps from the vertex. Returns false for a valid
+  /// sample of value zero.
+  static bool draw(const Path& path, const LocalScattering& scattering, const Guidance& guidance,
+                   float weight, ScatterStep& step) {
+    if (!sample_step(scattering, guidance, path.numbers(), step)) return false;
+    step.continuation = weight;
+    return true;
+  }
+
+  /// Takes a path to its next vertex, as advance() does, but does not describe the vertex. Returns
+  /// false if the step ends nowhere.
+  template <class Counterparts>
+  bool travel(Path& path, const ScatterStep& step, const Guidance& guidance,
+              Counterparts& counterparts) const {
     const PathVertex& from = path.here();
     PathVertex& to = path.vertices[1 - path.at];
     const Ray ray{from.origin_towards(step.direction), step.direction};
@@ -105,10 +175,9 @@ class TransportKernel {
       counterparts.advance(from, to, step, guidance, segment.length, segment.passage.transmittance);
     }
     move_on(path, step, segment.length);
-    return !is_black(path.throughput);
+    return true;
   }
 
- private:
   /// Returns whether a guide or a recorder needs descriptions of vertices.
   bool describes_vertices() const { return Recorder::kRecords || guiding_ != nullptr; }
 
@@ -173,7 +242,6 @@ class TransportKernel {
     path.segment_length = length;
     path.at = 1 - path.at;
     if (++path.bounce == 1) path.first_throughput = max_component(path.throughput);
-    describe_arrival(path);
   }
 
   const Scene& scene_;

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include <pharos/transport/kernel.h>
+#include <pharos/transport/termination_choice.h>
 
 namespace pharos {
 
@@ -14,6 +15,10 @@ struct LightScene {
   std::uint16_t max_depth;      ///< largest number of segments, including the one to the lens
   /// Number of the vertex on the light in the dimensions of the stream.
   std::uint16_t first_bounce = 0;
+  /// Ends paths by Russian roulette; null: paths end at `max_depth` only. Paths from lights do not
+  /// split. MIS weights ignore roulette: they sum to one for each path, whatever the probability
+  /// that it survives.
+  const TerminationRule* termination = nullptr;
 };
 
 /// A path from a light in flight. Its counterparts know the paths from the lens that could have
@@ -40,6 +45,7 @@ class LightWalk {
       : shared_(shared),
         scene_(shared.target.scene),
         counters_(counters),
+        termination_(shared.termination),
         kernel_(shared.target.scene, context.guiding, arenas, counters, recorder) {}
 
   /// Traces a path from its beginning to its end.
@@ -81,7 +87,12 @@ class LightWalk {
       return path.bounce + 1 < walk.shared_.max_depth;
     }
     void leaves(Path&, const LocalScattering&, const Guidance&) const {}
-    bool survives(Path&, const LocalScattering&, ScatterStep&) const { return true; }
+    Branching branches(const Path& path, const LocalScattering&) const {
+      return walk.termination_.branching(path, {}, 0);
+    }
+    bool survives(Path& path, const LocalScattering& scattering, ScatterStep& step) const {
+      return walk.termination_.survives(path, {}, scattering, step);
+    }
   };
 
   // --- the light ------------------------------------------------------------------------------
@@ -233,6 +244,7 @@ class LightWalk {
   const LightScene& shared_;
   const Scene& scene_;
   RenderCounters& counters_;
+  TerminationChoice<Rules> termination_;
   TransportKernel<Recorder, Rules> kernel_;
 };
 

@@ -1,11 +1,14 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <string_view>
 #include <utility>
 
 #include <pharos/config/registry.h>
+#include <pharos/guiding/contract/termination.h>
 #include <pharos/guiding/pipeline/guiding_settings.h>
 #include <pharos/rendering/integrator.h>
 #include <pharos/transport/light_selection.h>
@@ -30,6 +33,9 @@ struct EnumNames<Roulette> {
       {{"off", Roulette::off}, {"throughput", Roulette::throughput}});
 };
 
+/// Throws InputError if a termination learns. Only paths from the sensor can teach one.
+void check_learns_nothing(const Ref<Termination>& termination);
+
 /// The settings for tracing paths from the sensor.
 struct PathSettings {
   std::uint16_t max_depth = 12;
@@ -39,9 +45,21 @@ struct PathSettings {
   Roulette roulette = Roulette::off;
   std::uint16_t roulette_depth = 5;
   float roulette_limit = 0.95f;
+  Ref<Termination> termination;  ///< null: as the settings of roulette say
+  std::uint32_t most_branches = 1000;
   std::optional<GuidingSettings> guiding;
+  std::optional<TrainingSettings> training;
 
   static void describe(Schema<PathSettings>& schema);
+
+  /// Returns the rule by which paths end and split as long as nothing is learned; null: they
+  /// neither end nor split.
+  std::shared_ptr<const TerminationRule> first_rule() const;
+  /// Returns how a render trains what it learns, as the guides or, if they do not learn, `training`
+  /// say; null: nothing learns.
+  const TrainingSettings* training_of_all() const;
+  /// Throws InputError if settings contradict each other.
+  void check() const;
 };
 
 /// Returns the MIS weight [1] of a technique of density `own` against one of density `other`. Both

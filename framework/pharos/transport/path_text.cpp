@@ -62,6 +62,13 @@ std::string text(std::span<const Technique> techniques) {
   return out + ')';
 }
 
+/// Returns the branch that has come to vertex `i`, such as "  branch 2 after 1". Returns an empty
+/// text if the path came there undivided from the vertex before.
+std::string branch_text(const RecordedVertex& vertex, std::uint32_t i) {
+  if (vertex.branch == 0 && (i == 0 || vertex.parent + 1 == i)) return {};
+  return fmt::format("  branch {} after {}", vertex.branch, vertex.parent);
+}
+
 }  // namespace
 
 std::string path_text(const PathView& path, Rgb radiance) {
@@ -70,15 +77,15 @@ std::string path_text(const PathView& path, Rgb radiance) {
   std::size_t light = 0;
   for (std::uint32_t i = 0; i < path.vertices.size(); ++i) {
     const RecordedVertex& v = path.vertices[i];
-    out += fmt::format("{:3} {:<11} at {}  throughput {}\n", i, kind_name(v.kind), text(v.position),
-                       text(v.throughput));
+    out += fmt::format("{:3} {:<11} at {}  throughput {}{}\n", i, kind_name(v.kind),
+                       text(v.position), text(v.throughput), branch_text(v, i));
     if (!is_black(v.emission)) out += fmt::format("      emission {}\n", text(v.emission));
     for (; light < path.light_samples.size() && path.light_samples[light].vertex == i; ++light) {
       const RecordedLightSample& s = path.light_samples[light];
       out += fmt::format("      light sample at {}  contribution {}  MIS weight {:.4g}\n",
                          text(s.position), text(s.contribution), s.mis_weight);
     }
-    out += fmt::format("      {}", event_name(v.event));
+    out += fmt::format("      {}", v.continuation == 0 ? "roulette" : event_name(v.event));
     if (v.event != Event::none) {
       out += fmt::format(" to {}  weight {}  pdf {:.6g}{}", text(v.direction), text(v.local_weight),
                          v.pdf, text(path.techniques(v)));

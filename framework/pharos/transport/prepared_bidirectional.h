@@ -28,7 +28,8 @@ class PreparedBidirectional : public PreparedIntegrator {
         light_paths_(light_paths),
         sampled_(target.scene, settings.light_selection),
         emitting_(target.scene, LightSelection::one),
-        from_lights_{target_, emitting_, settings.max_depth, kFirstLightBounce} {}
+        rule_(settings.first_rule()),
+        from_lights_{target_, emitting_, settings.max_depth, kFirstLightBounce, rule_.get()} {}
 
   void render(const WorkUnit& unit, const IterationContext& context,
               WorkResult& result) const override {
@@ -119,7 +120,8 @@ class PreparedBidirectional : public PreparedIntegrator {
   LightPathRules light_paths_;
   LightSelector sampled_, emitting_;
   LightChoices choices_{sampled_, emitting_};
-  CameraScene from_lens_{target_, settings_, sampled_};
+  std::shared_ptr<const TerminationRule> rule_;
+  CameraScene from_lens_{target_, settings_, sampled_, rule_.get()};
   LightScene from_lights_;
 };
 

@@ -9,10 +9,13 @@ namespace pharos {
 template <class Rules = EstimatorRules>
 class PreparedLightTracing : public PreparedIntegrator {
  public:
-  PreparedLightTracing(std::uint16_t max_depth, const RenderTarget& target)
+  /// `rule` ends paths by Russian roulette; null: paths end at `max_depth` only.
+  PreparedLightTracing(std::uint16_t max_depth, const RenderTarget& target,
+                       std::shared_ptr<const TerminationRule> rule = nullptr)
       : target_(target),
         lights_(target.scene, LightSelection::one),
-        shared_{target_, lights_, max_depth} {}
+        rule_(std::move(rule)),
+        shared_{target_, lights_, max_depth, 0, rule_.get()} {}
 
   void render(const WorkUnit& unit, const IterationContext& context,
               WorkResult& result) const override {
@@ -39,6 +42,7 @@ class PreparedLightTracing : public PreparedIntegrator {
  private:
   RenderTarget target_;
   LightSelector lights_;
+  std::shared_ptr<const TerminationRule> rule_;
   LightScene shared_;
 };
 

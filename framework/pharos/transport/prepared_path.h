@@ -52,7 +52,8 @@ class PreparedPath : public PreparedIntegrator {
   RenderTarget target_;
   PathSettings settings_;
   LightSelector lights_;
-  CameraScene shared_{target_, settings_, lights_};
+  std::shared_ptr<const TerminationRule> first_rule_ = settings_.first_rule();
+  CameraScene shared_{target_, settings_, lights_, first_rule_.get()};
 };
 
 }  // namespace pharos

@@ -41,6 +41,11 @@ struct SilentRecorder {
   void emission(const Path&, Rgb /*radiance*/, PathWeight) {}
   /// Reports that the path is about to leave the current vertex.
   void leave(const Path&, const LocalScattering&, const Guidance&) {}
+  /// Reports that each step from the current vertex is weighted by `continuation`, because the path
+  /// splits or has survived roulette there; 0: the path ends.
+  void weigh(const Path&, float /*continuation*/) {}
+  /// Reports that `branch`, a copy of `trunk`, takes a step of its own from the current vertex.
+  void split(const Path& /*trunk*/, Path& /*branch*/) {}
   /// Reports a connection from the current vertex. `value` is its f/p, without throughput.
   void connect(const Path&, const Connection&, PathWeight, Rgb /*value*/) {}
   /// Reports the step from the current vertex, once the next vertex is known.
@@ -84,6 +89,25 @@ class LogRecorder {
     if (scattering.is_surface()) here.eta = scattering.bsdf().relative_ior();
     here.guidable = !scattering.purely_discrete();
     here.mixing_key = guidance.mixing_key;
+  }
+  void weigh(const Path& path, float continuation) {
+    log_.vertex(path.record).continuation = continuation;
+  }
+  /// Records the vertex once more, without the light that was found there.
+  void split(const Path& trunk, Path& branch) {
+    const RecordedVertex first = log_.vertex(trunk.record);
+    branch.record = log_.add_after(first.parent);
+    RecordedVertex& twin = log_.vertex(branch.record);
+    twin.position = first.position;
+    twin.normal = first.normal;
+    twin.kind = first.kind;
+    twin.guidable = first.guidable;
+    twin.roughness = first.roughness;
+    twin.eta = first.eta;
+    twin.throughput = first.throughput;
+    twin.mixing_key = first.mixing_key;
+    twin.continuation = first.continuation;
+    twin.branch = branch.branch;
   }
   void connect(const Path& path, const Connection& end, PathWeight weight, Rgb value) {
     log_.add(RecordedLightSample{.vertex = path.record,

@@ -7,6 +7,7 @@
 #include <doctest/doctest.h>
 
 #include <pharos/core/error.h>
+#include <pharos/guiding/toolkit/throughput_roulette.h>
 #include <pharos/transport/path_text.h>
 
 namespace pharos {
@@ -127,6 +128,41 @@ TEST_CASE("a path's text tells of every vertex, technique and light sample") {
                            "share 0.25 of unguided 0.5, 0.75 of method 1 6"}) {
     CHECK_MESSAGE(text.find(word) != std::string::npos, word);
   }
+}
+
+TEST_CASE("a path's text names its branches and the end by roulette") {
+  PathLog log;
+  log.begin_path({}, Transport::radiance);
+  log.add(RecordedVertex{.kind = VertexKind::sensor, .event = Event::smooth_reflect});
+  log.add(RecordedVertex{.event = Event::smooth_reflect, .parent = 0, .continuation = 0.5f});
+  log.add(RecordedVertex{
+      .event = Event::smooth_reflect, .parent = 0, .continuation = 0.5f, .branch = 1});
+  log.add(RecordedVertex{.parent = 1, .continuation = 0});
+  log.add(RecordedVertex{.kind = VertexKind::environment, .parent = 2, .branch = 1});
+  const std::string text = path_text(log[0], Rgb(1));
+  for (const char* words : {"branch 1 after 0", "branch 0 after 1", "branch 1 after 2",
+                            "      roulette\n", "      end\n"}) {
+    CHECK_MESSAGE(text.find(words) != std::string::npos, words);
+  }
+}
+
+TEST_CASE("settings of terminations that contradict each other are refused") {
+  class Fixed final : public Termination {
+   public:
+    bool learns() const override { return false; }
+    std::unique_ptr<TerminationState> begin(const LearningContext&) const override {
+      return std::make_unique<FixedTermination>(nullptr);
+    }
+  };
+  PathSettings settings;
+  settings.termination = std::make_shared<const Fixed>();
+  CHECK_NOTHROW(PathIntegrator{settings});
+  settings.training.emplace();
+  CHECK_THROWS_WITH_AS(PathIntegrator{settings}, doctest::Contains("nothing learns"), InputError);
+  settings.training.reset();
+  settings.roulette = Roulette::throughput;
+  CHECK_THROWS_WITH_AS(PathIntegrator{settings}, doctest::Contains("'roulette' must be off"),
+                       InputError);
 }
 
 }  // namespace

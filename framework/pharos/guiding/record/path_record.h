@@ -45,7 +45,8 @@ struct RecordedVertex {
   Vec3 direction;  ///< unit, of the step; zero if none was taken
   float pdf = 0;   ///< density with which the step was drawn, including the medium's factor
   /// The factor that compensates for Russian roulette (1 over the probability of survival) or
-  /// splitting (1 over the number of branches). It is not part of `pdf`.
+  /// splitting (1 over the expected number of branches). 0 if roulette has ended the path here. It
+  /// is not part of `pdf`.
   float continuation = 1;
   std::uint32_t branch = 0;  ///< key of the branch; branches draw different random numbers
   std::uint32_t mixing_key = kNoMixing;  ///< the key that MixingShares::at() returned here

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string_view>
+
+#include <pharos/config/component.h>
+#include <pharos/core/archive.h>
+#include <pharos/core/rgb.h>
+#include <pharos/core/vec.h>
+#include <pharos/guiding/contract/learner.h>
+#include <pharos/guiding/record/path_record.h>
+
+namespace pharos {
+
+/// A vertex at which a rule decides how a path goes on. Everything in it is a function of the
+/// prefix of the path.
+struct TerminationQuery {
+  Vec2 film;                   ///< film position of the path [pixels]
+  Point3 position;             ///< of the vertex
+  Vec3 towards_previous;       ///< unit
+  std::uint16_t bounce = 1;    ///< number of the vertex; the first vertex after the lens is 1
+  Rgb throughput;              ///< f/p of the path up to the vertex
+  float first_throughput = 1;  ///< largest component of the throughput after the first step
+  /// Product of the factors by which refraction has compressed solid angles so far, inverted. Times
+  /// this number, the throughput shows how much light was lost on the way [1].
+  float solid_angle_scale = 1;
+};
+
+/// Decides where paths end and where they split, frozen for one iteration: constant and
+/// thread-safe.
+///
+/// The decision at a vertex is a factor q, the expected number of steps that are taken from there.
+/// Each of them is weighted by 1 / q, so the image is unbiased for any q > 0:
+///
+/// - q < 1: Russian roulette. One step is taken with probability q.
+/// - q > 1: stochastic splitting. floor(q) or floor(q) + 1 steps are taken, q on average.
+class TerminationRule {
+ public:
+  virtual ~TerminationRule() = default;
+
+  /// The time at which a rule is asked.
+  enum class Stage {
+    vertex,  ///< before steps are drawn. Only then can a path split
+    step     ///< after the step was drawn. Factors are at most 1
+  };
+  virtual Stage stage() const { return Stage::vertex; }
+
+  /// Returns the factor q, at least 0 and finite [1]. A factor of 0 ends the path, so it is right
+  /// only if the rest of the path has no value. At mirrors and the like, and where the integrator
+  /// cannot split, factors above 1 count as 1.
+  virtual float factor(const TerminationQuery& query) const = 0;
+};
+
+/// The state of a termination during one render. Threads use it in the same way as LearningState.
+class TerminationState {
+ public:
+  virtual ~TerminationState() = default;
+
+  /// Takes the recorded paths of one work unit. Called in the order of work units.
+  virtual void absorb(const PathLog& log) = 0;
+  /// Ends a training iteration.
+  virtual void update(const TrainingStage& stage) = 0;
+  /// Returns the rule as of the last call of update(), or the rule of the first iteration. Null:
+  /// paths neither end nor split.
+  virtual std::shared_ptr<const TerminationRule> rule() const = 0;
+  /// Saves the state, or loads it into a state that Termination::begin() made for the same render.
+  virtual void archive(Archive& archive) = 0;
+};
+
+/// Contract: where paths end by Russian roulette, and where they split.
+class Termination : public Component {
+ public:
+  static constexpr std::string_view contract_name = "termination";
+
+  /// Returns whether the rule is learned from recorded paths. If not, neither absorb() nor update()
+  /// is called.
+  virtual bool learns() const = 0;
+  virtual std::unique_ptr<TerminationState> begin(const LearningContext& context) const = 0;
+};
+
+}  // namespace pharos

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include <pharos/guiding/contract/termination.h>
+#include <pharos/transport/estimator_rules.h>
+#include <pharos/transport/waiting_paths.h>
+
+namespace pharos {
+
+/// Asks a rule where paths end and split, and draws the number of steps.
+template <class Rules = EstimatorRules>
+class TerminationChoice {
+ public:
+  /// `rule` may be null: paths neither end nor split.
+  explicit TerminationChoice(const TerminationRule* rule)
+      : of_vertex_(rule != nullptr && rule->stage() == TerminationRule::Stage::vertex ? rule
+                                                                                      : nullptr),
+        of_step_(of_vertex_ == nullptr ? rule : nullptr) {}
+
+  /// Returns how many steps a path takes from its current vertex, as is decided before they are
+  /// drawn. At most `most_new` of them may be taken by new branches. `film` is in pixels.
+  Branching branching(const Path& path, Vec2 film, std::uint32_t most_new) const {
+    if (of_vertex_ == nullptr) return {};
+    // The limit is a whole number, so drawn numbers do not exceed it either.
+    const float limit = 1 + static_cast<float>(most_new);
+    const float factor = std::min(of_vertex_->factor(query(path, film)), limit);
+    if (factor == 1) return {};
+    const float whole = std::floor(factor);
+    const float u = path.numbers().get_1d(Purpose::roulette, 1);
+    return {static_cast<std::uint32_t>(whole) + (u < factor - whole ? 1u : 0u),
+            Rules::branch_weight(factor)};
+  }
+
+  /// Plays Russian roulette after a step was drawn. Returns false if the path ends;
+  /// `step.continuation` is 0 then.
+  bool survives(Path& path, Vec2 film, const LocalScattering& scattering, ScatterStep& step) const {
+    if (of_step_ == nullptr) return true;
+    const bool refracts =
+        step.event == Event::smooth_transmit || step.event == Event::discrete_transmit;
+    // Refraction does not change the throughput of paths from lights.
+    if (refracts && path.transport == Transport::radiance) note_refraction(path, scattering);
+    const float survival = of_step_->factor(query(path, film));
+    if (survival >= 1) return true;
+    const bool ends = path.numbers().get_1d(Purpose::roulette) >= survival;
+    step.continuation = ends ? 0 : Rules::survivor_weight(survival);
+    return !ends;
+  }
+
+ private:
+  static TerminationQuery query(const Path& path, Vec2 film) {
+    return {.film = film,
+            .position = path.here().position(),
+            .towards_previous = path.towards_previous,
+            .bounce = path.bounce,
+            .throughput = path.throughput,
+            .first_throughput = path.first_throughput,
+            .solid_angle_scale = path.solid_angle_scale};
+  }
+
+  /// Accounts for refraction. Refraction compresses radiance into a smaller solid angle, and
+  /// roulette must not mistake this for a loss of light.
+  static void note_refraction(Path& path, const LocalScattering& scattering) {
+    const float ratio = square(scattering.bsdf().relative_ior());
+    const bool enters = dot(path.towards_previous, path.here().surface.normal) > 0;
+    path.solid_angle_scale *= enters ? 1 / ratio : ratio;
+  }
+
+  const TerminationRule* of_vertex_;  ///< asked before steps are drawn; null: none
+  const TerminationRule* of_step_;    ///< asked after a step was drawn; null: none
+};
+
+}  // namespace pharos
