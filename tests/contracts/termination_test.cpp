@@ -80,6 +80,27 @@ TEST_CASE("termination: paths from lights and from both ends survive roulette un
                            kGlassInFogFurnace)) < kLimit);
 }
 
+TEST_CASE("termination: learned factors are unbiased, with and without guides") {
+  for (const char* name : {"adjoint", "efficiency"}) {
+    CAPTURE(name);
+    // A narrow window, so that many paths split or end.
+    const std::string termination =
+        fmt::format("{{ type: {}, {}cell_steps: 1000, prior: 1 }}", name,
+                    std::string(name) == "adjoint" ? "window: 1.1, " : "");
+    CHECK(std::abs(diffuse_t(termination)) < kLimit);
+    CHECK(std::abs(fog_t(termination)) < kLimit);
+    CHECK(std::abs(diffuse_t(termination, pair("stub_direction", "stub_direction"))) < kLimit);
+    CHECK(std::abs(fog_t(termination, pair("stub_camera", "stub_camera"))) < kLimit);
+  }
+}
+
+TEST_CASE("termination: what learns must be able to teach") {
+  for (const char* integrator : {"light", "bidirectional"}) {
+    CHECK_THROWS_WITH(config_from(config_with(kDiffuseScene, 4, "adjoint", "", 1, integrator)),
+                      doctest::Contains("the termination 'adjoint' learns"));
+  }
+}
+
 TEST_CASE("termination: `throughput` is the roulette of the integrator's own settings") {
   const auto bits = [](const std::string& settings) {
     return bits_of(render(kGlassInFogScene +

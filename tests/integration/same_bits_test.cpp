@@ -58,6 +58,19 @@ TEST_CASE("same bits: paths that split, unguided and guided") {
                   kSplit)));
 }
 
+TEST_CASE("same bits: paths that split as was learned, with and without guides") {
+  for (const char* termination : {"adjoint", "efficiency"}) {
+    check_same_bits(cornell(fmt::format(
+        "sampler: sobol\nintegrator: {{ type: path, termination: {}, training: {{ iterations: 3 }} "
+        "}}\n",
+        termination)));
+    check_same_bits(cornell(
+        fmt::format("integrator: {{ type: path, termination: {}, guiding: {{ learner: "
+                    "stub_direction, guider: stub_direction, training: {{ iterations: 3 }} }} }}\n",
+                    termination)));
+  }
+}
+
 TEST_CASE("same bits: guided, with the learned model and either learned mixing") {
   for (const char* mixing : {"stub_learned", "learned"}) {
     check_same_bits(cornell(fmt::format(

@@ -1,25 +1,52 @@
+#include <array>
+#include <cmath>
+#include <sstream>
+
 #include <doctest/doctest.h>
 
+#include "../adjoint.h"
+#include "../efficiency.h"
 #include "../none.h"
-#include "../throughput.h"
+#include "made_up_paths.h"
 
 namespace pharos {
 namespace {
 
-/// A path of throughput `throughput` at a vertex.
+const LearningContext kContext{.seed = 3, .window = {0, 0, 4, 4}};
+
+/// A path of throughput `throughput` that sees the wall of the made-up paths.
 TerminationQuery at_wall(float throughput, std::uint16_t bounce = 6) {
-  return {.bounce = bounce, .throughput = Rgb(throughput)};
+  return {.film = {0.5f, 0.5f},
+          .position = {0, 0, 1},
+          .towards_previous = {0, 0, -1},
+          .bounce = bounce,
+          .throughput = Rgb(throughput)};
+}
+
+/// Teaches a termination paths that find 8 with one step in four, from a wall that reflects half.
+std::unique_ptr<TerminationState> taught(const Termination& termination) {
+  auto state = termination.begin(kContext);
+  PathLog log;
+  for (int i = 0; i < 400; ++i) {
+    test::add_path(log, i % 4 == 0 ? 8 : 0, 1, 1, {0, 0, 1},
+                   {static_cast<float>(i / 4 % 4) + 0.5f, 0.5f});
+  }
+  for (const std::uint32_t left : {1u, 0u}) {
+    state->absorb(log);
+    state->update({.left = left});
+  }
+  return state;
 }
 
 }  // namespace
 
 TEST_CASE("none: there is no rule") {
-  CHECK(NoTermination().begin({})->rule() == nullptr);
+  CHECK(NoTermination().begin(kContext)->rule() == nullptr);
   CHECK_FALSE(NoTermination().learns());
 }
 
 TEST_CASE("throughput: survival as the throughput says, from the first vertex of roulette on") {
-  const auto rule = ThroughputTermination({.depth = 3, .limit = 0.9f}).begin({})->rule();
+  const auto rule = ThroughputTermination({.depth = 3, .limit = 0.9f}).begin(kContext)->rule();
   CHECK(rule->stage() == TerminationRule::Stage::step);
   CHECK(rule->factor(at_wall(0.25f, 2)) == 1);
   CHECK(rule->factor(at_wall(0.25f, 3)) == 0.25f);
@@ -28,6 +55,95 @@ TEST_CASE("throughput: survival as the throughput says, from the first vertex of
   refracted.first_throughput = 0.5f;
   refracted.solid_angle_scale = 1.5f;
   CHECK(rule->factor(refracted) == doctest::Approx(0.75));
+}
+
+TEST_CASE("adjoint: contributions outside the window are moved to its edge") {
+  for (const float width : {1.0f, 3.0f, 5.0f}) {
+    const float low = 2 / (1 + width), high = 2 * width / (1 + width);
+    CHECK(weight_window_factor(low / 4, width) == doctest::Approx(0.25));
+    CHECK(weight_window_factor(1, width) == 1);
+    CHECK(weight_window_factor(3 * high, width) == doctest::Approx(3));
+    // What goes on has the contribution low or high.
+    for (const float v : {low / 4, 3 * high}) {
+      const float left = v / weight_window_factor(v, width);
+      CHECK(left == doctest::Approx(v < 1 ? low : high));
+    }
+  }
+}
+
+TEST_CASE("efficiency: the factor in closed form") {
+  const ExpectedOutcome found{.radiance = 3, .squared = 25, .cost = 4};
+  // q_r = T/I 5 / 2 sqrt(worth), q_s = T/I 4 / 2 sqrt(worth)
+  CHECK(efficiency_factor(0.1f, found, 1) == doctest::Approx(0.25));
+  CHECK(efficiency_factor(0.45f, found, 1) == 1);
+  CHECK(efficiency_factor(2, found, 1) == doctest::Approx(4));
+  CHECK(efficiency_factor(2, found, 0.25f) == doctest::Approx(2));
+}
+
+TEST_CASE("learned terminations begin with roulette by throughput and then use what they know") {
+  AdjointTermination::Settings adjoint;
+  adjoint.first.depth = 2;
+  EfficiencyTermination::Settings efficiency;
+  efficiency.first.depth = 2;
+  const AdjointTermination by_adjoint(adjoint);
+  const EfficiencyTermination by_efficiency(efficiency);
+  for (const Termination* termination :
+       std::array<const Termination*, 2>{&by_adjoint, &by_efficiency}) {
+    const auto first = termination->begin(kContext)->rule();
+    CHECK(first->stage() == TerminationRule::Stage::step);
+    CHECK(first->factor(at_wall(0.25f)) == 0.25f);
+    const auto later = taught(*termination)->rule();
+    CHECK(later->stage() == TerminationRule::Stage::vertex);
+    CHECK(later->factor(at_wall(1e-6f)) == adjoint.least);
+    CHECK(later->factor(at_wall(1e6f)) == adjoint.most);
+    CHECK(later->factor(at_wall(0.1f)) < 1);
+    CHECK(later->factor(at_wall(10)) > 1);
+  }
+  // A step finds the pixel's radiance on average: the middle of the window.
+  CHECK(taught(by_adjoint)->rule()->factor(at_wall(1)) == 1);
+  const float low = 2 / (1 + adjoint.window);
+  CHECK(taught(by_adjoint)->rule()->factor(at_wall(0.1f)) == doctest::Approx(0.1f / low));
+}
+
+TEST_CASE("efficiency: the path itself is the fixed point of a single step") {
+  // All noise of the image comes from the step at the wall, and half of the cost.
+  EfficiencyTermination::Settings settings;
+  settings.pixel_radius = 0;
+  settings.pixel_outliers = 0;
+  const float factor = taught(EfficiencyTermination(settings))->rule()->factor(at_wall(1));
+  CHECK(factor == doctest::Approx(std::sqrt(2)).epsilon(0.05));
+}
+
+TEST_CASE("learned terminations: without light, roulette by throughput stays") {
+  const AdjointTermination adjoint({});
+  auto state = adjoint.begin(kContext);
+  PathLog log;
+  for (int i = 0; i < 100; ++i) test::add_path(log, 0, 1, 1);
+  state->absorb(log);
+  state->update({});
+  CHECK(state->rule()->stage() == TerminationRule::Stage::step);
+}
+
+TEST_CASE("learned terminations: a saved state goes on as the state does") {
+  const EfficiencyTermination termination({});
+  auto state = taught(termination);
+  PathLog log;
+  for (int i = 0; i < 50; ++i) test::add_path(log, 5, 2, 0.5f);
+  state->absorb(log);
+  std::stringstream saved;
+  save(saved, *state);
+  auto loaded = termination.begin(kContext);
+  load(saved, *loaded);
+  for (const float throughput : {0.3f, 1.0f, 3.0f}) {
+    CHECK(loaded->rule()->factor(at_wall(throughput)) ==
+          state->rule()->factor(at_wall(throughput)));
+  }
+  state->update({});
+  loaded->update({});
+  for (const float throughput : {0.3f, 1.0f, 3.0f}) {
+    CHECK(loaded->rule()->factor(at_wall(throughput)) ==
+          state->rule()->factor(at_wall(throughput)));
+  }
 }
 
 }  // namespace pharos

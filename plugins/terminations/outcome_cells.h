@@ -1,0 +1,89 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <pharos/core/archive.h>
+#include <pharos/guiding/toolkit/kd_tree_cells.h>
+
+#include "step_outcomes.h"
+
+namespace pharos {
+
+/// Weighted sums over outcomes of steps.
+struct OutcomeSums {
+  double weight = 0, radiance = 0, squared = 0, cost = 0;
+
+  void add(const StepOutcome& outcome) {
+    weight += outcome.weight;
+    radiance += double{outcome.weight} * outcome.radiance;
+    squared += double{outcome.weight} * outcome.radiance * outcome.radiance;
+    cost += double{outcome.weight} * outcome.cost;
+  }
+  OutcomeSums& operator+=(const OutcomeSums& other);
+  void scale(double factor);
+  void archive(Archive& archive);
+};
+
+/// Expected values over the steps from a vertex.
+struct ExpectedOutcome {
+  float radiance = 0;  ///< outgoing radiance, without what the vertex itself emits or reflects
+                       ///< from light samples
+  float squared = 0;   ///< second moment of the estimates of `radiance`
+  float cost = 1;      ///< steps that a step leads to, itself included
+
+  void archive(Archive& archive) { archive(radiance, squared, cost); }
+  float variance() const {
+    return squared > radiance * radiance ? squared - radiance * radiance : 0;
+  }
+};
+
+/// Bins of directions of equal solid angle.
+class DirectionBins {
+ public:
+  explicit DirectionBins(std::uint32_t rows) : rows_(rows) {}
+  std::size_t count() const { return std::size_t{2} * rows_ * rows_; }
+  /// Returns the bin of a unit direction.
+  std::size_t at(Vec3 direction) const;
+
+ private:
+  std::uint32_t rows_;
+};
+
+/// What was found in a cell of space, by direction towards the viewer. A cell of KdTreeCells.
+struct OutcomeCell {
+  std::vector<OutcomeSums> bins;  ///< empty: nothing was found yet
+
+  bool knows_something() const { return !bins.empty(); }
+  void forget(double factor);
+  void learn(std::span<const StepOutcome> outcomes, const DirectionBins& directions);
+  OutcomeSums sum() const;
+  void archive(Archive& archive) { archive(bins); }
+};
+
+using OutcomeCells = KdTreeCells<StepOutcome, OutcomeCell>;
+
+/// What steps are expected to find, by position and direction: constant and thread-safe.
+class OutcomeField {
+ public:
+  /// Knows nothing; for loading.
+  explicit OutcomeField(DirectionBins directions) : directions_(directions) {}
+  /// Takes the means of what `cells` have found. Each bin also counts its cell's mean as `prior`
+  /// steps, and each cell counts the mean of the scene in the same way.
+  OutcomeField(const OutcomeCells& cells, DirectionBins directions, double prior);
+
+  /// Returns what steps from a point find if the viewer is in this unit direction.
+  const ExpectedOutcome& at(Point3 p, Vec3 towards_viewer) const {
+    return expected_[tree_.cell_at(p) * directions_.count() + directions_.at(towards_viewer)];
+  }
+  void archive(Archive& archive);
+
+ private:
+  KdTree tree_;
+  DirectionBins directions_;
+  std::vector<ExpectedOutcome> expected_;
+};
+
+}  // namespace pharos

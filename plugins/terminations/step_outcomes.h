@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <pharos/core/archive.h>
+#include <pharos/guiding/record/path_record.h>
+
+namespace pharos {
+
+/// What one step from a vertex has found, as if it had been the only one.
+struct StepOutcome {
+  Point3 origin;        ///< of the vertex
+  Vec3 towards_viewer;  ///< unit, from the vertex along the path back to the sensor
+  /// The number of steps for which this one counts. A step that has survived roulette also counts
+  /// for those that have not, and the branches of a vertex count for one step together.
+  float weight = 0;
+  /// Estimate of the radiance that leaves the vertex towards the viewer, mean of the channels,
+  /// without emission and light samples of the vertex itself.
+  float radiance = 0;
+  float cost = 0;  ///< number of steps from here on, this one included, in all branches
+
+  void archive(Archive& archive) { archive(origin, towards_viewer, weight, radiance, cost); }
+};
+
+/// What a whole path has found.
+struct PathOutcome {
+  double radiance = 0;  ///< value of the path, mean of the channels
+  double cost = 0;      ///< number of its steps, in all branches
+  /// Number of paths of evenly chosen film positions for which it counts. A guide of the camera
+  /// chooses some pixels more often than others.
+  double paths = 1;
+};
+
+/// Reads what steps have found from recorded paths. It keeps scratch memory from path to path.
+class OutcomeReader {
+ public:
+  /// Reads a path from the sensor. Appends the outcomes of the steps after the first one to
+  /// `steps`. An outcome counts at most as much as makes the path `most` times as bright as its
+  /// pixel, of radiance `pixel`. If `most` is 0, there is no limit.
+  PathOutcome read(const PathView& path, double most, double pixel,
+                   std::vector<StepOutcome>& steps);
+
+ private:
+  std::vector<Rgb> incident_;
+  std::vector<float> costs_;
+};
+
+}  // namespace pharos

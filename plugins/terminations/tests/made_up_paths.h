@@ -1,0 +1,51 @@
+#pragma once
+
+#include <pharos/guiding/record/path_record.h>
+
+namespace pharos::test {
+
+/// Adds a path to a log: lens - wall - light. One step in `branches` from the wall, each weighted
+/// by `continuation`, finds the radiance `found` times 1, 2, 3 …; the wall reflects one half.
+inline void add_path(PathLog& log, float found, std::uint32_t branches, float continuation,
+                     Point3 wall = {0, 0, 1}, Vec2 film = {0.5f, 0.5f}) {
+  log.begin_path(film, Transport::radiance);
+  log.add(RecordedVertex{.kind = VertexKind::sensor,
+                         .event = Event::smooth_reflect,
+                         .throughput = Rgb(1),
+                         .local_weight = Rgb(1),
+                         .direction = {0, 0, 1}});
+  for (std::uint32_t i = 0; i < branches; ++i) {
+    log.add(RecordedVertex{.position = wall,
+                           .event = Event::smooth_reflect,
+                           .guidable = true,
+                           .parent = 0,
+                           .throughput = Rgb(1),
+                           .local_weight = Rgb(0.5f * continuation),
+                           .direction = {0, 0, -1},
+                           .pdf = 1,
+                           .continuation = continuation,
+                           .branch = i});
+  }
+  for (std::uint32_t i = 0; i < branches; ++i) {
+    log.add(RecordedVertex{.parent = 1 + i,
+                           .throughput = Rgb(0.5f * continuation),
+                           .emission = Rgb(found * static_cast<float>(i + 1))});
+  }
+}
+
+/// Adds a path that roulette has ended at the wall.
+inline void add_ended_path(PathLog& log) {
+  log.begin_path({0.5f, 0.5f}, Transport::radiance);
+  log.add(RecordedVertex{.kind = VertexKind::sensor,
+                         .event = Event::smooth_reflect,
+                         .throughput = Rgb(1),
+                         .local_weight = Rgb(1),
+                         .direction = {0, 0, 1}});
+  log.add(RecordedVertex{.position = {0, 0, 1},
+                         .guidable = true,
+                         .parent = 0,
+                         .throughput = Rgb(1),
+                         .continuation = 0});
+}
+
+}  // namespace pharos::test

@@ -1,0 +1,73 @@
+#include "../step_outcomes.h"
+
+#include <doctest/doctest.h>
+
+#include "made_up_paths.h"
+
+namespace pharos {
+namespace {
+
+/// Everything that is read from a log.
+struct Outcomes {
+  explicit Outcomes(const PathLog& log, double most = 0, double pixel = 1) {
+    OutcomeReader reader;
+    for (std::size_t i = 0; i < log.size(); ++i) {
+      paths.push_back(reader.read(log[i], most, pixel, steps));
+    }
+  }
+  std::vector<PathOutcome> paths;
+  std::vector<StepOutcome> steps;
+};
+
+}  // namespace
+
+TEST_CASE("outcomes: a plain step finds the radiance that its vertex reflects") {
+  PathLog log;
+  test::add_path(log, 8, 1, 1);
+  const Outcomes found(log);
+  REQUIRE(found.steps.size() == 1);
+  CHECK(found.steps[0].origin == Point3{0, 0, 1});
+  CHECK(found.steps[0].towards_viewer == Vec3{0, 0, -1});
+  CHECK(found.steps[0].weight == 1);
+  CHECK(found.steps[0].radiance == doctest::Approx(4));
+  CHECK(found.steps[0].cost == 1);
+  CHECK(found.paths[0].radiance == doctest::Approx(4));
+  CHECK(found.paths[0].cost == 2);
+}
+
+TEST_CASE("outcomes: the branches of a vertex count for one step, each by what it found alone") {
+  PathLog log;
+  test::add_path(log, 8, 3, 1.0f / 3);
+  const Outcomes found(log);
+  REQUIRE(found.steps.size() == 3);
+  double weight = 0;
+  for (int i = 0; i < 3; ++i) {
+    weight += found.steps[i].weight;
+    CHECK(found.steps[i].radiance == doctest::Approx(4 * (i + 1)));
+  }
+  CHECK(weight == doctest::Approx(1));
+  CHECK(found.paths[0].radiance == doctest::Approx((4 + 8 + 12) / 3.0));
+  CHECK(found.paths[0].cost == 4);
+}
+
+TEST_CASE("outcomes: survivors of roulette count for those who ended") {
+  PathLog log;
+  test::add_path(log, 8, 1, 4);
+  for (int i = 0; i < 3; ++i) test::add_ended_path(log);
+  const Outcomes found(log);
+  REQUIRE(found.steps.size() == 1);
+  CHECK(found.steps[0].weight == 4);
+  CHECK(found.steps[0].radiance == doctest::Approx(4));
+  CHECK(found.paths[0].radiance == doctest::Approx(16));
+  CHECK(found.paths[3].radiance == 0);
+  CHECK(found.paths[3].cost == 1);
+}
+
+TEST_CASE("outcomes: outliers count as much as the limit allows") {
+  PathLog log;
+  test::add_path(log, 800, 1, 1);
+  CHECK(Outcomes(log, 5, 2).steps[0].radiance == doctest::Approx(10));
+  CHECK(Outcomes(log, 500, 2).steps[0].radiance == doctest::Approx(400));
+}
+
+}  // namespace pharos
