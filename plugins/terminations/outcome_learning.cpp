@@ -18,12 +18,12 @@ void OutcomeLearning::absorb(const PathLog& log) {
   for (std::size_t i = 0; i < log.size(); ++i) {
     const PathView path = log[i];
     if (path.transport != Transport::radiance || path.vertices.empty()) continue;
-    const double most = knows_pixels_ ? settings_.outlier : 0;
-    const PathOutcome found = reader_.read(path, most, pixels_.at(path.film), steps_);
+    const double most = knows_pixels_ ? settings_.outlier * pixels_.at(path.film) : kInfinity;
+    const PathOutcome found = reader_.read(path, most, steps_);
     if (!std::isfinite(found.radiance) || !std::isfinite(found.paths)) continue;
     has_light_ |= found.radiance > 0;
     pixels_.add(path.film, found.radiance, found.paths);
-    paths_.add(path.film, found.radiance, found.cost);
+    paths_.add(path.film, std::min(found.radiance, most), found.cost);
   }
   if (steps_.size() >= settings_.batch_steps) learn_steps();
 }
@@ -46,17 +46,19 @@ PixelMap OutcomeLearning::pixel_map() const {
 void OutcomeLearning::update(const TrainingStage&) {
   learn_steps();
   pixels_.update(static_cast<int>(settings_.pixel_radius), settings_.least_pixel);
+  // Before pixels are known, outliers count in full. They are forgotten as soon as possible.
+  const double kept = knows_pixels_ ? settings_.decay : 0;
   knows_pixels_ = has_light_;
   if (knows_pixels_ && cells_.know_something()) {
     PixelMap map = pixel_map();
-    const double variance = paths_.relative_variance(map, settings_.pixel_outliers);
+    const double variance = paths_.relative_variance(map);
     learned_ = std::make_shared<const LearnedOutcomes>(
         LearnedOutcomes{OutcomeField(cells_, directions(), settings_.prior), std::move(map),
                         variance, paths_.cost()});
   }
   make_rule();
-  for (std::size_t i = 0; i < cells_.size(); ++i) cells_[i].forget(settings_.decay);
-  paths_.forget(settings_.decay);
+  for (std::size_t i = 0; i < cells_.size(); ++i) cells_[i].forget(kept);
+  paths_.forget(kept);
 }
 
 void OutcomeLearning::make_rule() {

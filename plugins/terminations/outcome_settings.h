@@ -17,11 +17,10 @@ struct OutcomeSettings {
   std::uint32_t cell_depth = 24;
   std::uint32_t direction_rows = 4;
   double prior = 16;
-  double decay = 0.5;
+  double decay = 1;
   double outlier = 50;
   std::uint32_t pixel_radius = 2;
   double least_pixel = 0.05;
-  double pixel_outliers = 0.01;
   std::uint32_t batch_steps = 1'000'000;
   ThroughputTermination::Settings first;
 
@@ -50,13 +49,14 @@ void describe_outcomes(Schema<Settings>& s) {
           "Number of steps as which the mean of a cell counts in each of its bins, and the mean of "
           "the scene in each cell")
       .at_least(0);
-  s.field(
-       "decay", &OutcomeSettings::decay,
-       "Factor by which an iteration weights what was found before, because the rule was another")
+  s.field("decay", &OutcomeSettings::decay,
+          "Factor by which an iteration weights what was found before, by other rules")
       .at_least(0)
       .at_most(1);
-  s.field("outlier", &OutcomeSettings::outlier,
-          "A step counts at most as much as makes its path this many times as bright as its pixel")
+  s.field(
+       "outlier", &OutcomeSettings::outlier,
+       "A step or path counts at most as if its contribution were this many times the radiance of "
+       "its pixel")
       .above(0);
   s.field("pixel_radius", &OutcomeSettings::pixel_radius,
           "Radiance of pixels is averaged over the pixels up to this distance along both axes")
@@ -66,10 +66,6 @@ void describe_outcomes(Schema<Settings>& s) {
           "Least radiance of a pixel, relative to the mean of the image")
       .above(0)
       .at_most(1);
-  s.field("pixel_outliers", &OutcomeSettings::pixel_outliers,
-          "Share of the pixels of largest variance that do not count in the variance of paths")
-      .at_least(0)
-      .below(1);
   s.field("batch_steps", &OutcomeSettings::batch_steps,
           "Number of steps that are collected before the cells learn from them")
       .at_least(1);

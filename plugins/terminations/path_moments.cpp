@@ -1,8 +1,7 @@
 #include "path_moments.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numeric>
+#include <cstddef>
 
 namespace pharos {
 
@@ -37,26 +36,21 @@ double PathMoments::Pixel::variance() const {
   return std::max(squares - sum * sum / weight, 0.0) / degrees;
 }
 
-double PathMoments::relative_variance(const PixelMap& estimates, double outliers) const {
+double PathMoments::relative_variance(const PixelMap& estimates) const {
   constexpr double kLeastDegrees = 1e-3;  // a pixel with one path has none, up to rounding
-  std::vector<double> variances;
+  double sum = 0;
+  std::size_t count = 0;
   for (int y = window_.y0; y < window_.y1; ++y) {
     for (int x = window_.x0; x < window_.x1; ++x) {
       const Pixel& pixel = pixels_[window_.index(x, y)];
       if (!(pixel.weight - pixel.squared_weight / pixel.weight > kLeastDegrees)) continue;
-      const Vec2 center{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f};
-      const double radiance = estimates.at(center);
-      variances.push_back(pixel.variance() / (radiance * radiance));
+      const double radiance =
+          estimates.at({static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f});
+      sum += pixel.variance() / (radiance * radiance);
+      ++count;
     }
   }
-  if (variances.empty()) return 0;
-  const auto kept = std::max<std::size_t>(
-      static_cast<std::size_t>(std::ceil((1 - outliers) * static_cast<double>(variances.size()))),
-      1);
-  std::sort(variances.begin(), variances.end());
-  return std::accumulate(variances.begin(), variances.begin() + static_cast<std::ptrdiff_t>(kept),
-                         0.0) /
-         static_cast<double>(kept);
+  return count > 0 ? sum / static_cast<double>(count) : 0;
 }
 
 void PathMoments::archive(Archive& archive) {

@@ -22,9 +22,8 @@ class PathMoments {
   void forget(double factor);
 
   /// Returns the mean over all pixels of the variance of a path over the squared radiance of the
-  /// pixel in `estimates` [1]. The share `outliers` of the pixels that have the largest ones is
-  /// left out. Returns 0 if no pixel has two paths.
-  double relative_variance(const PixelMap& estimates, double outliers) const;
+  /// pixel in `estimates` [1]. Returns 0 if no pixel has two paths.
+  double relative_variance(const PixelMap& estimates) const;
   /// Returns the mean cost of a path [steps]; 0 if there is none.
   double cost() const { return paths_ > 0 ? cost_ / paths_ : 0; }
 

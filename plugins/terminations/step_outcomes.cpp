@@ -26,7 +26,7 @@ void count_steps(const PathView& path, std::vector<float>& costs) {
 
 }  // namespace
 
-PathOutcome OutcomeReader::read(const PathView& path, double most, double pixel,
+PathOutcome OutcomeReader::read(const PathView& path, double most,
                                 std::vector<StepOutcome>& steps) {
   estimate_incident_radiance(path, incident_);
   count_steps(path, costs_);
@@ -36,7 +36,7 @@ PathOutcome OutcomeReader::read(const PathView& path, double most, double pixel,
     double radiance = mean(vertex.local_weight * incident_[i]) / vertex.continuation;
     if (!std::isfinite(radiance)) continue;
     const double throughput = mean(vertex.throughput);
-    if (most > 0 && throughput > 0) radiance = std::min(radiance, most * pixel / throughput);
+    if (throughput > 0) radiance = std::min(radiance, most / throughput);
     steps.push_back({.origin = vertex.position,
                      .towards_viewer = -path.vertices[vertex.parent].direction,
                      .weight = vertex.continuation,

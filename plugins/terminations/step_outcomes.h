@@ -36,10 +36,8 @@ struct PathOutcome {
 class OutcomeReader {
  public:
   /// Reads a path from the sensor. Appends the outcomes of the steps after the first one to
-  /// `steps`. An outcome counts at most as much as makes the path `most` times as bright as its
-  /// pixel, of radiance `pixel`. If `most` is 0, there is no limit.
-  PathOutcome read(const PathView& path, double most, double pixel,
-                   std::vector<StepOutcome>& steps);
+  /// `steps`. An outcome counts at most as much as contributes the radiance `most` to the pixel.
+  PathOutcome read(const PathView& path, double most, std::vector<StepOutcome>& steps);
 
  private:
   std::vector<Rgb> incident_;

@@ -70,6 +70,20 @@ TEST_CASE("checkpoints: unguided, and light paths") {
   }
 }
 
+TEST_CASE("checkpoints: what terminations learn, with and without guides") {
+  for (const char* termination : {"adjoint", "efficiency"}) {
+    check_goes_on(config_in("cornell-box",
+                            fmt::format("integrator: {{ type: path, termination: {}, training: {{ "
+                                        "iterations: 3 }} }}\n",
+                                        termination)));
+    check_goes_on(config_in(
+        "cornell-box",
+        fmt::format("integrator: {{ type: path, termination: {}, guiding: {{ learner: "
+                    "stub_direction, guider: stub_direction, training: {{ iterations: 2 }} }} }}\n",
+                    termination)));
+  }
+}
+
 TEST_CASE("checkpoints: every preset") {
   for (const char* preset :
        {"focal", "focal-robust", "pairs", "pavmm", "pavmm-product", "pavmm-robust", "ppg-improved",

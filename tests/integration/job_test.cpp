@@ -276,5 +276,29 @@ TEST_CASE("replay knows what guides later iterations") {
   CHECK(job.replay(20, 20, 0, 1).radiance == result.image.rgb(20, 20));
 }
 
+TEST_CASE("replay runs all branches of a path and names them") {
+  const std::string config = cornell(
+      "budget: { spp: 1 }\nintegrator: { type: path, termination: { type: stub_factor, factor: 2 } "
+      "}\n");
+  const RenderResult result = render(config);
+  const LoadedConfig loaded = config_from(config);
+  RenderJob job(loaded.config);
+  for (const auto& [x, y] : {std::pair{3, 7}, {20, 20}, {40, 33}}) {
+    const PathTrace trace = job.replay(x, y, 0, 0);
+    CHECK(trace.radiance == result.image.rgb(x, y));
+    CHECK(trace.text.find("branch 1 after 0") != std::string::npos);
+  }
+}
+
+TEST_CASE("replay knows the factors that later iterations have learned") {
+  const std::string config = cornell(
+      "budget: { spp: 2 }\nintegrator: { type: path, termination: { type: adjoint, window: 1 }, "
+      "training: { iterations: 1, images: discard } }\n");
+  const RenderResult result = render(config);
+  const LoadedConfig loaded = config_from(config);
+  RenderJob job(loaded.config);
+  CHECK(job.replay(20, 20, 0, 1).radiance == result.image.rgb(20, 20));
+}
+
 }  // namespace
 }  // namespace pharos::testing

@@ -56,6 +56,16 @@ TEST_CASE("ranks: unguided, and light paths that splat") {
   }
 }
 
+TEST_CASE("ranks: terminations that learn") {
+  check_same_on_ranks(
+      config_in("cornell-box",
+                "integrator: { type: path, termination: adjoint, training: { iterations: 3 } }\n"));
+  check_same_on_ranks(
+      config_in("cornell-box",
+                "integrator: { type: path, termination: efficiency, guiding: { learner: "
+                "stub_direction, guider: stub_direction, training: { iterations: 3 } } }\n"));
+}
+
 TEST_CASE("ranks: four methods and the robust mixture") {
   for (const char* preset :
        {"focal", "ppg-improved", "pavmm-robust", "spatial-gaussians", "triplets", "robust"}) {

@@ -77,16 +77,15 @@ TEST_CASE("outcome cells: with a strong prior, all bins find the mean of the sce
 TEST_CASE("path moments: variance within pixels, relative to their radiance") {
   PathMoments moments({0, 0, 2, 1});
   const PixelMap radiance({0, 0, 2, 1}, [](Vec2 film) { return film.x < 1 ? 2.0 : 10.0; });
-  CHECK(moments.relative_variance(radiance, 0) == 0);
+  CHECK(moments.relative_variance(radiance) == 0);
   for (const float x : {0.5f, 1.5f}) moments.add({x, 0.5f}, x < 1 ? 1 : 10, 4);
-  CHECK(moments.relative_variance(radiance, 0) == 0);
+  CHECK(moments.relative_variance(radiance) == 0);
   for (const float x : {0.5f, 1.5f}) moments.add({x, 0.5f}, x < 1 ? 3 : 10, 8);
   // The variance of 1 and 3 is 2, and the other pixel has none.
-  CHECK(moments.relative_variance(radiance, 0) == doctest::Approx(0.5 * 2 / 4.0));
-  CHECK(moments.relative_variance(radiance, 0.5) == doctest::Approx(0));
+  CHECK(moments.relative_variance(radiance) == doctest::Approx(0.5 * 2 / 4.0));
   CHECK(moments.cost() == doctest::Approx(6));
   moments.forget(0.25);
-  CHECK(moments.relative_variance(radiance, 0) == doctest::Approx(0.5 * 2 / 4.0));
+  CHECK(moments.relative_variance(radiance) == doctest::Approx(0.5 * 2 / 4.0));
   CHECK(moments.cost() == doctest::Approx(6));
 }
 

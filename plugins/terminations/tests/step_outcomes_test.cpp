@@ -9,10 +9,10 @@ namespace {
 
 /// Everything that is read from a log.
 struct Outcomes {
-  explicit Outcomes(const PathLog& log, double most = 0, double pixel = 1) {
+  explicit Outcomes(const PathLog& log, double most = kInfinity) {
     OutcomeReader reader;
     for (std::size_t i = 0; i < log.size(); ++i) {
-      paths.push_back(reader.read(log[i], most, pixel, steps));
+      paths.push_back(reader.read(log[i], most, steps));
     }
   }
   std::vector<PathOutcome> paths;
@@ -66,8 +66,8 @@ TEST_CASE("outcomes: survivors of roulette count for those who ended") {
 TEST_CASE("outcomes: outliers count as much as the limit allows") {
   PathLog log;
   test::add_path(log, 800, 1, 1);
-  CHECK(Outcomes(log, 5, 2).steps[0].radiance == doctest::Approx(10));
-  CHECK(Outcomes(log, 500, 2).steps[0].radiance == doctest::Approx(400));
+  CHECK(Outcomes(log, 10).steps[0].radiance == doctest::Approx(10));
+  CHECK(Outcomes(log, 1000).steps[0].radiance == doctest::Approx(400));
 }
 
 }  // namespace pharos

@@ -109,7 +109,6 @@ TEST_CASE("efficiency: the path itself is the fixed point of a single step") {
   // All noise of the image comes from the step at the wall, and half of the cost.
   EfficiencyTermination::Settings settings;
   settings.pixel_radius = 0;
-  settings.pixel_outliers = 0;
   const float factor = taught(EfficiencyTermination(settings))->rule()->factor(at_wall(1));
   CHECK(factor == doctest::Approx(std::sqrt(2)).epsilon(0.05));
 }
