@@ -25,28 +25,30 @@ class UniformState final : public LearningState {
         // Vertices at which no guide will ever be asked teach nothing. Steps that found no light
         // count, because they show that it is dark there.
         if (!path.vertices[k].guidable) continue;
+        // The branches of a vertex count for one step together. A step that has survived roulette
+        // also counts for those that have not.
         radiance_ += path.vertices[k].continuation * mean(incident_[k]);
-        ++steps_;
+        steps_ += path.vertices[k].continuation;
       }
     }
   }
 
   Learned update(const TrainingStage&) override {
     const double radiance = std::exchange(radiance_, 0);
-    const auto steps = static_cast<double>(std::exchange(steps_, 0));
+    const double steps = std::exchange(steps_, 0);
     return {std::make_shared<UniformModel>(steps > 0 ? radiance / steps : 0.0)};
   }
 
   /// Saves or loads the state. The heading names what follows; its version must be raised with
   /// every change.
   void archive(Archive& archive) override {
-    archive.heading("uniform state", 2);
+    archive.heading("uniform state", 3);
     archive(radiance_, steps_);
   }
 
  private:
   double radiance_ = 0;
-  std::uint64_t steps_ = 0;
+  double steps_ = 0;
   std::vector<Rgb> incident_;  ///< of one path; a member, so that it keeps its memory
 };
 

@@ -16,6 +16,19 @@ TEST_CASE("misspelt keys") {
   check_refused(config_with("film: { zzz: 3 }\n"), {"known keys: ", "'width'", "'filter'"});
 }
 
+TEST_CASE("terminations that do not fit") {
+  check_refused(
+      config_with("integrator: { type: path, roulette: throughput, termination: none }\n"),
+      {"bad.yaml:5:", "'roulette' must be off"});
+  check_refused(config_with("integrator: { type: path, training: { share: 0.2 } }\n"),
+                {"bad.yaml:5:", "nothing learns"});
+  check_refused(config_with("integrator: { type: light, termination: adjoint }\n"),
+                {"bad.yaml:5:", "the termination 'adjoint' learns"});
+  check_refused(
+      config_with("integrator: { type: path, termination: { type: adjoint, least: 0 } }\n"),
+      {"bad.yaml:5:", "least must be > 0"});
+}
+
 TEST_CASE("numbers") {
   check_refused(config_with("seed: many\n"), {"bad.yaml:5:7: error: ", "an integer", "'many'"});
   check_refused(config_with("seed: -1\n"), {"bad.yaml:5:7: error: ", "integer from 0"});

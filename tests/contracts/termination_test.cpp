@@ -94,6 +94,22 @@ TEST_CASE("termination: learned factors are unbiased, with and without guides") 
   }
 }
 
+TEST_CASE("termination: a learner finds the same radiance, however paths end and split") {
+  // Paths of two segments, so that all learned steps begin at the first vertex.
+  const auto learned = [](const std::string& termination) {
+    const std::string guiding =
+        "{ learner: uniform, guider: uniform, training: { iterations: 1, share: 0.9 } }";
+    const RenderResult result = render(config_with(kDiffuseScene, 2, termination, guiding));
+    return result.model->density({}, nullptr);
+  };
+  const double undivided = learned("none");
+  CHECK(undivided > 0.2);
+  for (const std::string& termination : {stub(0.5f), stub(2.5f), stub(4)}) {
+    CAPTURE(termination);
+    CHECK(learned(termination) == doctest::Approx(undivided).epsilon(0.02));
+  }
+}
+
 TEST_CASE("termination: what learns must be able to teach") {
   for (const char* integrator : {"light", "bidirectional"}) {
     CHECK_THROWS_WITH(config_from(config_with(kDiffuseScene, 4, "adjoint", "", 1, integrator)),

@@ -39,6 +39,28 @@ TEST_CASE("uniform: learns the mean radiance that guidable steps met, of each it
   CHECK(radiance_of(*state) == 0);
 }
 
+TEST_CASE("uniform: the branches of a vertex count for one step, and survivors for all") {
+  const auto state = UniformLearner().begin({});
+  PathLog split;
+  split.begin_path({}, Transport::radiance);
+  split.add(RecordedVertex{.kind = VertexKind::sensor, .local_weight = Rgb(1)});
+  for (int i = 0; i < 2; ++i) {
+    split.add(RecordedVertex{.guidable = true, .parent = 0, .continuation = 0.5f});
+  }
+  split.add(RecordedVertex{.parent = 1, .emission = Rgb(2)});
+  split.add(RecordedVertex{.parent = 2, .emission = Rgb(6)});
+  state->absorb(split);
+  state->absorb(path_to_lamp(1));
+  CHECK(radiance_of(*state) == doctest::Approx((4 + 1) / 2.0));
+
+  PathLog survivor = path_to_lamp(3), ended = path_to_lamp(0);
+  survivor.vertex(1).continuation = 4;
+  ended.vertex(1).continuation = 0;
+  state->absorb(survivor);
+  for (int i = 0; i < 3; ++i) state->absorb(ended);
+  CHECK(radiance_of(*state) == doctest::Approx(3));
+}
+
 TEST_CASE("uniform: a saved state goes on where it stopped") {
   const auto first = UniformLearner().begin({}), second = UniformLearner().begin({});
   first->absorb(path_to_lamp(6));
