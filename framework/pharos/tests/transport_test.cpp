@@ -1,5 +1,6 @@
 // Tests of paths in flight. They are values: copies and batches of them continue to the same bits.
 
+#include <algorithm>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -10,6 +11,8 @@
 #include <pharos/transport/light_walk.h>
 #include <pharos/transport/path_loop.h>
 #include <pharos/transport/splats.h>
+
+#include "allocation_count.h"
 
 namespace pharos {
 namespace {
@@ -38,6 +41,34 @@ struct Stage {
 
 using Walk = CameraWalk<SilentRecorder>;
 using Flight = Walk::InFlight;
+
+/// The same factor at every vertex.
+struct Factor final : TerminationRule {
+  explicit Factor(float f) : value(f) {}
+  float factor(const TerminationQuery&) const override { return value; }
+  float value;
+};
+
+/// Returns the number of branches in the records of all paths of a stage, and checks that no path
+/// has more than the settings allow.
+std::uint32_t branches_of(Stage& stage, const Factor& rule) {
+  stage.shared.termination = &rule;
+  PathLog log;
+  LogRecorder recorder(log);
+  const CameraWalk<LogRecorder> walk(stage.shared, stage.context, stage.arenas, stage.counters,
+                                     recorder);
+  std::uint32_t all = 0;
+  for (int i = 0; i < kEdge * kEdge; ++i) {
+    walk.run(stage.stream(i), stage.settings.max_depth);
+    std::uint32_t most = 0;
+    for (const RecordedVertex& vertex : log[log.size() - 1].vertices) {
+      most = std::max(most, vertex.branch);
+    }
+    CHECK(most <= stage.settings.most_branches);
+    all += most;
+  }
+  return all;
+}
 
 Flight begun(const Stage& stage, std::uint64_t index) {
   return {Path(stage.stream(index)), {}, {}};
@@ -90,6 +121,31 @@ TEST_CASE("a copy of a path continues as the path does, and apart from it") {
     split += other.found.radiance == flight.found.radiance ? 0 : 1;
   }
   CHECK(split > 10);
+}
+
+TEST_CASE("a path has at most as many branches as the settings allow") {
+  Stage stage;
+  for (const std::uint32_t most : {0u, 1u, 5u, 100u}) {
+    stage.settings.most_branches = most;
+    const std::uint32_t branches = branches_of(stage, Factor(1.7f));
+    CHECK((branches > 0) == (most > 0));
+  }
+  CHECK(branches_of(stage, Factor(0.7f)) == 0);
+}
+
+TEST_CASE("branches take nothing from the heap once a work unit has served its largest path") {
+  Stage stage;
+  stage.settings.most_branches = 200;
+  const Factor rule(2.5f);
+  stage.shared.termination = &rule;
+  const Walk walk(stage.shared, stage.context, stage.arenas, stage.counters, stage.recorder);
+  const auto run = [&] {
+    for (int i = 0; i < kEdge * kEdge; ++i) walk.run(stage.stream(i), stage.settings.max_depth);
+  };
+  run();
+  const std::uint64_t before = testing::allocation_count();
+  run();
+  CHECK(testing::allocation_count() == before);
 }
 
 TEST_CASE("a path with what is known of its counterparts can be copied, too") {
