@@ -4,19 +4,23 @@
 // Let T be the throughput of a path at a vertex, Psi the radiance that leaves the vertex back along
 // the path, and I the radiance of the pixel. The path is expected to contribute
 //
-//     v = T Psi / I
+//     v = T Psi / (I + e)
 //
-// times the value of its pixel. Contributions within a weight window [a, s a], a = 2 / (1 + s), are
-// left alone (sections 4 and 5; the middle of the window is 1). Below the window the path plays
-// roulette, and above it the path splits, so that each branch is on the edge of the window:
+// times the value of its pixel. The offset e keeps dark pixels from splitting without limit.
+// Contributions within a weight window [a, s a], a = 2 / (1 + s), are left alone (sections 4 and 5;
+// the middle of the window is 1). Below the window the path plays roulette, and above it the path
+// splits, so that each branch is on the edge of the window:
 //
 //     q = v / a if v < a,      q = v / (s a) if v > s a,      q = 1 otherwise.
 //
-// Psi is learned in bins of direction in the cells of a kd-tree (outcome_cells.h). It contains what
-// steps from the vertex find. It does not contain the light samples of the vertex itself, because
-// they are taken once in any case. I is a blurred image of the training iterations. The paper
-// learns both before rendering by photon maps; here they are learned in the training iterations,
-// which also count in the image.
+// Psi is learned in bins of direction in the cells of a kd-tree (outcome_cells.h). I is a denoised
+// image of the training iterations. The paper learns both before rendering by photon maps; here
+// they are learned in the training iterations, which also count in the image, as in the program of
+// the authors of EARS (Rath et al. 2022). In contrast to it, v is a mean over the channels of each
+// factor.
+//
+// Paths are left alone before the vertex `depth`, at vertices whose events are all discrete, and
+// where no light was found, because the light there may be rare.
 //
 //     termination: { type: adjoint, window: 5 }
 #include "adjoint.h"
@@ -33,8 +37,10 @@ class AdjointRule final : public TerminationRule {
       : settings_(settings), known_(std::move(known)) {}
 
   float factor(const TerminationQuery& query) const override {
-    const float radiance = known_->steps.at(query.position, query.towards_previous).radiance;
-    const float contribution = mean(query.throughput) * radiance / known_->pixels.at(query.film);
+    if (settings_.spares(query)) return 1;
+    const float radiance = known_->at(query).radiance;
+    if (!(radiance > 0)) return 1;
+    const float contribution = mean(query.throughput) * radiance / known_->scale_at(query.film);
     return settings_.clamped(weight_window_factor(contribution, settings_.window));
   }
 
@@ -56,7 +62,7 @@ void AdjointTermination::Settings::describe(Schema<Settings>& s) {
       .at_least(1)
       .at_most(1000);
   describe_outcomes(s);
-  s.example("{ window: 2, most: 4, direction_rows: 2, decay: 1 }");
+  s.example("{ window: 2, most: 4, direction_rows: 2, cell_steps: 200, least_steps: 50 }");
 }
 
 std::unique_ptr<TerminationState> AdjointTermination::begin(const LearningContext& context) const {

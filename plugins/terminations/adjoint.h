@@ -10,6 +10,8 @@ namespace pharos {
 class AdjointTermination final : public Termination {
  public:
   struct Settings : OutcomeSettings {
+    /// The authors of EARS begin ADRRS at the second vertex.
+    Settings() : OutcomeSettings(2) {}
     float window = 5;
     static void describe(Schema<Settings>& s);
   };

@@ -3,21 +3,29 @@
 //
 // Let T be the throughput of a path at a vertex, I the radiance of its pixel, and X the estimate of
 // the radiance that a step from the vertex finds, of second moment E[X^2], variance V and cost C.
-// Let C_I be the mean cost of a path, and V_I the mean of the variance of a path relative to I^2.
-// The best numbers of steps are (sections 4 and 5)
+// Let C_I be the mean cost of a path, and V_I the mean squared error of a path relative to its
+// pixel, (value - I)^2 / (I + e)^2. The best numbers of steps are (sections 4 and 5)
 //
-//     q_s = T / I sqrt(V      / C  C_I / V_I)     for splitting,
-//     q_r = T / I sqrt(E[X^2] / C  C_I / V_I)     for roulette.
+//     q_s = T / (I + e) sqrt(V      / C  C_I / V_I)     for splitting,
+//     q_r = T / (I + e) sqrt(E[X^2] / C  C_I / V_I)     for roulette.
 //
-// Roulette is played if q_r < 1, and the path splits if q_s > 1. Otherwise it goes on undivided.
+// Roulette is played if q_r < 1, and the path splits if q_s > 1. Otherwise it goes on undivided. So
+// it does before the vertex `depth`, and at vertices whose events are all discrete. The offset e
+// keeps dark pixels from taking all the time.
 //
-// The variances and costs depend on the factors of all later vertices and of the whole image. They
-// are measured in each iteration with the factors of that iteration, and the next factors follow
-// from them: a fixed-point iteration. Costs are numbers of steps. V, E[X^2] and C are learned in
-// bins of direction in the cells of a kd-tree (outcome_cells.h).
+// The variances and costs depend on the factors of all later vertices and of the whole image. V,
+// E[X^2] and C accumulate in bins of direction in the cells of a kd-tree (outcome_cells.h). V_I and
+// C_I are those of the last iteration alone, without its largest errors (image_error.h). The next
+// factors follow from them: a fixed-point iteration. Costs are numbers of steps. I is a denoised
+// image of all training iterations (film_estimate.h).
 //
-// The paper splits steps together with the light samples of the vertex. Here each vertex takes its
-// light samples once, so X does not contain them.
+// This follows the program of the authors, with some differences on purpose:
+//
+// - Numbers are means over the channels of each factor, so that a bin has one number of each kind.
+// - If training ends before the first three iterations are over, the final image uses what was
+//   learned nevertheless.
+// - Training images are weighted as `images` of `training` says. Weights by inverse variances
+//   depend on the values that they weight, which would bias the image.
 //
 //     termination: { type: efficiency, most: 20 }
 #include "efficiency.h"
@@ -34,12 +42,12 @@ class EfficiencyRule final : public TerminationRule {
   EfficiencyRule(const OutcomeSettings& settings, std::shared_ptr<const LearnedOutcomes> known)
       : settings_(settings),
         known_(std::move(known)),
-        worth_(static_cast<float>(known_->path_cost / known_->path_variance)) {}
+        worth_(static_cast<float>(known_->path_cost / known_->squared_error)) {}
 
   float factor(const TerminationQuery& query) const override {
-    const float relative = mean(query.throughput) / known_->pixels.at(query.film);
-    const ExpectedOutcome& expected = known_->steps.at(query.position, query.towards_previous);
-    return settings_.clamped(efficiency_factor(relative, expected, worth_));
+    if (settings_.spares(query)) return 1;
+    const float relative = mean(query.throughput) / known_->scale_at(query.film);
+    return settings_.clamped(efficiency_factor(relative, known_->at(query), worth_));
   }
 
  private:
@@ -61,7 +69,7 @@ float efficiency_factor(float relative, const ExpectedOutcome& expected, float w
 
 void EfficiencyTermination::Settings::describe(Schema<Settings>& s) {
   describe_outcomes(s);
-  s.example("{ least: 0.2, most: 4, direction_rows: 2, decay: 1 }");
+  s.example("{ least: 0.2, most: 4, direction_rows: 2, cell_steps: 200, least_steps: 50 }");
 }
 
 std::unique_ptr<TerminationState> EfficiencyTermination::begin(
@@ -69,8 +77,8 @@ std::unique_ptr<TerminationState> EfficiencyTermination::begin(
   return std::make_unique<OutcomeLearning>(
       settings_, context,
       [settings = settings_](auto known) -> std::shared_ptr<const TerminationRule> {
-        // Without noise there is nothing to gain.
-        if (!(known->path_variance > 0)) return nullptr;
+        // Without noise there is nothing to gain. After a single iteration it is unknown.
+        if (!(known->squared_error > 0)) return nullptr;
         return std::make_shared<const EfficiencyRule>(settings, std::move(known));
       });
 }

@@ -10,6 +10,7 @@ namespace pharos {
 class EfficiencyTermination final : public Termination {
  public:
   struct Settings : OutcomeSettings {
+    Settings() : OutcomeSettings(1) {}
     static void describe(Schema<Settings>& s);
   };
   explicit EfficiencyTermination(const Settings& settings) : settings_(settings) {}
@@ -22,7 +23,7 @@ class EfficiencyTermination final : public Termination {
 };
 
 /// Returns the factor [1] of a path of throughput `relative` over the radiance of its pixel.
-/// `worth` is the mean cost of paths over their relative variance [steps].
+/// `worth` is the mean cost of paths over their relative squared error [steps].
 float efficiency_factor(float relative, const ExpectedOutcome& expected, float worth);
 
 }  // namespace pharos

@@ -7,24 +7,32 @@
 namespace pharos {
 namespace {
 
-/// Returns `sums` together with `weight` steps that find the mean of `prior`.
-OutcomeSums with_prior(OutcomeSums sums, OutcomeSums prior, double weight) {
-  if (!(prior.weight > 0)) return sums;
-  prior.scale(weight / prior.weight);
-  return sums += prior;
+ExpectedOutcome expected(const OutcomeSums& sums) {
+  if (!(sums.steps > 0)) return {};
+  return {static_cast<float>(sums.radiance / sums.steps),
+          static_cast<float>(sums.squared / sums.steps),
+          static_cast<float>(std::max(sums.cost / sums.steps, 1.0))};
 }
 
-ExpectedOutcome expected(const OutcomeSums& sums) {
-  if (!(sums.weight > 0)) return {};
-  return {static_cast<float>(sums.radiance / sums.weight),
-          static_cast<float>(sums.squared / sums.weight),
-          static_cast<float>(std::max(sums.cost / sums.weight, 1.0))};
+/// Returns what was found below each plane and in each cell of the tree, by place and bin.
+std::vector<OutcomeSums> sums_by_place(const OutcomeCells& cells, std::size_t bins) {
+  const std::vector<std::uint32_t> leaves = cells.tree().leaves(), parents = cells.tree().parents();
+  std::vector<OutcomeSums> sums(parents.size() * bins);
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    std::copy(cells[i].bins.begin(), cells[i].bins.end(), sums.begin() + leaves[i] * bins);
+  }
+  for (std::size_t place = parents.size(); place-- > 1;) {
+    for (std::size_t bin = 0; bin < bins; ++bin) {
+      sums[parents[place] * bins + bin] += sums[place * bins + bin];
+    }
+  }
+  return sums;
 }
 
 }  // namespace
 
 OutcomeSums& OutcomeSums::operator+=(const OutcomeSums& other) {
-  weight += other.weight;
+  steps += other.steps;
   radiance += other.radiance;
   squared += other.squared;
   cost += other.cost;
@@ -32,25 +40,25 @@ OutcomeSums& OutcomeSums::operator+=(const OutcomeSums& other) {
 }
 
 void OutcomeSums::scale(double factor) {
-  weight *= factor;
+  steps *= factor;
   radiance *= factor;
   squared *= factor;
   cost *= factor;
 }
 
 void OutcomeSums::archive(Archive& archive) {
-  archive(weight, radiance, squared, cost);
-  archive.expect(weight >= 0 && radiance >= 0 && squared >= 0 && cost >= 0,
+  archive(steps, radiance, squared, cost);
+  archive.expect(steps >= 0 && radiance >= 0 && squared >= 0 && cost >= 0,
                  "what was learned of steps");
 }
 
 std::size_t DirectionBins::at(Vec3 direction) const {
   const Vec2 u = warp::square_from_sphere(direction);
-  const auto bin = [](float x, std::uint32_t bins) {
-    const auto i = static_cast<std::int64_t>(x * static_cast<float>(bins));
-    return static_cast<std::size_t>(std::clamp<std::int64_t>(i, 0, bins - 1));
+  const auto bin = [this](float x) {
+    const auto i = static_cast<std::int64_t>(x * static_cast<float>(rows_));
+    return static_cast<std::size_t>(std::clamp<std::int64_t>(i, 0, rows_ - 1));
   };
-  return bin(u.x, rows_) * 2 * rows_ + bin(u.y, 2 * rows_);
+  return bin(u.x) * rows_ + bin(u.y);
 }
 
 void OutcomeCell::forget(double factor) {
@@ -64,22 +72,21 @@ void OutcomeCell::learn(std::span<const StepOutcome> outcomes, const DirectionBi
     bins[directions.at(outcome.towards_viewer)].add(outcome);
 }
 
-OutcomeSums OutcomeCell::sum() const {
-  OutcomeSums sum;
-  for (const OutcomeSums& bin : bins) sum += bin;
-  return sum;
-}
-
-OutcomeField::OutcomeField(const OutcomeCells& cells, DirectionBins directions, double prior)
+OutcomeField::OutcomeField(const OutcomeCells& cells, DirectionBins directions, double least_steps)
     : tree_(cells.tree()), directions_(directions) {
-  OutcomeSums scene;
-  for (std::size_t i = 0; i < cells.size(); ++i) scene += cells[i].sum();
-  expected_.reserve(cells.size() * directions.count());
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    const OutcomeSums cell = with_prior(cells[i].sum(), scene, prior);
-    for (std::size_t bin = 0; bin < directions.count(); ++bin) {
-      const OutcomeSums own = cells[i].knows_something() ? cells[i].bins[bin] : OutcomeSums{};
-      expected_.push_back(expected(with_prior(own, cell, prior)));
+  const std::size_t bins = directions.count();
+  const std::vector<OutcomeSums> sums = sums_by_place(cells, bins);
+  const std::vector<std::uint32_t> leaves = tree_.leaves(), parents = tree_.parents();
+  // From where nobody has ever looked, all that was found anywhere counts.
+  OutcomeSums all;
+  for (std::size_t bin = 0; bin < bins; ++bin) all += sums[bin];
+  expected_.reserve(cells.size() * bins);
+  for (std::uint32_t place : leaves) {
+    for (std::size_t bin = 0; bin < bins; ++bin) {
+      std::size_t from = place;
+      while (from > 0 && sums[from * bins + bin].steps < least_steps) from = parents[from];
+      const OutcomeSums& found = sums[from * bins + bin];
+      expected_.push_back(expected(found.steps > 0 ? found : all));
     }
   }
 }

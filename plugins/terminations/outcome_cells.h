@@ -12,15 +12,15 @@
 
 namespace pharos {
 
-/// Weighted sums over outcomes of steps.
+/// Sums over outcomes of steps.
 struct OutcomeSums {
-  double weight = 0, radiance = 0, squared = 0, cost = 0;
+  double steps = 0, radiance = 0, squared = 0, cost = 0;
 
   void add(const StepOutcome& outcome) {
-    weight += outcome.weight;
-    radiance += double{outcome.weight} * outcome.radiance;
-    squared += double{outcome.weight} * outcome.radiance * outcome.radiance;
-    cost += double{outcome.weight} * outcome.cost;
+    steps += 1;
+    radiance += outcome.radiance;
+    squared += double{outcome.radiance} * outcome.radiance;
+    cost += outcome.cost;
   }
   OutcomeSums& operator+=(const OutcomeSums& other);
   void scale(double factor);
@@ -40,11 +40,11 @@ struct ExpectedOutcome {
   }
 };
 
-/// Bins of directions of equal solid angle.
+/// Bins of directions of equal solid angle: `rows` rows of as many bins.
 class DirectionBins {
  public:
   explicit DirectionBins(std::uint32_t rows) : rows_(rows) {}
-  std::size_t count() const { return std::size_t{2} * rows_ * rows_; }
+  std::size_t count() const { return std::size_t{rows_} * rows_; }
   /// Returns the bin of a unit direction.
   std::size_t at(Vec3 direction) const;
 
@@ -59,7 +59,6 @@ struct OutcomeCell {
   bool knows_something() const { return !bins.empty(); }
   void forget(double factor);
   void learn(std::span<const StepOutcome> outcomes, const DirectionBins& directions);
-  OutcomeSums sum() const;
   void archive(Archive& archive) { archive(bins); }
 };
 
@@ -70,9 +69,10 @@ class OutcomeField {
  public:
   /// Knows nothing; for loading.
   explicit OutcomeField(DirectionBins directions) : directions_(directions) {}
-  /// Takes the means of what `cells` have found. Each bin also counts its cell's mean as `prior`
-  /// steps, and each cell counts the mean of the scene in the same way.
-  OutcomeField(const OutcomeCells& cells, DirectionBins directions, double prior);
+  /// Takes the means of what `cells` have found. If a bin has fewer than `least_steps` steps, the
+  /// same bin of the next larger cell counts instead: all cells below the plane that has made the
+  /// cell, and so on up to the whole scene.
+  OutcomeField(const OutcomeCells& cells, DirectionBins directions, double least_steps);
 
   /// Returns what steps from a point find if the viewer is in this unit direction.
   const ExpectedOutcome& at(Point3 p, Vec3 towards_viewer) const {

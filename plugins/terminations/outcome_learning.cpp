@@ -10,22 +10,26 @@ OutcomeLearning::OutcomeLearning(const OutcomeSettings& settings, const Learning
     : settings_(settings),
       window_(context.window),
       make_(std::move(make)),
-      pixels_(context.window),
-      paths_(context.window),
+      film_(context.window),
+      error_(settings.outliers),
       rule_(settings.first.rule()) {}
 
 void OutcomeLearning::absorb(const PathLog& log) {
   for (std::size_t i = 0; i < log.size(); ++i) {
     const PathView path = log[i];
-    if (path.transport != Transport::radiance || path.vertices.empty()) continue;
-    const double most = knows_pixels_ ? settings_.outlier * pixels_.at(path.film) : kInfinity;
-    const PathOutcome found = reader_.read(path, most, steps_);
-    if (!std::isfinite(found.radiance) || !std::isfinite(found.paths)) continue;
-    has_light_ |= found.radiance > 0;
-    pixels_.add(path.film, found.radiance, found.paths);
-    paths_.add(path.film, std::min(found.radiance, most), found.cost);
+    if (path.transport == Transport::radiance && !path.vertices.empty()) learn_path(path);
   }
   if (steps_.size() >= settings_.batch_steps) learn_steps();
+}
+
+void OutcomeLearning::learn_path(const PathView& path) {
+  const PathOutcome found = reader_.read(path, steps_);
+  if (!std::isfinite(found.radiance) || !std::isfinite(found.paths) || !(found.paths > 0)) return;
+  film_.add(path.film, {found.radiance, found.paths, path.albedo, path.normal});
+  if (learned_ == nullptr) return;
+  const double difference = found.radiance / found.paths - learned_->pixels.at(path.film);
+  const double relative = difference / learned_->scale_at(path.film);
+  error_.add(found.paths * relative * relative, found.cost);
 }
 
 void OutcomeLearning::learn_steps() {
@@ -39,36 +43,32 @@ void OutcomeLearning::learn_steps() {
                });
 }
 
-PixelMap OutcomeLearning::pixel_map() const {
-  return {window_, [this](Vec2 film) { return pixels_.at(film); }};
+OutcomeLearning::Known OutcomeLearning::summary() const {
+  const double mean = film_.mean();
+  if (!(mean > 0) || !cells_.know_something()) return nullptr;
+  return std::make_shared<const LearnedOutcomes>(LearnedOutcomes{
+      OutcomeField(cells_, directions(), settings_.least_steps),
+      film_.denoised(settings_.denoising), static_cast<float>(settings_.pixel_offset * mean),
+      error_.squared(), error_.cost()});
 }
 
-void OutcomeLearning::update(const TrainingStage&) {
+void OutcomeLearning::update(const TrainingStage& stage) {
   learn_steps();
-  pixels_.update(static_cast<int>(settings_.pixel_radius), settings_.least_pixel);
-  // Before pixels are known, outliers count in full. They are forgotten as soon as possible.
-  const double kept = knows_pixels_ ? settings_.decay : 0;
-  knows_pixels_ = has_light_;
-  if (knows_pixels_ && cells_.know_something()) {
-    PixelMap map = pixel_map();
-    const double variance = paths_.relative_variance(map);
-    learned_ = std::make_shared<const LearnedOutcomes>(
-        LearnedOutcomes{OutcomeField(cells_, directions(), settings_.prior), std::move(map),
-                        variance, paths_.cost()});
-  }
+  learned_ = summary();
+  is_in_use_ = ++updates_ >= settings_.first_iterations || stage.is_last();
   make_rule();
-  for (std::size_t i = 0; i < cells_.size(); ++i) cells_[i].forget(kept);
-  paths_.forget(kept);
+  for (std::size_t i = 0; i < cells_.size(); ++i) cells_[i].forget(settings_.decay);
+  error_.clear();
 }
 
 void OutcomeLearning::make_rule() {
-  const auto rule = learned_ != nullptr ? make_(learned_) : nullptr;
+  const auto rule = is_in_use_ && learned_ != nullptr ? make_(learned_) : nullptr;
   rule_ = rule != nullptr ? rule : settings_.first.rule();
 }
 
 void OutcomeLearning::archive(Archive& archive) {
-  archive.heading("outcomes of steps", 1);
-  archive(steps_, cells_, pixels_, paths_, has_light_, knows_pixels_);
+  archive.heading("outcomes of steps", 2);
+  archive(steps_, cells_, film_, error_, updates_, is_in_use_);
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     const std::size_t bins = cells_[i].bins.size();
     archive.expect(bins == 0 || bins == directions().count(), "what was learned of steps");
@@ -77,10 +77,14 @@ void OutcomeLearning::archive(Archive& archive) {
   archive(is_known);
   LearnedOutcomes learned = is_known && !archive.loads()
                                 ? *learned_
-                                : LearnedOutcomes{OutcomeField(directions()), pixel_map()};
-  if (is_known) archive(learned.steps, learned.path_variance, learned.path_cost);
+                                : LearnedOutcomes{OutcomeField(directions()), PixelMap(window_)};
+  if (is_known) {
+    archive(learned.steps, learned.pixels, learned.pixel_offset, learned.squared_error,
+            learned.path_cost);
+  }
   if (!archive.loads()) return;
-  archive.expect(learned.path_variance >= 0 && learned.path_cost >= 0, "what was learned of paths");
+  archive.expect(!is_known || learned.pixel_offset > 0, "what was learned of pixels");
+  archive.expect(learned.squared_error >= 0 && learned.path_cost >= 0, "what was learned of paths");
   learned_ = is_known ? std::make_shared<const LearnedOutcomes>(std::move(learned)) : nullptr;
   make_rule();
 }

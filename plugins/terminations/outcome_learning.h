@@ -5,30 +5,37 @@
 #include <vector>
 
 #include <pharos/guiding/contract/termination.h>
-#include <pharos/guiding/toolkit/pixel_estimates.h>
 
+#include "film_estimate.h"
+#include "image_error.h"
 #include "outcome_cells.h"
 #include "outcome_settings.h"
-#include "path_moments.h"
-#include "pixel_map.h"
 
 namespace pharos {
 
 /// What a rule knows: constant and thread-safe.
 struct LearnedOutcomes {
   OutcomeField steps;
-  PixelMap pixels;           ///< radiance of each pixel, positive
-  double path_variance = 0;  ///< of a path relative to its pixel [1]; see PathMoments
+  PixelMap pixels;           ///< denoised radiance of each pixel
+  float pixel_offset = 0;    ///< added to the radiance of pixels; positive
+  double squared_error = 0;  ///< mean of a path, relative to its pixel [1]; 0: unknown
   double path_cost = 0;      ///< mean number of steps of a path
+
+  /// Returns the radiance to which contributions to a film position [pixels] are compared.
+  float scale_at(Vec2 film) const { return pixels.at(film) + pixel_offset; }
+  /// What was learned of a vertex.
+  const ExpectedOutcome& at(const TerminationQuery& query) const {
+    return steps.at(query.position, query.towards_previous);
+  }
 };
 
-/// Learns what steps and paths find, and makes a rule of it. Until light was found, paths end by
-/// Russian roulette with the throughput.
+/// Learns what steps and paths find, and makes a rule of it. In the first iterations, and until
+/// light was found, paths end by Russian roulette with the throughput.
 class OutcomeLearning final : public TerminationState {
  public:
+  using Known = std::shared_ptr<const LearnedOutcomes>;
   /// Returns the rule for the next iteration; null if too little is known for one.
-  using MakeRule =
-      std::function<std::shared_ptr<const TerminationRule>(std::shared_ptr<const LearnedOutcomes>)>;
+  using MakeRule = std::function<std::shared_ptr<const TerminationRule>(Known)>;
 
   OutcomeLearning(const OutcomeSettings& settings, const LearningContext& context, MakeRule make);
 
@@ -38,10 +45,12 @@ class OutcomeLearning final : public TerminationState {
   void archive(Archive& archive) override;
 
  private:
+  void learn_path(const PathView& path);
   void learn_steps();
-  /// Makes the rule of `learned_`, if there is one.
+  /// Returns what is known after an iteration; null if no light was found.
+  Known summary() const;
+  /// Makes the rule of `learned_`, if it is time to use it.
   void make_rule();
-  PixelMap pixel_map() const;
   DirectionBins directions() const { return DirectionBins(settings_.direction_rows); }
 
   const OutcomeSettings settings_;
@@ -50,11 +59,11 @@ class OutcomeLearning final : public TerminationState {
   OutcomeReader reader_;
   std::vector<StepOutcome> steps_;  ///< since learn_steps() was last called
   OutcomeCells cells_;
-  PixelEstimates pixels_;
-  PathMoments paths_;
-  bool has_light_ = false;                          ///< a path has found light
-  bool knows_pixels_ = false;                       ///< so did one before the last update()
-  std::shared_ptr<const LearnedOutcomes> learned_;  ///< at the last update(); null: nothing
+  FilmEstimate film_;
+  ImageError error_;  ///< of the current iteration, against `learned_`
+  Known learned_;     ///< at the last update(); null: nothing
+  std::uint32_t updates_ = 0;
+  bool is_in_use_ = false;  ///< the first iterations are over
   std::shared_ptr<const TerminationRule> rule_;
 };
 

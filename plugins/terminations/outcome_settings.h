@@ -4,26 +4,43 @@
 #include <cstdint>
 
 #include <pharos/config/schema.h>
+#include <pharos/guiding/contract/termination.h>
 #include <pharos/guiding/toolkit/kd_tree.h>
 
+#include "film_estimate.h"
 #include "throughput.h"
 
 namespace pharos {
 
-/// Settings of terminations that learn what steps find.
+/// Settings of terminations that learn what steps find. The defaults are those of the program that
+/// its authors have published with EARS (Rath et al. 2022), unless a comment says otherwise.
 struct OutcomeSettings {
+  /// `first_vertex` is the default of `depth`.
+  explicit OutcomeSettings(std::uint16_t first_vertex) : depth(first_vertex) {}
+
   float least = 0.05f, most = 20;
-  std::uint32_t cell_steps = 4096;
+  std::uint16_t depth;
+  std::uint32_t first_iterations = 3;
+  /// EARS divides a cell of an octree by eight if one of its bins has 20,000 steps. Here cells are
+  /// halved, so that they adapt to where paths go. Cells that are too small do no harm, because
+  /// larger ones speak for them (`least_steps`).
+  std::uint32_t cell_steps = 20'000;
   std::uint32_t cell_depth = 24;
   std::uint32_t direction_rows = 4;
-  double prior = 16;
+  double least_steps = 40'000;
   double decay = 1;
-  double outlier = 50;
-  std::uint32_t pixel_radius = 2;
-  double least_pixel = 0.05;
+  std::uint32_t outliers = 10;
+  Denoising denoising;
+  /// EARS adds 0.01, whatever the brightness of the image is. Relative to the mean, a render does
+  /// not change with the unit of radiance. The test scenes of EARS have means of about one half.
+  double pixel_offset = 0.02;
   std::uint32_t batch_steps = 1'000'000;
   ThroughputTermination::Settings first;
 
+  /// Returns whether paths are left alone at a vertex.
+  bool spares(const TerminationQuery& query) const {
+    return query.discrete || query.bounce < depth;
+  }
   float clamped(float factor) const { return std::clamp(factor, least, most); }
 };
 
@@ -36,34 +53,36 @@ void describe_outcomes(Schema<Settings>& s) {
   s.field("most", &OutcomeSettings::most, "Largest factor: the highest mean number of branches")
       .at_least(1)
       .at_most(1000);
+  s.field("depth", &OutcomeSettings::depth,
+          "Number of the first vertex at which paths may end or split; the first vertex after the "
+          "lens is 1");
+  s.field(
+      "first_iterations", &OutcomeSettings::first_iterations,
+      "Number of the first training iterations, which only learn and end paths as `first` says. "
+      "The final image always uses what was learned");
   s.field("cell_steps", &OutcomeSettings::cell_steps,
           "A cell of space that has received more steps is divided")
       .at_least(16);
   s.field("cell_depth", &OutcomeSettings::cell_depth, "Largest number of planes above a cell")
       .at_most(KdTree::kMostLevels);
   s.field("direction_rows", &OutcomeSettings::direction_rows,
-          "Rows of bins of directions in a cell; each row has twice as many bins as there are rows")
+          "Rows of bins of directions in a cell; each row has as many bins as there are rows")
       .at_least(1)
       .at_most(16);
-  s.field("prior", &OutcomeSettings::prior,
-          "Number of steps as which the mean of a cell counts in each of its bins, and the mean of "
-          "the scene in each cell")
+  s.field("least_steps", &OutcomeSettings::least_steps,
+          "A bin with fewer steps is replaced by the same bin of the next larger cell")
       .at_least(0);
   s.field("decay", &OutcomeSettings::decay,
           "Factor by which an iteration weights what was found before, by other rules")
       .at_least(0)
       .at_most(1);
-  s.field(
-       "outlier", &OutcomeSettings::outlier,
-       "A step or path counts at most as if its contribution were this many times the radiance of "
-       "its pixel")
-      .above(0);
-  s.field("pixel_radius", &OutcomeSettings::pixel_radius,
-          "Radiance of pixels is averaged over the pixels up to this distance along both axes")
-      .unit("pixels")
-      .at_most(100);
-  s.field("least_pixel", &OutcomeSettings::least_pixel,
-          "Least radiance of a pixel, relative to the mean of the image")
+  s.field("outliers", &OutcomeSettings::outliers,
+          "Number of the largest squared errors of an iteration that the error of the image omits")
+      .at_most(100'000);
+  s.field("denoising", &OutcomeSettings::denoising, "How the radiance of pixels is denoised");
+  s.field("pixel_offset", &OutcomeSettings::pixel_offset,
+          "Errors and contributions are relative to the radiance of the pixel plus this many times "
+          "the mean of the image")
       .above(0)
       .at_most(1);
   s.field("batch_steps", &OutcomeSettings::batch_steps,

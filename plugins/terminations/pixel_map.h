@@ -1,32 +1,39 @@
 #pragma once
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
+#include <pharos/core/archive.h>
 #include <pharos/core/pixel_rect.h>
 #include <pharos/core/vec.h>
 
 namespace pharos {
 
-/// A positive number for each pixel of a window of the film: constant and thread-safe.
+/// A number for each pixel of a window of the film. Positions outside of the window have the number
+/// of the nearest pixel.
 class PixelMap {
  public:
-  /// Takes `value_at(film)` at the center of each pixel [pixels].
-  template <class ValueAt>
-  PixelMap(const PixelRect& window, ValueAt&& value_at) : window_(window) {
-    values_.reserve(window.area());
-    for (int y = window.y0; y < window.y1; ++y) {
-      for (int x = window.x0; x < window.x1; ++x) {
-        const Vec2 center{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f};
-        values_.push_back(static_cast<float>(value_at(center)));
-      }
-    }
+  explicit PixelMap(const PixelRect& window)
+      : PixelMap(window, std::vector<float>(window.area())) {}
+  /// Takes the values of all pixels, row by row.
+  PixelMap(const PixelRect& window, std::vector<float> values)
+      : window_(window), values_(std::move(values)) {}
+
+  /// Returns the index of the pixel that is nearest to a film position [pixels].
+  static std::size_t index(const PixelRect& window, Vec2 film) {
+    return window.index(std::clamp(static_cast<int>(film.x), window.x0, window.x1 - 1),
+                        std::clamp(static_cast<int>(film.y), window.y0, window.y1 - 1));
   }
-  /// Returns the number of the pixel that is nearest to a film position [pixels].
-  float at(Vec2 film) const {
-    const int x = std::clamp(static_cast<int>(film.x), window_.x0, window_.x1 - 1);
-    const int y = std::clamp(static_cast<int>(film.y), window_.y0, window_.y1 - 1);
-    return values_[window_.index(x, y)];
+  /// Returns the number at a film position [pixels].
+  float at(Vec2 film) const { return values_[index(window_, film)]; }
+
+  /// Loading requires a window of the same size.
+  void archive(Archive& archive) {
+    archive(values_);
+    bool is_sound = values_.size() == window_.area();
+    for (const float value : values_) is_sound &= value >= 0;
+    archive.expect(is_sound, "the radiance of pixels");
   }
 
  private:

@@ -1,6 +1,5 @@
 #include "step_outcomes.h"
 
-#include <algorithm>
 #include <cmath>
 #include <span>
 
@@ -26,20 +25,16 @@ void count_steps(const PathView& path, std::vector<float>& costs) {
 
 }  // namespace
 
-PathOutcome OutcomeReader::read(const PathView& path, double most,
-                                std::vector<StepOutcome>& steps) {
+PathOutcome OutcomeReader::read(const PathView& path, std::vector<StepOutcome>& steps) {
   estimate_incident_radiance(path, incident_);
   count_steps(path, costs_);
   for (std::size_t i = 1; i < path.vertices.size(); ++i) {
     const RecordedVertex& vertex = path.vertices[i];
-    if (!has_drawn(vertex) || vertex.parent == kNoVertex) continue;
-    double radiance = mean(vertex.local_weight * incident_[i]) / vertex.continuation;
+    if (!has_drawn(vertex) || !vertex.guidable || vertex.parent == kNoVertex) continue;
+    const double radiance = mean(vertex.local_weight * incident_[i]) / vertex.continuation;
     if (!std::isfinite(radiance)) continue;
-    const double throughput = mean(vertex.throughput);
-    if (throughput > 0) radiance = std::min(radiance, most / throughput);
     steps.push_back({.origin = vertex.position,
                      .towards_viewer = -path.vertices[vertex.parent].direction,
-                     .weight = vertex.continuation,
                      .radiance = static_cast<float>(radiance),
                      .cost = costs_[i]});
   }

@@ -8,19 +8,18 @@
 
 namespace pharos {
 
-/// What one step from a vertex has found, as if it had been the only one.
+/// What one step from a vertex has found, as if it had been the only one. Whether a step is taken,
+/// and in how many branches, depends on the path before it. So every step counts once, survivors of
+/// roulette and branches too: larger weights of survivors would only add noise.
 struct StepOutcome {
   Point3 origin;        ///< of the vertex
   Vec3 towards_viewer;  ///< unit, from the vertex along the path back to the sensor
-  /// The number of steps for which this one counts. A step that has survived roulette also counts
-  /// for those that have not, and the branches of a vertex count for one step together.
-  float weight = 0;
   /// Estimate of the radiance that leaves the vertex towards the viewer, mean of the channels,
   /// without emission and light samples of the vertex itself.
   float radiance = 0;
   float cost = 0;  ///< number of steps from here on, this one included, in all branches
 
-  void archive(Archive& archive) { archive(origin, towards_viewer, weight, radiance, cost); }
+  void archive(Archive& archive) { archive(origin, towards_viewer, radiance, cost); }
 };
 
 /// What a whole path has found.
@@ -36,8 +35,9 @@ struct PathOutcome {
 class OutcomeReader {
  public:
   /// Reads a path from the sensor. Appends the outcomes of the steps after the first one to
-  /// `steps`. An outcome counts at most as much as contributes the radiance `most` to the pixel.
-  PathOutcome read(const PathView& path, double most, std::vector<StepOutcome>& steps);
+  /// `steps`. Steps from vertices whose events are all discrete are left out, because their paths
+  /// are left alone (TerminationQuery::discrete).
+  PathOutcome read(const PathView& path, std::vector<StepOutcome>& steps);
 
  private:
   std::vector<Rgb> incident_;

@@ -267,6 +267,17 @@ TEST_CASE("records of branches: one for each step, with its weight and random nu
   CHECK(weights / firsts == doctest::Approx(1).epsilon(0.02));
 }
 
+TEST_CASE("records have the features of the first surface") {
+  Unit unit(path_config(kDiffuseScene, 3, "", 2));
+  const WorkResult result = unit.render(true);
+  for (std::size_t p = 0; p < result.log.size(); ++p) {
+    const PathView path = result.log[p];
+    const bool hits = path.vertices.size() > 1 && path.vertices[1].kind == VertexKind::surface;
+    CHECK(length(path.normal) == doctest::Approx(hits ? 1 : 0));
+    CHECK(is_black(path.albedo) == !hits);
+  }
+}
+
 TEST_CASE("recording changes nothing") {
   Unit unit(path_config(kGlassInFogScene, 20, "", 2));
   Film silent = unit.film, recorded = unit.film;

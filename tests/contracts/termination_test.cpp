@@ -85,7 +85,7 @@ TEST_CASE("termination: learned factors are unbiased, with and without guides") 
     CAPTURE(name);
     // A narrow window, so that many paths split or end.
     const std::string termination =
-        fmt::format("{{ type: {}, {}cell_steps: 1000, prior: 1 }}", name,
+        fmt::format("{{ type: {}, {}cell_steps: 1000, least_steps: 100 }}", name,
                     std::string(name) == "adjoint" ? "window: 1.1, " : "");
     CHECK(std::abs(diffuse_t(termination)) < kLimit);
     CHECK(std::abs(fog_t(termination)) < kLimit);

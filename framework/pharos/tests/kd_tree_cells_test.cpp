@@ -41,6 +41,12 @@ TEST_CASE("a kd-tree finds the cell around a point; edges belong to the upper on
   const auto levels = tree.levels();
   CHECK(levels[leaves[0]] == 1);
   CHECK(levels[leaves[3]] == 3);
+  const auto parents = tree.parents();
+  REQUIRE(parents.size() == levels.size());
+  for (std::size_t i = 1; i < parents.size(); ++i) {
+    CHECK(parents[i] < i);
+    CHECK(levels[parents[i]] == levels[i] - 1);
+  }
 }
 
 TEST_CASE("kd-trees survive being saved; damaged ones are refused or sound") {

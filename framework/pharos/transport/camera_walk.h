@@ -171,8 +171,8 @@ class CameraWalk {
       return walk.termination_.survives(path, flight.found.film, scattering, step);
     }
     Branching branches(const Path& path, const LocalScattering& scattering) const {
-      const bool may_split = waiting != nullptr && !scattering.purely_discrete();
-      return walk.termination_.branching(path, flight.found.film, may_split ? waiting->left() : 0);
+      const std::uint32_t most_new = waiting != nullptr ? waiting->left() : 0;
+      return walk.termination_.branching(path, flight.found.film, scattering, most_new);
     }
     Path& add_branch(const Path& trunk) const {
       Path& branch = waiting->add(trunk);
@@ -256,6 +256,7 @@ class CameraWalk {
     flight.found.features = {.albedo = scene_.bsdf(here.surface).albedo(here.surface),
                              .normal = here.surface.shading.n,
                              .depth = flight.path.segment_length};
+    kernel_.recorder().features(flight.found.features.albedo, flight.found.features.normal);
   }
 
   // --- light ----------------------------------------------------------------------------------

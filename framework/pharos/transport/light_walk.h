@@ -87,8 +87,8 @@ class LightWalk {
       return path.bounce + 1 < walk.shared_.max_depth;
     }
     void leaves(Path&, const LocalScattering&, const Guidance&) const {}
-    Branching branches(const Path& path, const LocalScattering&) const {
-      return walk.termination_.branching(path, {}, 0);
+    Branching branches(const Path& path, const LocalScattering& scattering) const {
+      return walk.termination_.branching(path, {}, scattering, 0);
     }
     bool survives(Path& path, const LocalScattering& scattering, ScatterStep& step) const {
       return walk.termination_.survives(path, {}, scattering, step);

@@ -35,6 +35,8 @@ struct SilentRecorder {
   void begin(Path&, Vec2 /*film*/) {}
   /// Reports that a guide of the camera chose this position on the film [pixels].
   void film(Vec2) {}
+  /// Reports the reflectance [1] and the shading normal of the first surface that the sensor sees.
+  void features(Rgb /*albedo*/, Vec3 /*normal*/) {}
   /// Reports that the path has reached its current vertex or begins there.
   void arrive(Path&) {}
   /// Reports emission of the current vertex.
@@ -68,6 +70,7 @@ class LogRecorder {
     path.record = kNoVertex;
   }
   void film(Vec2 film) { log_.set_film(film); }
+  void features(Rgb albedo, Vec3 normal) { log_.set_features(albedo, normal); }
   void arrive(Path& path) {
     path.record = log_.add_after(path.record);
     RecordedVertex& here = log_.vertex(path.record);

@@ -22,11 +22,14 @@ class TerminationChoice {
 
   /// Returns how many steps a path takes from its current vertex, as is decided before they are
   /// drawn. At most `most_new` of them may be taken by new branches. `film` is in pixels.
-  Branching branching(const Path& path, Vec2 film, std::uint32_t most_new) const {
+  Branching branching(const Path& path, Vec2 film, const LocalScattering& scattering,
+                      std::uint32_t most_new) const {
     if (of_vertex_ == nullptr) return {};
-    // The limit is a whole number, so drawn numbers do not exceed it either.
-    const float limit = 1 + static_cast<float>(most_new);
-    const float factor = std::min(of_vertex_->factor(query(path, film)), limit);
+    const TerminationQuery query = query_at(path, film, scattering);
+    // The limit is a whole number, so drawn numbers do not exceed it either. Branches of a discrete
+    // event would coincide.
+    const float limit = query.discrete ? 1 : 1 + static_cast<float>(most_new);
+    const float factor = std::min(of_vertex_->factor(query), limit);
     if (factor == 1) return {};
     const float whole = std::floor(factor);
     const float u = path.numbers().get_1d(Purpose::roulette, 1);
@@ -42,7 +45,7 @@ class TerminationChoice {
         step.event == Event::smooth_transmit || step.event == Event::discrete_transmit;
     // Refraction does not change the throughput of paths from lights.
     if (refracts && path.transport == Transport::radiance) note_refraction(path, scattering);
-    const float survival = of_step_->factor(query(path, film));
+    const float survival = of_step_->factor(query_at(path, film, scattering));
     if (survival >= 1) return true;
     const bool ends = path.numbers().get_1d(Purpose::roulette) >= survival;
     step.continuation = ends ? 0 : Rules::survivor_weight(survival);
@@ -50,11 +53,12 @@ class TerminationChoice {
   }
 
  private:
-  static TerminationQuery query(const Path& path, Vec2 film) {
+  static TerminationQuery query_at(const Path& path, Vec2 film, const LocalScattering& scattering) {
     return {.film = film,
             .position = path.here().position(),
             .towards_previous = path.towards_previous,
             .bounce = path.bounce,
+            .discrete = scattering.purely_discrete(),
             .throughput = path.throughput,
             .first_throughput = path.first_throughput,
             .solid_angle_scale = path.solid_angle_scale};

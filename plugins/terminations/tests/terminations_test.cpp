@@ -31,7 +31,7 @@ std::unique_ptr<TerminationState> taught(const Termination& termination) {
     test::add_path(log, i % 4 == 0 ? 8 : 0, 1, 1, {0, 0, 1},
                    {static_cast<float>(i / 4 % 4) + 0.5f, 0.5f});
   }
-  for (const std::uint32_t left : {1u, 0u}) {
+  for (const std::uint32_t left : {2u, 1u, 0u}) {
     state->absorb(log);
     state->update({.left = left});
   }
@@ -85,6 +85,9 @@ TEST_CASE("learned terminations begin with roulette by throughput and then use w
   adjoint.first.depth = 2;
   EfficiencyTermination::Settings efficiency;
   efficiency.first.depth = 2;
+  for (OutcomeSettings* settings : std::array<OutcomeSettings*, 2>{&adjoint, &efficiency}) {
+    settings->pixel_offset = 1e-6;
+  }
   const AdjointTermination by_adjoint(adjoint);
   const EfficiencyTermination by_efficiency(efficiency);
   for (const Termination* termination :
@@ -108,9 +111,39 @@ TEST_CASE("learned terminations begin with roulette by throughput and then use w
 TEST_CASE("efficiency: the path itself is the fixed point of a single step") {
   // All noise of the image comes from the step at the wall, and half of the cost.
   EfficiencyTermination::Settings settings;
-  settings.pixel_radius = 0;
+  settings.outliers = 0;
+  settings.pixel_offset = 1e-6;
   const float factor = taught(EfficiencyTermination(settings))->rule()->factor(at_wall(1));
   CHECK(factor == doctest::Approx(std::sqrt(2)).epsilon(0.05));
+}
+
+TEST_CASE("learned terminations: mirrors and the first vertices are left alone") {
+  const AdjointTermination by_adjoint({});
+  const EfficiencyTermination by_efficiency({});
+  for (const float throughput : {1e-3f, 1e3f}) {
+    TerminationQuery query = at_wall(throughput);
+    query.discrete = true;
+    CHECK(taught(by_adjoint)->rule()->factor(query) == 1);
+    CHECK(taught(by_efficiency)->rule()->factor(query) == 1);
+    CHECK(taught(by_adjoint)->rule()->factor(at_wall(throughput, 1)) == 1);
+    CHECK(taught(by_adjoint)->rule()->factor(at_wall(throughput, 2)) != 1);
+    CHECK(taught(by_efficiency)->rule()->factor(at_wall(throughput, 1)) != 1);
+  }
+}
+
+TEST_CASE("learned terminations: the first iterations only learn, the final image does not") {
+  const AdjointTermination adjoint({});
+  for (const std::uint32_t last : {0u, 1u, 9u}) {
+    auto state = adjoint.begin(kContext);
+    for (std::uint32_t i = 0; i <= last; ++i) {
+      PathLog log;
+      for (int k = 0; k < 100; ++k) test::add_path(log, 8, 1, 1);
+      state->absorb(log);
+      state->update({.iteration = i, .left = last - i});
+      const bool is_first = i < 2 && i < last;
+      CHECK((state->rule()->stage() == TerminationRule::Stage::step) == is_first);
+    }
+  }
 }
 
 TEST_CASE("learned terminations: without light, roulette by throughput stays") {

@@ -20,6 +20,7 @@ struct TerminationQuery {
   Point3 position;             ///< of the vertex
   Vec3 towards_previous;       ///< unit
   std::uint16_t bounce = 1;    ///< number of the vertex; the first vertex after the lens is 1
+  bool discrete = false;       ///< all events of the vertex are discrete, as at mirrors
   Rgb throughput;              ///< f/p of the path up to the vertex
   float first_throughput = 1;  ///< largest component of the throughput after the first step
   /// Product of the factors by which refraction has compressed solid angles so far, inverted. Times

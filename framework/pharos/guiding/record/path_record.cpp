@@ -31,6 +31,8 @@ PathView PathLog::operator[](std::size_t i) const {
                             light_end - head.first_light_sample},
           .film = head.film,
           .transport = head.transport,
+          .albedo = head.albedo,
+          .normal = head.normal,
           .log_techniques = techniques_};
 }
 
@@ -78,7 +80,7 @@ void PathLog::clear() {
 }
 
 void PathLog::archive(Archive& archive) {
-  archive.heading("path_log", 3);
+  archive.heading("path_log", 4);
   archive.block(paths_);
   archive.block(vertices_);
   archive.block(light_samples_);

@@ -86,6 +86,8 @@ struct PathView {
   std::span<const RecordedLightSample> light_samples;  ///< in the order of their vertices
   Vec2 film;  ///< film position [pixels]; unknown for paths from lights
   Transport transport = Transport::radiance;
+  Rgb albedo;   ///< reflectance of the first surface that the sensor sees [1]; black: there is none
+  Vec3 normal;  ///< shading normal there; zero: there is none
   std::span<const Technique> log_techniques = {};  ///< techniques of all paths of the log
 
   /// Returns the techniques that could have drawn the step from `vertex`: [0] is unguided sampling,
@@ -124,6 +126,11 @@ class PathLog {
   void blacken_last_path();
   /// Sets the film position [pixels] of the last path, once it is known.
   void set_film(Vec2 film) { paths_.back().film = film; }
+  /// Sets the features of the last path at the first surface that the sensor sees; see PathView.
+  void set_features(Rgb albedo, Vec3 normal) {
+    paths_.back().albedo = albedo;
+    paths_.back().normal = normal;
+  }
   /// Returns a vertex of the last path, to be completed.
   RecordedVertex& vertex(std::uint32_t index) {
     return vertices_[paths_.back().first_vertex + index];
@@ -137,6 +144,8 @@ class PathLog {
     std::uint64_t first_vertex = 0, first_light_sample = 0;
     Vec2 film;
     Transport transport = Transport::radiance;
+    Rgb albedo;
+    Vec3 normal;
   };
   std::vector<Head> paths_;
   std::vector<RecordedVertex> vertices_;

@@ -18,6 +18,15 @@ std::vector<int> KdTree::levels() const {
   return levels;
 }
 
+std::vector<std::uint32_t> KdTree::parents() const {
+  std::vector<std::uint32_t> parents(nodes_.size(), 0);
+  for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
+    if (nodes_[i].axis() == 3) continue;
+    parents[nodes_[i].index()] = parents[nodes_[i].index() + 1] = i;
+  }
+  return parents;
+}
+
 int KdTree::depth() const {
   const std::vector<int> all = levels();
   return *std::max_element(all.begin(), all.end());

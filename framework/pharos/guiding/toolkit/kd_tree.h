@@ -37,6 +37,9 @@ class KdTree {
   std::vector<std::uint32_t> leaves() const;
   /// Returns the number of planes above the node at each place.
   std::vector<int> levels() const;
+  /// Returns the place of the parent of the node at each place, which is a lower number. The root
+  /// has the place 0 and is its own parent.
+  std::vector<std::uint32_t> parents() const;
 
   void archive(Archive& archive);
 

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <pharos/core/archive.h>
+
+namespace pharos {
+
+/// The mean squared error and the mean cost of the paths of one image. The largest squared errors
+/// are left out, together with their costs: a single path that finds a small bright light may have
+/// a larger one than all others together, and nobody would wait for such pixels to converge.
+class ImageError {
+ public:
+  /// `outliers` is the number of paths that are left out.
+  explicit ImageError(std::size_t outliers) : outliers_(outliers) {}
+
+  /// Adds a path of squared error `squared`, relative to its pixel [1], and of `cost` steps.
+  void add(double squared, double cost);
+  /// Forgets all paths.
+  void clear() { *this = ImageError(outliers_); }
+
+  /// Returns the mean squared error [1]; 0 if there are no paths but outliers.
+  double squared() const;
+  /// Returns the mean cost [steps]; 0 if there are no paths but outliers.
+  double cost() const;
+
+  void archive(Archive& archive);
+
+ private:
+  struct Path {
+    double squared = 0, cost = 0;
+    friend bool operator>(const Path& a, const Path& b) { return a.squared > b.squared; }
+    void archive(Archive& archive) { archive(squared, cost); }
+  };
+
+  std::size_t outliers_;
+  std::vector<Path> largest_;  ///< a heap with the smallest one in front
+  Path sum_;                   ///< of all other paths
+  double paths_ = 0;           ///< number of all other paths
+};
+
+}  // namespace pharos
