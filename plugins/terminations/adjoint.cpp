@@ -2,7 +2,8 @@
 // 2016, "Adjoint-Driven Russian Roulette and Splitting in Light Transport Simulation").
 //
 // Let T be the throughput of a path at a vertex, Psi the radiance that leaves the vertex back along
-// the path, and I the radiance of the pixel. The path is expected to contribute
+// the path without its own emission, and I the radiance of the pixel. The path is expected to
+// contribute
 //
 //     v = T Psi / (I + e)
 //
@@ -18,6 +19,8 @@
 // they are learned in the training iterations, which also count in the image, as in the program of
 // the authors of EARS (Rath et al. 2022). In contrast to it, v is a mean over the channels of each
 // factor.
+//
+// Light samples split and end together with the steps.
 //
 // Paths are left alone before the vertex `depth`, at vertices whose events are all discrete, and
 // where no light was found, because the light there may be rare.
@@ -43,6 +46,8 @@ class AdjointRule final : public TerminationRule {
     const float contribution = mean(query.throughput) * radiance / known_->scale_at(query.film);
     return settings_.clamped(weight_window_factor(contribution, settings_.window));
   }
+  /// Each step has a light sample of its own, as in what was learned.
+  float light_factor(const TerminationQuery&, float factor) const override { return factor; }
 
  private:
   AdjointTermination::Settings settings_;

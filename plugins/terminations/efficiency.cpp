@@ -2,9 +2,10 @@
 // cost) (Rath et al. 2022, "EARS: Efficiency-Aware Russian Roulette and Splitting").
 //
 // Let T be the throughput of a path at a vertex, I the radiance of its pixel, and X the estimate of
-// the radiance that a step from the vertex finds, of second moment E[X^2], variance V and cost C.
-// Let C_I be the mean cost of a path, and V_I the mean squared error of a path relative to its
-// pixel, (value - I)^2 / (I + e)^2. The best numbers of steps are (sections 4 and 5)
+// the radiance that a step from the vertex and its light sample find, of second moment E[X^2],
+// variance V and cost C. Let C_I be the mean cost of a path, and V_I the mean squared error of a
+// path relative to its pixel, (value - I)^2 / (I + e)^2. The best numbers of steps are (sections 4
+// and 5)
 //
 //     q_s = T / (I + e) sqrt(V      / C  C_I / V_I)     for splitting,
 //     q_r = T / (I + e) sqrt(E[X^2] / C  C_I / V_I)     for roulette.
@@ -16,8 +17,8 @@
 // The variances and costs depend on the factors of all later vertices and of the whole image. V,
 // E[X^2] and C accumulate in bins of direction in the cells of a kd-tree (outcome_cells.h). V_I and
 // C_I are those of the last iteration alone, without its largest errors (image_error.h). The next
-// factors follow from them: a fixed-point iteration. Costs are numbers of steps. I is a denoised
-// image of all training iterations (film_estimate.h).
+// factors follow from them: a fixed-point iteration. Costs are numbers of steps and light samples.
+// I is a denoised image of all training iterations (film_estimate.h).
 //
 // This follows the program of the authors, with some differences on purpose:
 //
@@ -49,6 +50,8 @@ class EfficiencyRule final : public TerminationRule {
     const float relative = mean(query.throughput) / known_->scale_at(query.film);
     return settings_.clamped(efficiency_factor(relative, known_->at(query), worth_));
   }
+  /// Each step has a light sample of its own, as in what was learned.
+  float light_factor(const TerminationQuery&, float factor) const override { return factor; }
 
  private:
   OutcomeSettings settings_;

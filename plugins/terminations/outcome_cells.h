@@ -29,10 +29,9 @@ struct OutcomeSums {
 
 /// Expected values over the steps from a vertex.
 struct ExpectedOutcome {
-  float radiance = 0;  ///< outgoing radiance, without what the vertex itself emits or reflects
-                       ///< from light samples
+  float radiance = 0;  ///< outgoing radiance, without what the vertex itself emits
   float squared = 0;   ///< second moment of the estimates of `radiance`
-  float cost = 1;      ///< steps that a step leads to, itself included
+  float cost = 1;      ///< steps and light samples that a step leads to, itself included
 
   void archive(Archive& archive) { archive(radiance, squared, cost); }
   float variance() const {

@@ -19,7 +19,7 @@ struct LearnedOutcomes {
   PixelMap pixels;           ///< denoised radiance of each pixel
   float pixel_offset = 0;    ///< added to the radiance of pixels; positive
   double squared_error = 0;  ///< mean of a path, relative to its pixel [1]; 0: unknown
-  double path_cost = 0;      ///< mean number of steps of a path
+  double path_cost = 0;      ///< mean number of steps and light samples of a path
 
   /// Returns the radiance to which contributions to a film position [pixels] are compared.
   float scale_at(Vec2 film) const { return pixels.at(film) + pixel_offset; }

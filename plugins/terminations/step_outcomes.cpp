@@ -12,26 +12,57 @@ bool has_drawn(const RecordedVertex& vertex) {
   return vertex.continuation > 0 && (vertex.event != Event::none || vertex.guidable);
 }
 
-/// Fills in how many steps each vertex stands for: its own, and those of all vertices after it.
-void count_steps(const PathView& path, std::vector<float>& costs) {
-  costs.assign(path.vertices.size(), 0);
-  // Children come after their parents.
-  for (std::size_t i = costs.size(); i-- > 0;) {
-    const RecordedVertex& vertex = path.vertices[i];
-    if (has_drawn(vertex)) costs[i] += 1;
-    if (vertex.parent != kNoVertex) costs[vertex.parent] += costs[i];
-  }
+/// Calls `use(index)` for the record `first` of a vertex and for all its later records.
+template <class Use>
+void for_each_record(const PathView& path, std::uint32_t first, Use&& use) {
+  for (std::uint32_t i = first; i != kNoVertex; i = path.vertices[i].twin) use(i);
+}
+
+/// Returns the index of record number `copy` of the vertex whose first record is `first`;
+/// kNoVertex: there is none.
+std::uint32_t record_of_copy(const PathView& path, std::uint32_t first, std::uint32_t copy) {
+  while (copy-- > 0 && first != kNoVertex) first = path.vertices[first].twin;
+  return first;
 }
 
 }  // namespace
 
+// While this learner watches, lights are sampled once for each step, or once in all and there is at
+// most one step.
+void OutcomeReader::read_lights(const PathView& path) {
+  lights_.assign(path.vertices.size(), 0);
+  for (const RecordedLightSample& sample : path.light_samples) {
+    const std::uint32_t i = record_of_copy(path, sample.vertex, sample.copy);
+    if (i != kNoVertex) lights_[i] += mean(sample.contribution) / sample.continuation;
+  }
+}
+
+void OutcomeReader::count_costs(const PathView& path) {
+  costs_.assign(path.vertices.size(), 0);
+  for (std::uint32_t i = 0; i < costs_.size(); ++i) {
+    if (path.vertices[i].light_samples == 0) continue;
+    std::uint32_t records = 0;
+    for_each_record(path, i, [&](std::uint32_t) { ++records; });
+    const float share = static_cast<float>(path.vertices[i].light_samples) / records;
+    for_each_record(path, i, [&](std::uint32_t k) { costs_[k] += share; });
+  }
+  // Children come after their parents.
+  for (std::size_t i = costs_.size(); i-- > 0;) {
+    const RecordedVertex& vertex = path.vertices[i];
+    if (has_drawn(vertex)) costs_[i] += 1;
+    if (vertex.parent != kNoVertex) costs_[vertex.parent] += costs_[i];
+  }
+}
+
 PathOutcome OutcomeReader::read(const PathView& path, std::vector<StepOutcome>& steps) {
   estimate_incident_radiance(path, incident_);
-  count_steps(path, costs_);
+  read_lights(path);
+  count_costs(path);
   for (std::size_t i = 1; i < path.vertices.size(); ++i) {
     const RecordedVertex& vertex = path.vertices[i];
     if (!has_drawn(vertex) || !vertex.guidable || vertex.parent == kNoVertex) continue;
-    const double radiance = mean(vertex.local_weight * incident_[i]) / vertex.continuation;
+    const double radiance =
+        mean(vertex.local_weight * incident_[i]) / vertex.continuation + lights_[i];
     if (!std::isfinite(radiance)) continue;
     steps.push_back({.origin = vertex.position,
                      .towards_viewer = -path.vertices[vertex.parent].direction,

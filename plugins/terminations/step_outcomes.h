@@ -15,9 +15,11 @@ struct StepOutcome {
   Point3 origin;        ///< of the vertex
   Vec3 towards_viewer;  ///< unit, from the vertex along the path back to the sensor
   /// Estimate of the radiance that leaves the vertex towards the viewer, mean of the channels,
-  /// without emission and light samples of the vertex itself.
+  /// without emission of the vertex itself. It contains the light sample that goes with the step.
   float radiance = 0;
-  float cost = 0;  ///< number of steps from here on, this one included, in all branches
+  /// Number of steps and light samples from here on, this step and its light sample included, in
+  /// all branches.
+  float cost = 0;
 
   void archive(Archive& archive) { archive(origin, towards_viewer, radiance, cost); }
 };
@@ -25,7 +27,7 @@ struct StepOutcome {
 /// What a whole path has found.
 struct PathOutcome {
   double radiance = 0;  ///< value of the path, mean of the channels
-  double cost = 0;      ///< number of its steps, in all branches
+  double cost = 0;      ///< number of its steps and light samples, in all branches
   /// Number of paths of evenly chosen film positions for which it counts. A guide of the camera
   /// chooses some pixels more often than others.
   double paths = 1;
@@ -40,7 +42,13 @@ class OutcomeReader {
   PathOutcome read(const PathView& path, std::vector<StepOutcome>& steps);
 
  private:
+  /// Finds what the light samples that go with each step have found.
+  void read_lights(const PathView& path);
+  /// Counts steps and light samples from each vertex on.
+  void count_costs(const PathView& path);
+
   std::vector<Rgb> incident_;
+  std::vector<double> lights_;
   std::vector<float> costs_;
 };
 

@@ -218,16 +218,20 @@ TEST_CASE("records of guided paths add up to the image, too") {
 }
 
 /// Returns a config of path tracing with a factor at every vertex.
-std::string with_factor(std::string config, double factor) {
+std::string with_factor(std::string config, double factor, double lights = 1) {
   const std::string path = "type: path\n";
-  return config.insert(config.find(path) + path.size(),
-                       fmt::format("  termination: {{ type: stub_factor, factor: {} }}\n", factor));
+  return config.insert(
+      config.find(path) + path.size(),
+      fmt::format("  termination: {{ type: stub_factor, factor: {}, lights: {} }}\n", factor,
+                  lights));
 }
 
 TEST_CASE("records of paths that split or survive roulette add up to the image") {
   for (const double factor : {0.6, 1.4, 3.0}) {
     CAPTURE(factor);
-    check_record(with_factor(path_config(kDiffuseScene, 4, "", 2), factor));
+    for (const double lights : {0.5, 1.0, 2.3}) {
+      check_record(with_factor(path_config(kDiffuseScene, 4, "", 2), factor, lights));
+    }
   }
   for (const double factor : {0.8, 1.2}) {
     CAPTURE(factor);
@@ -265,6 +269,32 @@ TEST_CASE("records of branches: one for each step, with its weight and random nu
   }
   CHECK(static_cast<double>(steps) / firsts == doctest::Approx(2.5).epsilon(0.02));
   CHECK(weights / firsts == doctest::Approx(1).epsilon(0.02));
+}
+
+TEST_CASE("records of light samples that split: their numbers, weights and copies") {
+  Unit unit(with_factor(path_config(kDiffuseScene, 3, "", 2), 1.5, 1.5));
+  const WorkResult result = unit.render(true);
+  double lights = 0;
+  std::size_t firsts = 0;
+  for (std::size_t p = 0; p < result.log.size(); ++p) {
+    const PathView path = result.log[p];
+    for (std::uint32_t i = 1; i < path.vertices.size(); ++i) {
+      const RecordedVertex& vertex = path.vertices[i];
+      const bool is_first = path.vertices[vertex.parent].next == i;
+      if (!is_first) CHECK(vertex.light_samples == 0);
+      if (!is_first || vertex.light_samples == 0) continue;
+      std::uint32_t records = 0;
+      for (std::uint32_t k = i; k != kNoVertex; k = path.vertices[k].twin) ++records;
+      CHECK(vertex.light_samples == records);  // each step has a light sample
+      lights += vertex.light_samples;
+      ++firsts;
+    }
+    for (const RecordedLightSample& sample : path.light_samples) {
+      CHECK(sample.continuation == doctest::Approx(1 / 1.5));
+      CHECK(sample.copy < path.vertices[sample.vertex].light_samples);
+    }
+  }
+  CHECK(lights / static_cast<double>(firsts) == doctest::Approx(1.5).epsilon(0.02));
 }
 
 TEST_CASE("records have the features of the first surface") {

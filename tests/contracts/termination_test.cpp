@@ -54,6 +54,26 @@ TEST_CASE("termination: splitting at the largest factor is unbiased, at the firs
   CHECK(std::abs(diffuse_t(stub(20, 2), "", 8)) < kLimit);
 }
 
+TEST_CASE("termination: light samples split and end unbiasedly, with and without the steps") {
+  const auto both = [](float steps, float lights) {
+    return fmt::format("{{ type: stub_factor, factor: {}, lights: {} }}", steps, lights);
+  };
+  // Light samples alone find the light of paths that hit no light.
+  const std::string only = "\n  mis: light_samples";
+  for (const float lights : {0.4f, 2.0f, 2.75f, 20.0f}) {
+    CAPTURE(lights);
+    CHECK(std::abs(diffuse_t(both(1, lights))) < kLimit);
+    CHECK(std::abs(diffuse_t(both(1, lights) + only)) < kLimit);
+    CHECK(std::abs(diffuse_t(both(1.5f, lights))) < kLimit);
+    CHECK(std::abs(diffuse_t(both(0.6f, lights), "", 64)) < kLimit);
+  }
+  CHECK(std::abs(diffuse_t(both(2.5f, 2.5f) + "\n  light_selection: all")) < kLimit);
+  CHECK(std::abs(fog_t(both(1.2f, 1.2f))) < kLimit);
+  CHECK(std::abs(fog_t(both(0.8f, 3))) < kLimit);
+  CHECK(std::abs(furnace_t(config_with(kDiffuseScene, 4, both(0.8f, 2.5f), "", 64, "bidirectional"),
+                           kDiffuseFurnace)) < kLimit);
+}
+
 TEST_CASE("termination: every kind of guide goes along with splitting and roulette") {
   for (const std::string& guiding :
        {pair("stub_direction", "stub_direction"), pair("stub_segments", "stub_segments"),

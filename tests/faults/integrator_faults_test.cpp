@@ -99,13 +99,17 @@ std::vector<Furnace> mixed_furnaces() {
        kDiffuseFurnace}};
 }
 
-/// Furnaces in which paths split, and in which they survive roulette before a step is drawn.
+/// Furnaces in which paths split, in which they survive roulette before a step is drawn, and in
+/// which light samples split.
 std::vector<Furnace> split_furnaces() {
-  return {{"split", kDiffuseScene, "max_depth: 4, termination: { type: stub_factor, factor: 2.5 }",
-           kDiffuseFurnace},
-          {"ended", kDiffuseScene, "max_depth: 4, termination: { type: stub_factor, factor: 0.6 }",
-           kDiffuseFurnace},
-          {"whole", kDiffuseScene, "max_depth: 4", kDiffuseFurnace}};
+  return {
+      {"split", kDiffuseScene, "max_depth: 4, termination: { type: stub_factor, factor: 2.5 }",
+       kDiffuseFurnace},
+      {"ended", kDiffuseScene, "max_depth: 4, termination: { type: stub_factor, factor: 0.6 }",
+       kDiffuseFurnace},
+      {"lights", kDiffuseScene,
+       "max_depth: 4, termination: { type: stub_factor, factor: 1, lights: 2.5 }", kDiffuseFurnace},
+      {"whole", kDiffuseScene, "max_depth: 4", kDiffuseFurnace}};
 }
 
 /// Returns the config of a furnace with a fault.
@@ -195,8 +199,8 @@ TEST_CASE("faults of mixtures") {
 }
 
 TEST_CASE("faults of branches") {
-  check_row("none", {green, green, green}, split_furnaces());
-  check_row("branches_unweighted", {red, red, green}, split_furnaces());
+  check_row("none", {green, green, green, green}, split_furnaces());
+  check_row("branches_unweighted", {red, red, red, green}, split_furnaces());
 }
 
 TEST_CASE("fault: branches share random numbers, so splitting lowers no noise") {

@@ -27,8 +27,8 @@ enum class PlantedFault {
   shares_forgotten,             ///< MIS weights of emission omit the shares of the techniques
   shares_learned_too_early,     ///< a step is weighted by shares that were learned from it
   resampling_unweighted,        ///< steps chosen among candidates do not represent the others
-  branches_unweighted,          ///< each branch of a path counts as much as the whole path
-  branches_share_numbers,       ///< all branches of a path have the same random numbers
+  branches_unweighted,     ///< each branch, and each light sample, counts like an undivided one
+  branches_share_numbers,  ///< all branches of a path have the same random numbers
 };
 template <>
 struct EnumNames<PlantedFault> {

@@ -20,6 +20,14 @@ struct CameraScene {
   const TerminationRule* termination = nullptr;
 };
 
+/// One of the light samples at a vertex.
+struct LightDraw {
+  std::uint16_t branch = 0;  ///< as LightSelector::choose() takes it
+  std::uint16_t copy = 0;    ///< lights are sampled several times where light samples split
+  float weight = 1;          ///< 1 over the expected number of copies
+  std::uint16_t number = 0;  ///< key of its random numbers
+};
+
 /// The result of one path from the sensor.
 struct PathSample {
   Rgb radiance;
@@ -134,14 +142,14 @@ class CameraWalk {
     }
   }
 
-  /// Takes the light sample of a branch at the current vertex, with the random numbers `u` in
-  /// [0,1)^2.
+  /// Takes a light sample at the current vertex, with the random numbers `u` in [0,1)^2.
   void sample_light(InFlight& flight, const LocalScattering& scattering, const Guidance& guidance,
-                    std::uint16_t branch, Vec2 u) const {
+                    LightDraw draw, Vec2 u) const {
     const Path& path = flight.path;
-    const float u_choice =
-        shared_.lights.needs_number() ? path.numbers().get_1d(Purpose::light_choice, branch) : 0;
-    const int index = shared_.lights.choose(branch, u_choice);
+    const float u_choice = shared_.lights.needs_number()
+                               ? path.numbers().get_1d(Purpose::light_choice, draw.number)
+                               : 0;
+    const int index = shared_.lights.choose(draw.branch, u_choice);
     const Light& emitter = *scene_.lights()[static_cast<std::size_t>(index)];
     LightSample light = emitter.sample(path.here().position(), u);
     light.pdf = Rules::light_sample_pdf(light.pdf, shared_.lights.probability(index));
@@ -149,7 +157,7 @@ class CameraWalk {
       light.point.position = scene_.environment_point(path.here().position(), light.direction);
     }
     if (!(light.pdf > 0) || is_black(light.radiance)) return;
-    add_light_sample(flight, scattering, guidance, emitter, index, light);
+    add_light_sample(flight, scattering, guidance, emitter, index, light, draw);
   }
 
  private:
@@ -158,21 +166,28 @@ class CameraWalk {
     const CameraWalk& walk;
     InFlight& flight;
     WaitingPaths* waiting;
+    Branching branching = {};  ///< at the current vertex
 
     bool meets(Path&, const LocalScattering&) const { return true; }
     void leaves(Path& path, const LocalScattering& scattering, const Guidance& guidance) const {
       if (!walk.samples_lights(scattering)) return;
-      for (std::uint16_t branch = 0; branch < walk.shared_.lights.branches(); ++branch) {
-        walk.sample_light(flight, scattering, guidance, branch,
-                          path.numbers().get_2d(Purpose::light_position, branch));
+      const std::uint16_t branches = walk.shared_.lights.branches();
+      walk.kernel_.recorder().lights(path, branching.lights * branches);
+      LightDraw draw{.weight = branching.light_weight};
+      for (; draw.copy < branching.lights; ++draw.copy) {
+        for (draw.branch = 0; draw.branch < branches; ++draw.branch, ++draw.number) {
+          walk.sample_light(flight, scattering, guidance, draw,
+                            path.numbers().get_2d(Purpose::light_position, draw.number));
+        }
       }
     }
     bool survives(Path& path, const LocalScattering& scattering, ScatterStep& step) const {
       return walk.termination_.survives(path, flight.found.film, scattering, step);
     }
-    Branching branches(const Path& path, const LocalScattering& scattering) const {
+    Branching branches(const Path& path, const LocalScattering& scattering) {
       const std::uint32_t most_new = waiting != nullptr ? waiting->left() : 0;
-      return walk.termination_.branching(path, flight.found.film, scattering, most_new);
+      return branching = walk.termination_.branching(path, flight.found.film, scattering, most_new,
+                                                     walk.shared_.lights.most_copies());
     }
     Path& add_branch(const Path& trunk) const {
       Path& branch = waiting->add(trunk);
@@ -307,11 +322,11 @@ class CameraWalk {
 
   void add_light_sample(InFlight& flight, const LocalScattering& scattering,
                         const Guidance& guidance, const Light& emitter, int index,
-                        const LightSample& light) const {
+                        const LightSample& light, LightDraw draw) const {
     const Path& path = flight.path;
     const PathVertex& here = path.here();
     const ScatterValue scatter = scattering.evaluate(light.direction);
-    Rgb value = scatter.value * light.radiance / light.pdf;
+    Rgb value = draw.weight * scatter.value * light.radiance / light.pdf;
     if (is_black(value)) return;
     Ray shadow{here.origin_towards(light.direction), light.direction, light.distance};
     // The ray ends just before the light's surface, by the uncertainty of positions there.
@@ -352,7 +367,9 @@ class CameraWalk {
                                 .kind = light.kind,
                                 .direction = light.direction,
                                 .event = resolved.event,
-                                .discrete = light.discrete},
+                                .discrete = light.discrete,
+                                .copy = draw.copy,
+                                .continuation = draw.weight},
                                {weight, whole_weight, unguided_weight}, value);
   }
 

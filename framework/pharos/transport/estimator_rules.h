@@ -45,7 +45,8 @@ struct EstimatorRules {
   /// Returns the factor that compensates for Russian roulette with this probability of survival.
   static float survivor_weight(float survival) { return 1 / survival; }
 
-  /// Returns the weight of each step from a vertex where a path takes `factor` steps on average.
+  /// Returns the weight of each step from a vertex where a path takes `factor` steps on average, or
+  /// of each light sample where it takes `factor` light samples on average.
   static float branch_weight(float factor) { return 1 / factor; }
 
   /// Returns the seed of the random numbers of a branch. The path from which it has split has the

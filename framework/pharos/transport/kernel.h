@@ -70,7 +70,9 @@ class TransportKernel {
   ///
   /// A visitor may decide before a step is drawn, too:
   ///
-  ///     // Returns how many steps are taken; 0: the path ends here.
+  ///     // Returns how many steps are taken; 0: the path ends here. Called before leaves(), so
+  ///     that
+  ///     // it can also decide how often lights are sampled.
   ///     Branching branches(const Path&, const LocalScattering&)
   ///
   /// If there may be more than one step, it has two more functions:
@@ -92,14 +94,15 @@ class TransportKernel {
     const Guidance guidance =
         guiding_ != nullptr ? guidance_at_vertex(path, scattering, query.emplace()) : Guidance{};
     recorder_.leave(path, scattering, guidance);
-    visitor.leaves(path, scattering, guidance);
-    ScatterStep step;
+    Branching branching;
     if constexpr (requires { visitor.branches(path, scattering); }) {
-      const Branching branching = visitor.branches(path, scattering);
-      if (branching.count != 1 || branching.weight != 1) {
-        return split(path, scattering, guidance, branching, visitor, counterparts);
-      }
+      branching = visitor.branches(path, scattering);
     }
+    visitor.leaves(path, scattering, guidance);
+    if (!branching.is_plain()) {
+      return split(path, scattering, guidance, branching, visitor, counterparts);
+    }
+    ScatterStep step;
     if (!sample_step(scattering, guidance, path.numbers(), step)) return false;
     const bool survives = visitor.survives(path, scattering, step);
     if (step.continuation != 1) recorder_.weigh(path, step.continuation);

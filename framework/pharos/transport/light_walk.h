@@ -88,7 +88,7 @@ class LightWalk {
     }
     void leaves(Path&, const LocalScattering&, const Guidance&) const {}
     Branching branches(const Path& path, const LocalScattering& scattering) const {
-      return walk.termination_.branching(path, {}, scattering, 0);
+      return walk.termination_.branching(path, {}, scattering, 0, 1);
     }
     bool survives(Path& path, const LocalScattering& scattering, ScatterStep& step) const {
       return walk.termination_.survives(path, {}, scattering, step);

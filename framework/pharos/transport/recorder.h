@@ -22,6 +22,8 @@ struct Connection {
   Vec3 direction;             ///< unit, from the vertex
   Event event = Event::none;  ///< event of scattering into `direction` at the vertex
   bool discrete = false;      ///< no step can hit the end, because it is a light without extent
+  std::uint16_t copy = 0;     ///< number of the copy, if light samples split at the vertex
+  float continuation = 1;     ///< weight of the copy; part of its value
 };
 
 /// The interface by which the transport kernel and the walks report events along a path. This
@@ -48,6 +50,8 @@ struct SilentRecorder {
   void weigh(const Path&, float /*continuation*/) {}
   /// Reports that `branch`, a copy of `trunk`, takes a step of its own from the current vertex.
   void split(const Path& /*trunk*/, Path& /*branch*/) {}
+  /// Reports that `count` light samples are taken at the current vertex.
+  void lights(const Path&, std::uint32_t /*count*/) {}
   /// Reports a connection from the current vertex. `value` is its f/p, without throughput.
   void connect(const Path&, const Connection&, PathWeight, Rgb /*value*/) {}
   /// Reports the step from the current vertex, once the next vertex is known.
@@ -112,12 +116,17 @@ class LogRecorder {
     twin.continuation = first.continuation;
     twin.branch = branch.branch;
   }
+  void lights(const Path& path, std::uint32_t count) {
+    log_.vertex(path.record).light_samples = count;
+  }
   void connect(const Path& path, const Connection& end, PathWeight weight, Rgb value) {
     log_.add(RecordedLightSample{.vertex = path.record,
                                  .position = end.position,
                                  .kind = end.kind,
                                  .event = end.event,
                                  .discrete = end.discrete,
+                                 .copy = end.copy,
+                                 .continuation = end.continuation,
                                  .direction = end.direction,
                                  .contribution = weight.own_end * value,
                                  .joint_contribution = weight.both_ends * value,

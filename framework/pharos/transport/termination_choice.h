@@ -21,20 +21,23 @@ class TerminationChoice {
         of_step_(of_vertex_ == nullptr ? rule : nullptr) {}
 
   /// Returns how many steps a path takes from its current vertex, as is decided before they are
-  /// drawn. At most `most_new` of them may be taken by new branches. `film` is in pixels.
+  /// drawn, and how often it samples lights. At most `most_new` steps may be taken by new branches,
+  /// and lights are sampled at most `most_lights` times. `film` is in pixels.
   Branching branching(const Path& path, Vec2 film, const LocalScattering& scattering,
-                      std::uint32_t most_new) const {
+                      std::uint32_t most_new, std::uint32_t most_lights) const {
     if (of_vertex_ == nullptr) return {};
     const TerminationQuery query = query_at(path, film, scattering);
     // The limit is a whole number, so drawn numbers do not exceed it either. Branches of a discrete
     // event would coincide.
     const float limit = query.discrete ? 1 : 1 + static_cast<float>(most_new);
     const float factor = std::min(of_vertex_->factor(query), limit);
-    if (factor == 1) return {};
-    const float whole = std::floor(factor);
+    const float light_factor =
+        std::min(of_vertex_->light_factor(query, factor), static_cast<float>(most_lights));
+    if (factor == 1 && light_factor == 1) return {};
+    // Equal factors give equal numbers, so that each step has a light sample.
     const float u = path.numbers().get_1d(Purpose::roulette, 1);
-    return {static_cast<std::uint32_t>(whole) + (u < factor - whole ? 1u : 0u),
-            Rules::branch_weight(factor)};
+    return {whole_number(factor, u), Rules::branch_weight(factor), whole_number(light_factor, u),
+            Rules::branch_weight(light_factor)};
   }
 
   /// Plays Russian roulette after a step was drawn. Returns false if the path ends;
@@ -53,6 +56,12 @@ class TerminationChoice {
   }
 
  private:
+  /// Returns floor(factor) or floor(factor) + 1, `factor` on average over `u` in [0, 1).
+  static std::uint32_t whole_number(float factor, float u) {
+    const float whole = std::floor(factor);
+    return static_cast<std::uint32_t>(whole) + (u < factor - whole ? 1u : 0u);
+  }
+
   static TerminationQuery query_at(const Path& path, Vec2 film, const LocalScattering& scattering) {
     return {.film = film,
             .position = path.here().position(),

@@ -7,10 +7,16 @@
 
 namespace pharos {
 
-/// The number of steps that a path takes from a vertex, and the weight of each.
+/// The number of steps that a path takes from a vertex, the number of times that it samples lights
+/// there, and the weight of each.
 struct Branching {
   std::uint32_t count = 1;
   float weight = 1;  ///< 1 over the expected number of steps
+  std::uint32_t lights = 1;
+  float light_weight = 1;  ///< 1 over the expected value of `lights`
+
+  /// Whether steps are taken as if there were no rule.
+  bool is_plain() const { return count == 1 && weight == 1; }
 };
 
 /// The branches of one path from the sensor that wait until the current branch has ended. The last

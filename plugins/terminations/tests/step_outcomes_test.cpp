@@ -57,6 +57,25 @@ TEST_CASE(
   CHECK(found.paths[3].cost == 1);
 }
 
+TEST_CASE("outcomes: each step has found what its own light sample has found, and pays for it") {
+  PathLog log;
+  test::add_path(log, 8, 3, 0.5f);
+  log.vertex(1).light_samples = 3;
+  // The light sample of the first step has found nothing.
+  for (const std::uint16_t copy : {1, 2}) {
+    log.add(RecordedLightSample{
+        .vertex = 1, .copy = copy, .continuation = 0.5f, .contribution = Rgb(0.5f * 10 * copy)});
+  }
+  const Outcomes found(log);
+  REQUIRE(found.steps.size() == 3);
+  for (int i = 0; i < 3; ++i) {
+    CHECK(found.steps[i].radiance == doctest::Approx(4 * (i + 1) + 10 * i));
+    CHECK(found.steps[i].cost == 2);
+  }
+  CHECK(found.paths[0].cost == 1 + 3 + 3);
+  CHECK(found.paths[0].radiance == doctest::Approx(0.5 * (4 + 8 + 12 + 10 + 20)));
+}
+
 TEST_CASE("outcomes: steps from mirrors teach nothing") {
   PathLog log;
   test::add_path(log, 8, 1, 1);

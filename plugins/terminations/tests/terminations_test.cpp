@@ -131,6 +131,17 @@ TEST_CASE("learned terminations: mirrors and the first vertices are left alone")
   }
 }
 
+TEST_CASE("light samples split with the steps where this was learned, and otherwise not at all") {
+  const ThroughputTermination throughput({.depth = 1, .limit = 0.5f});
+  CHECK(throughput.begin(kContext)->rule()->light_factor(at_wall(1), 0.3f) == 1);
+  const AdjointTermination by_adjoint({});
+  const EfficiencyTermination by_efficiency({});
+  for (const float factor : {0.3f, 1.0f, 7.0f}) {
+    CHECK(taught(by_adjoint)->rule()->light_factor(at_wall(1), factor) == factor);
+    CHECK(taught(by_efficiency)->rule()->light_factor(at_wall(1), factor) == factor);
+  }
+}
+
 TEST_CASE("learned terminations: the first iterations only learn, the final image does not") {
   const AdjointTermination adjoint({});
   for (const std::uint32_t last : {0u, 1u, 9u}) {

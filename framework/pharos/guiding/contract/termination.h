@@ -51,6 +51,14 @@ class TerminationRule {
   /// only if the rest of the path has no value. At mirrors and the like, and where the integrator
   /// cannot split, factors above 1 count as 1.
   virtual float factor(const TerminationQuery& query) const = 0;
+
+  /// Returns the factor of the light samples at the vertex [1]: the expected number of times that
+  /// lights are sampled there, each weighted by one over this factor. `factor` is the factor of the
+  /// steps, as returned by factor() and limited by the integrator. If both are equal, lights are
+  /// sampled once for each step. Rules of the stage `step` are not asked.
+  virtual float light_factor(const TerminationQuery& /*query*/, float /*factor*/) const {
+    return 1;
+  }
 };
 
 /// The state of a termination during one render. Threads use it in the same way as LearningState.

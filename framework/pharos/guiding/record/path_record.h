@@ -49,6 +49,9 @@ struct RecordedVertex {
   /// is not part of `pdf`.
   float continuation = 1;
   std::uint32_t branch = 0;  ///< key of the branch; branches draw different random numbers
+  /// Number of light samples that were taken here, those that found nothing included. 0 in later
+  /// records of the same vertex.
+  std::uint32_t light_samples = 0;
   std::uint32_t mixing_key = kNoMixing;  ///< the key that MixingShares::at() returned here
   Rgb transmittance{1};  ///< transmittance of the medium along the step [1]; part of local_weight
   /// The medium's factor in all densities of the step: the density [1/m] of stopping at the next
@@ -71,7 +74,13 @@ struct RecordedLightSample {
   VertexKind kind = VertexKind::surface;  ///< of the point on the light or lens
   Event event = Event::none;              ///< event of the connection at the vertex
   bool discrete = false;                  ///< the light has no extent, so no step can hit it
-  Vec3 direction;                         ///< unit, from the vertex
+  /// Number of the copy, if light samples split at the vertex. Where steps split as well, copy i
+  /// goes with the record i of the vertex.
+  std::uint16_t copy = 0;
+  /// The factor that compensates for splitting and roulette of light samples: 1 over their expected
+  /// number of copies. It is part of `contribution`.
+  float continuation = 1;
+  Vec3 direction;          ///< unit, from the vertex
   Rgb contribution;        ///< f/p of the connection times its MIS weight, without throughput
   Rgb joint_contribution;  ///< the same with the MIS weight among paths from both ends
   float mis_weight = 1;    ///< MIS weight among paths from the same end
