@@ -43,5 +43,17 @@ TEST_CASE("presets: those of the project and of modules elsewhere are found") {
         std::string::npos);
 }
 
+TEST_CASE("presets: roulette and splitting, alone and with guides") {
+  for (const char* name : {"adrrs", "robust-adrrs", "ears", "robust-ears"}) {
+    CAPTURE(name);
+    const LoadedConfig loaded = config_from(cornell(fmt::format("guiding: {}", name)));
+    const Integrator& integrator = *loaded.config.integrator;
+    REQUIRE(integrator.learned_termination() != nullptr);
+    CHECK(integrator.training()->images == TrainingImages::combine);
+    const bool is_guided = std::string(name).find("robust") == 0;
+    CHECK((integrator.guiding() != nullptr) == is_guided);
+  }
+}
+
 }  // namespace
 }  // namespace pharos::testing
