@@ -276,6 +276,35 @@ TEST_CASE("replay knows what guides later iterations") {
   CHECK(job.replay(20, 20, 0, 1).radiance == result.image.rgb(20, 20));
 }
 
+TEST_CASE("layers: the factor at the first vertex, and the number of steps") {
+  const auto layers_of = [](const std::string& termination) {
+    const RenderResult result = render(
+        cornell(fmt::format("budget: {{ spp: 32 }}\nintegrator: {{ type: path, max_depth: 3, "
+                            "next_event_estimation: false, termination: {} }}\n",
+                            termination)));
+    const Image& image = result.image;
+    double splitting = 0, cost = 0;
+    for (int y = 0; y < image.height(); ++y) {
+      for (int x = 0; x < image.width(); ++x) {
+        splitting += image.pixel(x, y)[image.channel_index("splitting.N")];
+        cost += image.pixel(x, y)[image.channel_index("cost.N")];
+      }
+    }
+    const double pixels = static_cast<double>(image.width()) * image.height();
+    return std::pair{splitting / pixels, cost / pixels};
+  };
+  const auto [whole, whole_cost] = layers_of("none");
+  const auto [split, split_cost] = layers_of("{ type: stub_factor, factor: 2.5 }");
+  CHECK(whole == doctest::Approx(split / 2.5).epsilon(0.01));
+  CHECK(whole > 0.5);
+  CHECK(whole <= 1);
+  // At most one step from the lens, 2.5 from the first vertex, and 6.25 from the second.
+  CHECK(whole_cost > 2);
+  CHECK(whole_cost <= 3);
+  CHECK(split_cost > 2 * whole_cost);
+  CHECK(split_cost <= 9.75);
+}
+
 TEST_CASE("replay runs all branches of a path and names them") {
   const std::string config = cornell(
       "budget: { spp: 1 }\nintegrator: { type: path, termination: { type: stub_factor, factor: 2 } "

@@ -21,6 +21,8 @@ const std::vector<LayerChannels>& all_channels() {
       {9, {"depth.Z"}},
       {10, {"variance.R", "variance.G", "variance.B"}},
       {13, {"samples.N"}},
+      {14, {"splitting.N"}},
+      {15, {"cost.N"}},
   };
   return channels;
 }
@@ -79,6 +81,8 @@ Features& Features::operator+=(const Features& other) {
   albedo += other.albedo;
   normal += other.normal;
   depth += other.depth;
+  splitting += other.splitting;
+  cost += other.cost;
   return *this;
 }
 
@@ -262,7 +266,7 @@ void Film::merge(const Film& other) {
 }
 
 void Film::archive(Archive& archive) {
-  archive.heading("film", 2);
+  archive.heading("film", 3);
   archive.block(total_);
   archive.block(moments_);
   archive(is_in_pass_);
@@ -305,6 +309,8 @@ Image Film::layers() const {
       const Rgb variance = freedom > 0 ? variance_scale * moments_[i].squares : Rgb(kInfinity);
       image.set_rgb(x, y, variance, 10);
       image.pixel(x, y)[13] = sum.samples;
+      image.pixel(x, y)[14] = per_sample * sum.features.splitting;
+      image.pixel(x, y)[15] = per_sample * sum.features.cost;
     }
   }
   return image;

@@ -17,11 +17,13 @@
 
 namespace pharos {
 
-/// Features of a path's first hit, averaged over a pixel.
+/// Features of a path, averaged over a pixel.
 struct Features {
-  Rgb albedo;
-  Vec3 normal;      ///< shading normal in world space
-  float depth = 0;  ///< distance to the first surface [scene units]; 0 if there is none
+  Rgb albedo;           ///< of the first surface
+  Vec3 normal;          ///< shading normal of the first surface, in world space
+  float depth = 0;      ///< distance to the first surface [scene units]; 0 if there is none
+  float splitting = 0;  ///< expected number of steps from the first vertex; 0 if there is none
+  float cost = 0;       ///< number of steps of the path, in all branches
 
   Features& operator+=(const Features& other);
 };
@@ -42,7 +44,7 @@ class FilmTile {
   /// Adds a contribution f/p in units of (pixel value) x (number of paths started), for light
   /// tracing and camera guiding. Positions off the film have no effect.
   void add_splat(Vec2 film, Rgb contribution) { splats_.push_back({film, contribution}); }
-  /// Adds the first-hit features of a splat's path. They count as a sample of the pixel at `film`.
+  /// Adds the features of a splat's path. They count as a sample of the pixel at `film`.
   void add_features(Vec2 film, const Features& features) { landings_.push_back({film, features}); }
   /// Counts paths that were started. Splats are divided by the film's total.
   void count_paths(std::uint64_t n) { paths_ += static_cast<double>(n); }
@@ -137,8 +139,8 @@ class Film {
   void merge(const Film& other);
 
   /// Returns R G B, followed by every Layer: `albedo`, `normal`, `depth` (means over samples),
-  /// `variance` (of the pixel's mean, per channel; infinite before two complete passes) and
-  /// `samples`.
+  /// `variance` (of the pixel's mean, per channel; infinite before two complete passes), `samples`,
+  /// `splitting` and `cost` (means over samples).
   Image layers() const;
   double samples_per_pixel() const { return samples_; }
   /// Returns the sums over all samples of a pixel of the window.
@@ -183,7 +185,7 @@ class Film {
 };
 
 /// Image layers that can be written in addition to the color.
-enum class Layer { albedo, normal, depth, variance, samples };
+enum class Layer { albedo, normal, depth, variance, samples, splitting, cost };
 
 template <>
 struct EnumNames<Layer> {
@@ -191,7 +193,9 @@ struct EnumNames<Layer> {
                                                                 {"normal", Layer::normal},
                                                                 {"depth", Layer::depth},
                                                                 {"variance", Layer::variance},
-                                                                {"samples", Layer::samples}});
+                                                                {"samples", Layer::samples},
+                                                                {"splitting", Layer::splitting},
+                                                                {"cost", Layer::cost}});
 };
 
 /// Returns the color and the given layers of an image from Film::layers().

@@ -170,6 +170,8 @@ TEST_CASE("merged films are one film") {
 TEST_CASE("selected layers follow the color") {
   Film film(kSize, kSize, std::make_shared<Box>());
   add_pass(film, 2, 1, [](Vec2, RandomStream&) { return Rgb(1); });
+  CHECK(select_layers(film.layers(), {Layer::splitting, Layer::cost}).channels() ==
+        std::vector<std::string>{"R", "G", "B", "splitting.N", "cost.N"});
   const Image image = select_layers(film.layers(), {Layer::depth, Layer::samples});
   CHECK(image.channels() == std::vector<std::string>{"R", "G", "B", "depth.Z", "samples.N"});
   CHECK(image.pixel(0, 0)[4] == 2);

@@ -116,6 +116,7 @@ class CameraWalk {
       guidance = kernel_.guidance_at_lens(path, query);
       if (!guide_first_step(flight, lens, size, guidance, step)) return false;
     }
+    flight.found.features.cost = 1;
     const bool goes = kernel_.advance(path, step, guidance, flight.counterparts);
     if (path.bounce == 1) note_features(flight);
     return goes;
@@ -182,12 +183,18 @@ class CameraWalk {
       }
     }
     bool survives(Path& path, const LocalScattering& scattering, ScatterStep& step) const {
-      return walk.termination_.survives(path, flight.found.film, scattering, step);
+      const bool goes = walk.termination_.survives(path, flight.found.film, scattering, step);
+      flight.found.features.cost += goes ? 1 : 0;
+      return goes;
     }
     Branching branches(const Path& path, const LocalScattering& scattering) {
       const std::uint32_t most_new = waiting != nullptr ? waiting->left() : 0;
-      return branching = walk.termination_.branching(path, flight.found.film, scattering, most_new,
-                                                     walk.shared_.lights.most_copies());
+      branching = walk.termination_.branching(path, flight.found.film, scattering, most_new,
+                                              walk.shared_.lights.most_copies());
+      Features& features = flight.found.features;
+      if (path.bounce == 1) features.splitting = 1 / branching.weight;
+      if (!branching.is_plain()) features.cost += static_cast<float>(branching.count);
+      return branching;
     }
     Path& add_branch(const Path& trunk) const {
       Path& branch = waiting->add(trunk);
@@ -268,10 +275,11 @@ class CameraWalk {
   void note_features(InFlight& flight) const {
     const PathVertex& here = flight.path.here();
     if (here.kind != VertexKind::surface) return;
-    flight.found.features = {.albedo = scene_.bsdf(here.surface).albedo(here.surface),
-                             .normal = here.surface.shading.n,
-                             .depth = flight.path.segment_length};
-    kernel_.recorder().features(flight.found.features.albedo, flight.found.features.normal);
+    Features& features = flight.found.features;
+    features.albedo = scene_.bsdf(here.surface).albedo(here.surface);
+    features.normal = here.surface.shading.n;
+    features.depth = flight.path.segment_length;
+    kernel_.recorder().features(features.albedo, features.normal);
   }
 
   // --- light ----------------------------------------------------------------------------------
