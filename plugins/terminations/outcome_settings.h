@@ -52,7 +52,7 @@ void describe_outcomes(Schema<Settings>& s) {
       .at_most(1);
   s.field("most", &OutcomeSettings::most, "Largest factor: the highest mean number of branches")
       .at_least(1)
-      .at_most(1000);
+      .at_most(TerminationRule::kMostFactor);
   s.field("depth", &OutcomeSettings::depth,
           "Number of the first vertex at which paths may end or split; the first vertex after the "
           "lens is 1");

@@ -29,7 +29,7 @@ class StubRule final : public TerminationRule {
 class StubTermination final : public Termination {
  public:
   struct Settings {
-    float factor = 2;
+    float factor = 1.2f;
     float lights = 1;
     std::uint16_t first = 1;
     static void describe(Schema<Settings>& s) {

@@ -54,8 +54,9 @@ void run(Job& job, std::uint64_t seed) {
   job.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Returns the suite of a contract whose plugins are tested on their own; empty if there is none.
-std::function<void(Suite&)> suite_of(const Subject& s) {
+/// Returns the suite of a contract whose plugins are tested without partners; empty if there is
+/// none. `s` must outlive the suite.
+std::function<void(Suite&)> suite_of(const Registry& registry, const Subject& s) {
   const auto as = [&s]<class C>() { return std::static_pointer_cast<const C>(s.component); };
   const std::string& contract = s.plugin->contract;
   if (contract == Bsdf::contract_name) {
@@ -87,6 +88,9 @@ std::function<void(Suite&)> suite_of(const Subject& s) {
   }
   if (contract == Integrator::contract_name) {
     return [c = as.operator()<Integrator>()](Suite& suite) { check_integrator(*c, suite); };
+  }
+  if (contract == Termination::contract_name) {
+    return [&registry, &s](Suite& suite) { check_termination(registry, s, suite); };
   }
   return {};
 }
@@ -188,7 +192,7 @@ class Plan {
   void add_suites(const PluginInfo& plugin) {
     const std::vector<Subject>& subjects = cases_.at(&plugin).subjects;
     for (const Subject& subject : subjects) {
-      auto suite = suite_of(subject);
+      auto suite = suite_of(registry_, subject);
       if (!suite) {
         return add_finding(plugin, {},
                            {.check = "suite",

@@ -6,6 +6,7 @@
 #include <pharos/conformance/guide_stage.h>
 #include <pharos/conformance/stage.h>
 #include <pharos/core/random.h>
+#include <pharos/statistics/hypothesis.h>
 
 namespace pharos::conformance {
 namespace {
@@ -33,13 +34,6 @@ ConfigNode guided_node(const std::string& integrator, const GuidedPair& pair) {
   return node;
 }
 
-template <class C>
-Ref<C> build(const Registry& registry, const ConfigNode& node) {
-  BuildContext context{registry};
-  ConfigNode resolved;
-  return registry.build<C>(node, context, resolved);
-}
-
 LocalScattering scattering_at(const Scene& scene, const SurfacePoint& point, const Medium* medium,
                               bool in_medium, Vec3 towards_previous, Transport transport) {
   if (!in_medium) return {point, scene.bsdf(point), towards_previous, transport};
@@ -47,16 +41,12 @@ LocalScattering scattering_at(const Scene& scene, const SurfacePoint& point, con
           transport};
 }
 
-/// Returns the names of all integrators, the default one first.
-std::vector<std::string> integrator_names(const Registry& registry) {
-  std::vector<std::string> names = registry.names(Integrator::contract_name);
-  try {
-    const auto first = build<Integrator>(registry, ConfigNode::scalar("default"))->plugin_name();
-    std::stable_partition(names.begin(), names.end(),
-                          [&](const std::string& name) { return name == first; });
-  } catch (const InputError&) {  // there is no default
+double image_mean(const Image& image) {
+  double sum = 0;
+  for (int y = 0; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x) sum += mean(image.rgb(x, y));
   }
-  return names;
+  return sum / (static_cast<double>(image.width()) * image.height());
 }
 
 /// Traces one path through a scene, vertex by vertex.
@@ -129,12 +119,24 @@ SceneParts room_parts(Room room, bool foggy) {
   return parts;
 }
 
+std::vector<std::string> integrator_names(const Registry& registry) {
+  std::vector<std::string> names = registry.names(Integrator::contract_name);
+  try {
+    const auto first =
+        build_plugin<Integrator>(registry, ConfigNode::scalar("default"))->plugin_name();
+    std::stable_partition(names.begin(), names.end(),
+                          [&](const std::string& name) { return name == first; });
+  } catch (const InputError&) {  // there is no default
+  }
+  return names;
+}
+
 std::vector<Ref<Integrator>> integrators_for(const GuidedPair& pair, std::string& why_not) {
   why_not = "no integrator is loaded";
   std::vector<Ref<Integrator>> all;
   for (const std::string& name : integrator_names(pair.registry)) {
     try {
-      auto integrator = build<Integrator>(pair.registry, guided_node(name, pair));
+      auto integrator = build_plugin<Integrator>(pair.registry, guided_node(name, pair));
       if (!integrator->traits().guided || integrator->guiding() == nullptr) continue;
       check_compatible(*integrator, *pinhole(kSensor));
       all.push_back(std::move(integrator));
@@ -146,21 +148,45 @@ std::vector<Ref<Integrator>> integrators_for(const GuidedPair& pair, std::string
 }
 
 Ref<Integrator> unguided(const GuidedPair& pair, const Integrator& guided) {
-  return build<Integrator>(pair.registry, ConfigNode::scalar(guided.plugin_name()));
+  return build_plugin<Integrator>(pair.registry, ConfigNode::scalar(guided.plugin_name()));
 }
 
-RenderResult render_room(const GuidedPair& pair, const Ref<Integrator>& integrator, Room room,
+RenderResult render_room(const Registry& registry, const Ref<Integrator>& integrator, Room room,
                          bool foggy, std::uint32_t samples, std::uint64_t seed) {
   const ConfigNode by_default = ConfigNode::scalar("default");
   RenderConfig config;
   config.scene = room_parts(room, foggy);
   config.film.width = config.film.height = kFilm;
-  config.film.filter = build<Filter>(pair.registry, by_default);
-  config.sampler = build<Sampler>(pair.registry, by_default);
+  config.film.filter = build_plugin<Filter>(registry, by_default);
+  config.sampler = build_plugin<Sampler>(registry, by_default);
   config.integrator = integrator;
   config.budget.spp = samples;
   config.seed = seed;
   return RenderJob(config).run();
+}
+
+void compare_in_furnace(const Registry& registry, const Rendering& a, const Rendering& b,
+                        bool foggy, std::uint64_t seed, Check& check) {
+  constexpr std::uint64_t kRuns = 8;
+  // Allows for single precision and for what guiding leaves unexplored.
+  constexpr double kSlack = 3e-4;
+  const auto mean_of = [&](const Rendering& rendering, std::uint64_t first_seed) {
+    std::vector<double> means;
+    for (std::uint64_t run = 0; run < kRuns; ++run) {
+      means.push_back(image_mean(
+          render_room(registry, rendering.integrator, Room::furnace, foggy, 32, first_seed + run)
+              .image));
+    }
+    statistics::Estimate mean = statistics::estimate(statistics::moments(means));
+    mean.squared_error += square(kSlack * mean.mean);
+    return mean;
+  };
+  const statistics::Estimate x = mean_of(a, seed), y = mean_of(b, seed + kRuns);
+  check.add_p_value(
+      statistics::welch_test(x, y).p_value,
+      fmt::format("{}: {} {:.5f} +- {:.5f}, {} {:.5f} +- {:.5f}",
+                  foggy ? "in fog" : "in empty space", a.name, x.mean, std::sqrt(x.squared_error),
+                  b.name, y.mean, std::sqrt(y.squared_error)));
 }
 
 StageVertex::StageVertex(const Scene& scene, const GuidingVertex& previous,

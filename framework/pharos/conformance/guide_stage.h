@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <pharos/conformance/check.h>
 #include <pharos/conformance/subjects.h>
 #include <pharos/guiding/pipeline/guiding_frame.h>
 #include <pharos/rendering/render_job.h>
@@ -36,9 +37,29 @@ std::vector<Ref<Integrator>> integrators_for(const GuidedPair& pair, std::string
 /// Returns the same integrator without guiding.
 Ref<Integrator> unguided(const GuidedPair& pair, const Integrator& guided);
 
-/// Renders a small image of a room.
-RenderResult render_room(const GuidedPair& pair, const Ref<Integrator>& integrator, Room room,
+/// Builds a plugin from its node.
+template <class C>
+Ref<C> build_plugin(const Registry& registry, const ConfigNode& node) {
+  BuildContext context{registry};
+  ConfigNode resolved;
+  return registry.build<C>(node, context, resolved);
+}
+
+/// Returns the names of all integrators, the default one first.
+std::vector<std::string> integrator_names(const Registry& registry);
+
+/// Renders a small image of a room with the default filter and the default sampler.
+RenderResult render_room(const Registry& registry, const Ref<Integrator>& integrator, Room room,
                          bool foggy, std::uint32_t samples, std::uint64_t seed);
+
+/// An integrator, and what it is called in messages.
+struct Rendering {
+  const Ref<Integrator>& integrator;
+  const char* name;
+};
+/// Tests that both integrators render the same mean in a furnace.
+void compare_in_furnace(const Registry& registry, const Rendering& a, const Rendering& b,
+                        bool foggy, std::uint64_t seed, Check& check);
 
 /// A vertex of a path through a room, with the query that a guide gets there.
 class StageVertex {

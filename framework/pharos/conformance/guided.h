@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <pharos/conformance/guide_stage.h>
+#include <pharos/rendering/filter.h>
 #include <pharos/sampling/keyed_numbers.h>
 
 /// Asks guides as renders do, and follows their proposals.
@@ -20,6 +21,15 @@ class KeyedSampler final : public PreparedSampler {
   Vec2 value_2d(const SampleStream& stream, Dimension dimension) const override {
     return keyed_numbers(stream.state(), dimension);
   }
+};
+
+/// A filter by which each sample counts only in its own pixel, so that sums over the film are sums
+/// over paths.
+class OnePixel final : public Filter {
+ public:
+  float radius() const override { return 0.5f; }
+  float evaluate(Vec2) const override { return 1; }
+  float integral() const override { return 1; }
 };
 
 /// Returns a frame of one guider that is bound to a model, as in a render. Its densities are

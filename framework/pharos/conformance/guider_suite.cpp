@@ -241,36 +241,11 @@ void check_save_load(const GuidedPair& pair, const std::shared_ptr<const Guiding
   }
 }
 
-double image_mean(const Image& image) {
-  double sum = 0;
-  for (int y = 0; y < image.height(); ++y) {
-    for (int x = 0; x < image.width(); ++x) sum += mean(image.rgb(x, y));
-  }
-  return sum / (static_cast<double>(image.width()) * image.height());
-}
-
 /// Tests that guided and unguided renders of a furnace have the same mean.
 void check_furnace(const GuidedPair& pair, const Ref<Integrator>& guided, bool foggy,
                    std::uint64_t seed, Check& check) {
-  constexpr std::uint64_t kRuns = 8;
-  // Allows for single precision and for what guiding leaves unexplored.
-  constexpr double kSlack = 3e-4;
-  const auto mean_of = [&](const Ref<Integrator>& integrator, std::uint64_t first_seed) {
-    std::vector<double> means;
-    for (std::uint64_t run = 0; run < kRuns; ++run) {
-      means.push_back(image_mean(
-          render_room(pair, integrator, Room::furnace, foggy, 32, first_seed + run).image));
-    }
-    return statistics::estimate(statistics::moments(means));
-  };
-  statistics::Estimate a = mean_of(guided, seed),
-                       b = mean_of(unguided(pair, *guided), seed + kRuns);
-  a.squared_error += square(kSlack * a.mean);
-  b.squared_error += square(kSlack * b.mean);
-  check.add_p_value(statistics::welch_test(a, b).p_value,
-                    fmt::format("{}: guided {:.5f} +- {:.5f}, unguided {:.5f} +- {:.5f}",
-                                foggy ? "in fog" : "in empty space", a.mean,
-                                std::sqrt(a.squared_error), b.mean, std::sqrt(b.squared_error)));
+  const Ref<Integrator> plain = unguided(pair, *guided);
+  compare_in_furnace(pair.registry, {guided, "guided"}, {plain, "unguided"}, foggy, seed, check);
 }
 
 }  // namespace
@@ -311,9 +286,9 @@ void check_guider(const Registry& registry, const Subject& guider, const Subject
     for (std::size_t i = 1; guides_light_paths && i < integrators.size(); ++i) {
       check_furnace(pair, integrators[i], foggy, suite.seed(), furnace);
     }
-    const auto model =
-        render_room(pair, integrators.front(), Room::lamp, foggy, kTrainingSamples, suite.seed())
-            .model;
+    const auto model = render_room(registry, integrators.front(), Room::lamp, foggy,
+                                   kTrainingSamples, suite.seed())
+                           .model;
     answers.expect(model != nullptr, [] { return "there is no model after training"; });
     if (model == nullptr) continue;
     const Scene scene(room_parts(Room::lamp, foggy));
@@ -345,9 +320,9 @@ void check_learner(const Registry& registry, const Subject& learner, const Subje
   const std::vector<Ref<Integrator>> integrators = integrators_for(pair, why_not);
   if (integrators.empty()) return check.not_applicable("no integrator can follow: " + why_not);
   const auto trained = [&] {
-    const auto model =
-        render_room(pair, integrators.front(), Room::lamp, false, kTrainingSamples, suite.seed())
-            .model;
+    const auto model = render_room(registry, integrators.front(), Room::lamp, false,
+                                   kTrainingSamples, suite.seed())
+                           .model;
     check.expect(model != nullptr, [] { return "there is no model after training"; });
     std::ostringstream file;
     if (model != nullptr) save(file, *model);

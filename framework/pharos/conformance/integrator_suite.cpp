@@ -16,15 +16,6 @@ constexpr int kEdge = 16;
 constexpr std::uint32_t kSamples = 8;
 constexpr PixelRect kWhole{0, 0, kEdge, kEdge};
 
-/// A filter by which each sample counts only in its own pixel, so that sums over the film are sums
-/// over paths.
-class OnePixel final : public Filter {
- public:
-  float radius() const override { return 0.5f; }
-  float evaluate(Vec2) const override { return 1; }
-  float integral() const override { return 1; }
-};
-
 /// A room and an integrator that is prepared to render it.
 class Setup {
  public:

@@ -32,6 +32,8 @@ void check_phase_function(const PhaseFunction& phase, Suite& suite);
 void check_medium(const Medium& medium, Suite& suite);
 void check_shape(const Ref<Shape>& shape, Suite& suite);
 void check_integrator(const Integrator& integrator, Suite& suite);
+/// Tests a termination with what it learns in a small room, and in renders of a furnace.
+void check_termination(const Registry& registry, const Subject& termination, Suite& suite);
 /// Tests a guider with the model that `learner` learns in small renders.
 void check_guider(const Registry& registry, const Subject& guider, const Subject& learner,
                   Suite& suite);

@@ -47,15 +47,18 @@ class TerminationRule {
   };
   virtual Stage stage() const { return Stage::vertex; }
 
-  /// Returns the factor q, at least 0 and finite [1]. A factor of 0 ends the path, so it is right
+  /// The largest factor that a rule may return: a path of `factor` branches takes as much memory.
+  static constexpr float kMostFactor = 1000;
+
+  /// Returns the factor q, from 0 to kMostFactor [1]. A factor of 0 ends the path, so it is right
   /// only if the rest of the path has no value. At mirrors and the like, and where the integrator
   /// cannot split, factors above 1 count as 1.
   virtual float factor(const TerminationQuery& query) const = 0;
 
-  /// Returns the factor of the light samples at the vertex [1]: the expected number of times that
-  /// lights are sampled there, each weighted by one over this factor. `factor` is the factor of the
-  /// steps, as returned by factor() and limited by the integrator. If both are equal, lights are
-  /// sampled once for each step. Rules of the stage `step` are not asked.
+  /// Returns the factor of the light samples at the vertex, from 0 to kMostFactor [1]: the expected
+  /// number of times that lights are sampled there, each weighted by one over this factor. `factor`
+  /// is the factor of the steps, as returned by factor() and limited by the integrator. If both are
+  /// equal, lights are sampled once for each step. Rules of the stage `step` are not asked.
   virtual float light_factor(const TerminationQuery& /*query*/, float /*factor*/) const {
     return 1;
   }
