@@ -70,9 +70,8 @@ class TransportKernel {
   ///
   /// A visitor may decide before a step is drawn, too:
   ///
-  ///     // Returns how many steps are taken; 0: the path ends here. Called before leaves(), so
-  ///     that
-  ///     // it can also decide how often lights are sampled.
+  ///     // Returns how many steps are taken; 0: the path ends here. It is called before leaves(),
+  ///     // so it can also decide how often lights are sampled.
   ///     Branching branches(const Path&, const LocalScattering&)
   ///
   /// If there may be more than one step, it has two more functions:

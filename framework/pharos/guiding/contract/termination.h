@@ -16,15 +16,17 @@ namespace pharos {
 /// A vertex at which a rule decides how a path goes on. Everything in it is a function of the
 /// prefix of the path.
 struct TerminationQuery {
-  Vec2 film;                   ///< film position of the path [pixels]
+  Vec2 film;                   ///< film position of the path [pixels]; zero for paths from lights
   Point3 position;             ///< of the vertex
   Vec3 towards_previous;       ///< unit
   std::uint16_t bounce = 1;    ///< number of the vertex; the first vertex after the lens is 1
   bool discrete = false;       ///< all events of the vertex are discrete, as at mirrors
-  Rgb throughput;              ///< f/p of the path up to the vertex
+  /// f/p of the path up to the vertex: [1] for paths from the sensor, a power for paths from lights.
+  Rgb throughput;
   float first_throughput = 1;  ///< largest component of the throughput after the first step
   /// Product of the factors by which refraction has compressed solid angles so far, inverted. Times
-  /// this number, the throughput shows how much light was lost on the way [1].
+  /// this number, the throughput shows how much light was lost on the way [1]. It is 1 for rules of
+  /// the stage `vertex`.
   float solid_angle_scale = 1;
 };
 
@@ -47,7 +49,7 @@ class TerminationRule {
   };
   virtual Stage stage() const { return Stage::vertex; }
 
-  /// The largest factor that a rule may return: a path of `factor` branches takes as much memory.
+  /// The largest factor that a rule may return. Each branch that waits takes memory.
   static constexpr float kMostFactor = 1000;
 
   /// Returns the factor q, from 0 to kMostFactor [1]. A factor of 0 ends the path, so it is right
