@@ -31,6 +31,8 @@ void FilmEstimate::add(Vec2 film, const Sample& sample) {
   Pixel& pixel = pixels_[PixelMap::index(window_, film)];
   pixel.value += sample.value;
   pixel.paths += sample.paths;
+  // A single undefined feature would stay in the sums forever.
+  if (!is_finite(sample.albedo) || !is_finite(sample.normal)) return;
   pixel.count += 1;
   pixel.albedo += sample.albedo;
   pixel.normal += sample.normal;

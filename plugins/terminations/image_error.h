@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include <pharos/core/archive.h>
@@ -12,13 +13,13 @@ namespace pharos {
 /// a larger one than all others together, and nobody would wait for such pixels to converge.
 class ImageError {
  public:
-  /// `outliers` is the number of paths that are left out.
-  explicit ImageError(std::size_t outliers) : outliers_(outliers) {}
+  /// Of each `pass` paths, `outliers` are left out. A last pass that is not full loses as many.
+  ImageError(std::size_t outliers, std::uint64_t pass) : outliers_(outliers), pass_(pass) {}
 
   /// Adds a path of squared error `squared`, relative to its pixel [1], and of `cost` steps.
   void add(double squared, double cost);
   /// Forgets all paths.
-  void clear() { *this = ImageError(outliers_); }
+  void clear() { *this = ImageError(outliers_, pass_); }
 
   /// Returns the mean squared error [1]; 0 if there are no paths but outliers.
   double squared() const;
@@ -35,9 +36,11 @@ class ImageError {
   };
 
   std::size_t outliers_;
-  std::vector<Path> largest_;  ///< a heap with the smallest one in front
-  Path sum_;                   ///< of all other paths
-  double paths_ = 0;           ///< number of all other paths
+  std::uint64_t pass_;
+  std::uint64_t in_pass_ = 0;  ///< number of paths of the pass that is not full
+  std::vector<Path> largest_;  ///< of this pass: a heap with the smallest one in front
+  Path sum_;                   ///< of all paths but outliers
+  double paths_ = 0;           ///< number of all paths but outliers
 };
 
 }  // namespace pharos

@@ -1,17 +1,22 @@
 #include "outcome_cells.h"
 
 #include <algorithm>
+#include <limits>
 
 #include <pharos/core/warp.h>
 
 namespace pharos {
 namespace {
 
+/// Returns the number as a float, the largest one if it is larger.
+float limited(double number) {
+  return static_cast<float>(std::min(number, double{std::numeric_limits<float>::max()}));
+}
+
 ExpectedOutcome expected(const OutcomeSums& sums) {
   if (!(sums.steps > 0)) return {};
-  return {static_cast<float>(sums.radiance / sums.steps),
-          static_cast<float>(sums.squared / sums.steps),
-          static_cast<float>(std::max(sums.cost / sums.steps, 1.0))};
+  return {limited(sums.radiance / sums.steps), limited(sums.squared / sums.steps),
+          limited(std::max(sums.cost / sums.steps, 1.0))};
 }
 
 /// Returns what was found below each plane and in each cell of the tree, by place and bin.

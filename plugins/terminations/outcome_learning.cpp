@@ -11,7 +11,7 @@ OutcomeLearning::OutcomeLearning(const OutcomeSettings& settings, const Learning
       window_(context.window),
       make_(std::move(make)),
       film_(context.window),
-      error_(settings.outliers),
+      error_(settings.outliers, settings.pass(context.window.area())),
       rule_(settings.first.rule()) {}
 
 void OutcomeLearning::absorb(const PathLog& log) {
@@ -33,7 +33,8 @@ void OutcomeLearning::learn_path(const PathView& path) {
 }
 
 void OutcomeLearning::learn_steps() {
-  const CellDivision division{.cell_samples = settings_.cell_steps,
+  const CellDivision division{.divides = cells_.size() < settings_.most_cells,
+                              .cell_samples = settings_.cell_steps,
                               .max_depth = static_cast<int>(settings_.cell_depth),
                               .decay = 0.5};  // each half gets half of what the cell has found
   const DirectionBins bins = directions();
@@ -67,7 +68,7 @@ void OutcomeLearning::make_rule() {
 }
 
 void OutcomeLearning::archive(Archive& archive) {
-  archive.heading("outcomes of steps", 2);
+  archive.heading("outcomes of steps", 3);
   archive(steps_, cells_, film_, error_, updates_, is_in_use_);
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     const std::size_t bins = cells_[i].bins.size();

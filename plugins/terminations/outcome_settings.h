@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 
 #include <pharos/config/schema.h>
@@ -27,6 +28,8 @@ struct OutcomeSettings {
   std::uint32_t cell_steps = 20'000;
   std::uint32_t cell_depth = 24;
   std::uint32_t direction_rows = 4;
+  /// The cells of EARS take 24 MiB at most, and so do these with 16 bins each.
+  std::uint32_t most_cells = 49'152;
   double least_steps = 40'000;
   double decay = 1;
   std::uint32_t outliers = 10;
@@ -41,7 +44,13 @@ struct OutcomeSettings {
   bool spares(const TerminationQuery& query) const {
     return query.discrete || query.bounce < depth;
   }
-  float clamped(float factor) const { return std::clamp(factor, least, most); }
+  /// Returns the factor within its bounds; the least one if it is undefined.
+  float clamped(float factor) const { return factor > least ? std::min(factor, most) : least; }
+  /// Returns the number of paths of a pass over an image of so many pixels, each of which has
+  /// `outliers`. Small images have longer passes, which lose a hundredth of their paths.
+  std::uint64_t pass(std::size_t pixels) const {
+    return std::max<std::uint64_t>(pixels, std::uint64_t{100} * outliers);
+  }
 };
 
 /// Declares the settings.
@@ -65,6 +74,9 @@ void describe_outcomes(Schema<Settings>& s) {
       .at_least(16);
   s.field("cell_depth", &OutcomeSettings::cell_depth, "Largest number of planes above a cell")
       .at_most(KdTree::kMostLevels);
+  s.field("most_cells", &OutcomeSettings::most_cells,
+          "Number of cells from which on no cell is divided any more, which limits the memory")
+      .at_least(1);
   s.field("direction_rows", &OutcomeSettings::direction_rows,
           "Rows of bins of directions in a cell; each row has as many bins as there are rows")
       .at_least(1)
@@ -76,8 +88,10 @@ void describe_outcomes(Schema<Settings>& s) {
           "Factor by which an iteration weights what was found before, by other rules")
       .at_least(0)
       .at_most(1);
-  s.field("outliers", &OutcomeSettings::outliers,
-          "Number of the largest squared errors of an iteration that the error of the image omits")
+  s.field(
+       "outliers", &OutcomeSettings::outliers,
+       "Number of the largest squared errors that the error of the image omits, of as many paths "
+       "as the image has pixels")
       .at_most(100'000);
   s.field("denoising", &OutcomeSettings::denoising, "How the radiance of pixels is denoised");
   s.field("pixel_offset", &OutcomeSettings::pixel_offset,

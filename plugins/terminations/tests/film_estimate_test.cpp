@@ -61,8 +61,16 @@ TEST_CASE("film estimate: pixels without paths take the radiance of their neighb
   CHECK(map.at({-7, 0}) == 3);
 }
 
+TEST_CASE("film estimate: paths with undefined features count without them") {
+  FilmEstimate film({0, 0, 2, 1});
+  film.add({0.5f, 0.5f}, {4, 1, Rgb(0.5f), {0, 0, 1}});
+  film.add({0.5f, 0.5f}, {2, 1, Rgb(0.5f), {0, 0, NAN}});
+  film.add({0.5f, 0.5f}, {0, 1, Rgb(NAN), {0, 0, 1}});
+  CHECK(film.denoised({.levels = 2}).at({0.5f, 0.5f}) == doctest::Approx(2));
+}
+
 TEST_CASE("image error: the largest errors are left out with their costs") {
-  ImageError error(2);
+  ImageError error(2, 100);
   CHECK(error.squared() == 0);
   for (const double squared : {3.0, 100.0, 1.0, 2.0, 50.0}) error.add(squared, 2 * squared);
   CHECK(error.squared() == doctest::Approx(2));
@@ -70,6 +78,16 @@ TEST_CASE("image error: the largest errors are left out with their costs") {
   error.clear();
   error.add(7, 1);
   CHECK(error.squared() == 0);
+}
+
+TEST_CASE("image error: each pass has as many outliers") {
+  ImageError error(1, 3);
+  for (const double squared : {1.0, 100.0, 2.0, 5.0, 6.0, 70.0}) error.add(squared, squared);
+  CHECK(error.squared() == doctest::Approx((1 + 2 + 5 + 6) / 4.0));
+  error.add(50, 1);  // the only path of its pass
+  CHECK(error.squared() == doctest::Approx((1 + 2 + 5 + 6) / 4.0));
+  error.add(9, 1);
+  CHECK(error.squared() == doctest::Approx((1 + 2 + 5 + 6 + 9) / 5.0));
 }
 
 }  // namespace pharos

@@ -1,5 +1,7 @@
 #include "../outcome_cells.h"
 
+#include <cmath>
+
 #include <doctest/doctest.h>
 
 #include <pharos/core/random.h>
@@ -72,6 +74,16 @@ TEST_CASE("outcome cells: a bin with few steps finds what the same bin of a larg
     CHECK(field.at({x, 0, 0}, {0.1f, 0.1f, 0.99f}).radiance == doctest::Approx(2).epsilon(0.05));
     CHECK(field.at({x, 0, 0}, {0.1f, 0.1f, -0.99f}).radiance < 0.1f);
   }
+}
+
+TEST_CASE("outcome cells: moments that no float can hold are the largest float") {
+  const DirectionBins bins(1);
+  OutcomeCells cells;
+  std::vector<StepOutcome> steps(100, {{}, {0, 0, 1}, 1e30f, 2});
+  cells.learn(steps, {}, [&](OutcomeCell& cell, std::span<const StepOutcome> own, std::size_t) {
+    cell.learn(own, bins);
+  });
+  CHECK(std::isfinite(OutcomeField(cells, bins, 10).at({}, {0, 0, 1}).squared));
 }
 
 TEST_CASE("outcome cells: where nobody has looked, the mean of the scene counts") {

@@ -131,6 +131,41 @@ TEST_CASE("learned terminations: mirrors and the first vertices are left alone")
   }
 }
 
+TEST_CASE("learned terminations: paths of undefined or infinite throughput have bounds, too") {
+  const AdjointTermination by_adjoint({});
+  const EfficiencyTermination by_efficiency({});
+  for (const Termination* termination :
+       std::array<const Termination*, 2>{&by_adjoint, &by_efficiency}) {
+    const auto rule = taught(*termination)->rule();
+    for (const float throughput : {NAN, INFINITY}) {
+      CHECK(rule->factor(at_wall(throughput)) >= 0.05f);
+      CHECK(rule->factor(at_wall(throughput)) <= 20);
+    }
+  }
+}
+
+TEST_CASE("learned terminations: the number of cells has a limit") {
+  const auto size_with = [](std::uint32_t most_cells) {
+    AdjointTermination::Settings settings;
+    settings.cell_steps = 16;
+    settings.most_cells = most_cells;
+    auto state = AdjointTermination(settings).begin(kContext);
+    for (int iteration = 0; iteration < 3; ++iteration) {
+      PathLog log;
+      for (int i = 0; i < 400; ++i) {
+        test::add_path(log, 8, 1, 1, {0.01f * static_cast<float>(i), 0, 1});
+      }
+      state->absorb(log);
+      state->update({.left = 9});
+    }
+    std::stringstream saved;
+    save(saved, *state);
+    return saved.str().size();
+  };
+  CHECK(size_with(1) < size_with(4));
+  CHECK(size_with(4) < size_with(1000));
+}
+
 TEST_CASE("light samples split with the steps where this was learned, and otherwise not at all") {
   const ThroughputTermination throughput({.depth = 1, .limit = 0.5f});
   CHECK(throughput.begin(kContext)->rule()->light_factor(at_wall(1), 0.3f) == 1);
