@@ -82,6 +82,7 @@ void PracticalPathGuidingLearningState::flush() {
       const Record& record = records_[k];
       ++cell.records;
       ++cell.weight;
+      cell.steps += record.steps;
       if (record.value == 0) continue;
       cell.light += record.value;
       if (settings_.directional_filter == DirectionalFilter::box) {
@@ -121,12 +122,13 @@ void PracticalPathGuidingLearningState::conclude(Cell& cell) const {
   // A cell that found no light keeps its density.
   if (cell.learning.total() > 0) {
     cell.known = cell.learning.density(leaf_mass());
-    cell.known_light = static_cast<float>(cell.light / cell.weight);
+    cell.known_light = static_cast<float>(cell.light / cell.steps);
     cell.known_records = static_cast<float>(cell.weight);
     cell.learning = cell.learning.refined(leaf_mass(), refinement(), settings_.memory);
   }
   cell.light *= settings_.memory;
   cell.weight *= settings_.memory;
+  cell.steps *= settings_.memory;
 }
 
 void PracticalPathGuidingLearningState::halve(std::uint32_t leaf, std::uint32_t cell,
@@ -139,6 +141,7 @@ void PracticalPathGuidingLearningState::halve(std::uint32_t leaf, std::uint32_t 
   cells_[cell].records /= 2;
   cells_[cell].light /= 2;
   cells_[cell].weight /= 2;
+  cells_[cell].steps /= 2;
   cells_[cell].learning.scale(0.5);
   ++cells_[cell].level;
   cells_.push_back(cells_[cell]);
@@ -159,7 +162,7 @@ std::shared_ptr<const GuidingModel> PracticalPathGuidingLearningState::model() c
 }
 
 void PracticalPathGuidingLearningState::archive(Archive& archive) {
-  archive.heading("practical_path_guiding_learning", 3);
+  archive.heading("practical_path_guiding_learning", 4);
   archive(tree_, origins_, pixels_, batches_, paths_, records_);
   archive.list(cells_, [&] { return Cell{.box = {}, .learning = QuadTree(refinement())}; });
   if (!archive.loads()) return;
@@ -171,7 +174,7 @@ void PracticalPathGuidingLearningState::archive(Archive& archive) {
     const Cell& cell = cells_[i];
     expect(origins_[i] <= i && cell.level == levels[leaves[i]] && !cell.box.empty() &&
            is_density(cell.known) && cell.records >= 0 && cell.light >= 0 && cell.weight >= 0 &&
-           cell.known_light >= 0 && cell.known_records >= 0);
+           cell.steps >= 0 && cell.known_light >= 0 && cell.known_records >= 0);
   }
 }
 

@@ -35,13 +35,15 @@ class PracticalPathGuidingLearningState final : public LearningState {
     QuadTree learning;   ///< tree that accumulates this iteration and what is kept of earlier ones
     double light = 0;    ///< sum of the values in `learning`
     double weight = 0;   ///< number of the records behind `light`
+    double steps = 0;    ///< number of steps for which these records stand
     /// Density of the last iteration that found light in the cell; empty: nothing known.
     std::vector<QuadNode> known;
-    float known_light = 0;    ///< mean value of the records behind `known`
+    float known_light = 0;    ///< mean value of the steps behind `known`
     float known_records = 0;  ///< number of the records behind `known`
 
     void archive(Archive& archive) {
-      archive(box, level, records, learning, light, weight, known, known_light, known_records);
+      archive(box, level, records, learning, light, weight, steps, known, known_light,
+              known_records);
     }
   };
 

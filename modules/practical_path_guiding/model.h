@@ -21,7 +21,7 @@ class PracticalPathGuidingModel final : public GuidingModel, public RadianceEsti
   /// The learned data of a cell.
   struct Cell {
     std::vector<QuadNode> nodes;  ///< quadtree of the density over directions; empty: nothing known
-    float light = 0;              ///< mean value of the records
+    float light = 0;              ///< mean value of the steps
     float records = 0;            ///< number of records behind the density
     void archive(Archive& archive) { archive(nodes, light, records); }
   };

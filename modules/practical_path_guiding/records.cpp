@@ -29,14 +29,15 @@ void extract_records(const PathView& path, GuidingTarget target, LightHits hits,
     if (!(value >= 0) || !(value < std::numeric_limits<float>::max())) return;
     records.push_back({.position = step.from.position,
                        .direction = warp::square_from_sphere(step.from.direction),
-                       .value = static_cast<float>(value)});
+                       .value = static_cast<float>(value),
+                       .steps = step.from.continuation});
   });
 }
 
 void Record::archive(Archive& archive) {
-  archive(position, direction, value);
+  archive(position, direction, value, steps);
   const auto is_unit = [](float v) { return v >= 0 && v < 1; };
-  archive.expect(is_unit(direction.x) && is_unit(direction.y) && value >= 0,
+  archive.expect(is_unit(direction.x) && is_unit(direction.y) && value >= 0 && steps > 0,
                  "a record of the directional trees");
 }
 

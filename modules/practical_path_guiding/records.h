@@ -30,6 +30,9 @@ struct Record {
   /// x / p for `radiance`, x^2 / p for the other targets, where p [1/sr] is the density of the
   /// direction; 0 if no light arrived
   float value = 0;
+  /// Number of steps for which it stands (RecordedVertex::continuation): more than 1 if it has
+  /// survived Russian roulette, less if the path has split
+  float steps = 1;
   void archive(Archive& archive);
 };
 

@@ -221,7 +221,8 @@ TEST_CASE("halves of a cell have half of its memory each") {
 
 /// Returns paths with one guidable step each. Radiance (1, 2, 6) arrives from all directions within
 /// 60 degrees of +z. Half of the steps are uniform over these directions, half over all directions.
-PathLog cone_paths(int count, std::uint64_t seed) {
+/// Each stands for `steps` steps.
+PathLog cone_paths(int count, std::uint64_t seed, float steps = 1) {
   constexpr float kVersine = 0.5f;  // 1 - cos 60 degrees
   PathLog log;
   RandomStream random(seed);
@@ -238,9 +239,10 @@ PathLog cone_paths(int count, std::uint64_t seed) {
                            .guidable = true,
                            .parent = 0,
                            .throughput = Rgb(1),
-                           .local_weight = Rgb(0.5f),
+                           .local_weight = Rgb(0.5f * steps),
                            .direction = direction,
-                           .pdf = 0.5f * (cone_pdf + warp::sphere_pdf())});
+                           .pdf = 0.5f * (cone_pdf + warp::sphere_pdf()),
+                           .continuation = steps});
     log.add(RecordedVertex{.parent = 1, .emission = is_lit ? Rgb(1, 2, 6) : Rgb()});
   }
   return log;
@@ -264,6 +266,17 @@ TEST_CASE("a model of radiance says how much arrives") {
       CHECK(estimate.incident_radiance(at, {0, 0, -1}) == 0);
       CHECK(estimate.incident_radiance(at, {1, 0, 0}) == 0);
     }
+  }
+}
+
+TEST_CASE("survivors of roulette and branches say the same of how much arrives") {
+  for (const float steps : {0.25f, 4.0f}) {
+    CAPTURE(steps);
+    const auto state = PracticalPathGuidingLearner(small_settings()).begin(context());
+    for (std::uint64_t i = 0; i < 5; ++i) state->absorb(cone_paths(20'000, i, steps));
+    const auto model = state->update({0, 0}).model;
+    CHECK(as_tree(model).incident_radiance({0.5f, 0.5f, 0}, {0, 0, 1}) ==
+          doctest::Approx(3).epsilon(0.12).scale(0));
   }
 }
 

@@ -40,6 +40,7 @@ TEST_CASE("a record says where, whither and what it counts, by target") {
   CHECK(plain.position == Point3{1, 2, 3});
   CHECK(plain.direction == warp::square_from_sphere({0, 0, 1}));
   CHECK(plain.value == doctest::Approx(3 / 0.5));
+  CHECK(plain.steps == 1);
   // The value is x^2 / p with x = f cos L = 0.6.
   const Record product = record_of(lit_path(), GuidingTarget::product, pixels);
   CHECK(product.value == doctest::Approx(0.36 / 0.5));
