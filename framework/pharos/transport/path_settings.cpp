@@ -64,6 +64,10 @@ void PathSettings::check() const {
                          ? "the guides learn, so 'training' belongs under 'guiding'"
                          : "there is 'training', but nothing learns");
   }
+  if (training && training->puts_guides_on_trial()) {
+    throw InputError(
+        "no guide learns, so 'training' cannot have 'tolerance', 'least_gain' or 'least_part'");
+  }
 }
 
 }  // namespace pharos

@@ -149,13 +149,23 @@ TEST_CASE("a path's text names its branches and the end by roulette") {
 TEST_CASE("settings of terminations that contradict each other are refused") {
   class Fixed final : public Termination {
    public:
-    bool learns() const override { return false; }
+    explicit Fixed(bool learns) : learns_(learns) {}
+    bool learns() const override { return learns_; }
     std::unique_ptr<TerminationState> begin(const LearningContext&) const override {
       return std::make_unique<FixedTermination>(nullptr);
     }
+
+   private:
+    bool learns_;
   };
   PathSettings settings;
-  settings.termination = std::make_shared<const Fixed>();
+  settings.termination = std::make_shared<const Fixed>(true);
+  settings.training.emplace();
+  CHECK_NOTHROW(PathIntegrator{settings});
+  settings.training->tolerance = 0.1;
+  CHECK_THROWS_WITH_AS(PathIntegrator{settings}, doctest::Contains("no guide learns"), InputError);
+  settings.training.reset();
+  settings.termination = std::make_shared<const Fixed>(false);
   CHECK_NOTHROW(PathIntegrator{settings});
   settings.training.emplace();
   CHECK_THROWS_WITH_AS(PathIntegrator{settings}, doctest::Contains("nothing learns"), InputError);
