@@ -60,7 +60,9 @@ class TerminationRule {
   /// Returns the factor of the light samples at the vertex, from 0 to kMostFactor [1]: the expected
   /// number of times that lights are sampled there, each weighted by one over this factor. `factor`
   /// is the factor of the steps, as returned by factor() and limited by the integrator. If both are
-  /// equal, lights are sampled once for each step. Rules of the stage `step` are not asked.
+  /// equal, lights are sampled once for each step. A factor of 0 is right only if light samples have
+  /// no value, because the weights of light that steps hit count on them. Rules of the stage `step`
+  /// are not asked.
   virtual float light_factor(const TerminationQuery& /*query*/, float /*factor*/) const {
     return 1;
   }
