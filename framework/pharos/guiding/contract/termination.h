@@ -16,12 +16,13 @@ namespace pharos {
 /// A vertex at which a rule decides how a path goes on. Everything in it is a function of the
 /// prefix of the path.
 struct TerminationQuery {
-  Vec2 film;                   ///< film position of the path [pixels]; zero for paths from lights
-  Point3 position;             ///< of the vertex
-  Vec3 towards_previous;       ///< unit
-  std::uint16_t bounce = 1;    ///< number of the vertex; the first vertex after the lens is 1
-  bool discrete = false;       ///< all events of the vertex are discrete, as at mirrors
-  /// f/p of the path up to the vertex: [1] for paths from the sensor, a power for paths from lights.
+  Vec2 film;                 ///< film position of the path [pixels]; zero for paths from lights
+  Point3 position;           ///< of the vertex
+  Vec3 towards_previous;     ///< unit
+  std::uint16_t bounce = 1;  ///< number of the vertex; the first vertex after the lens is 1
+  bool discrete = false;     ///< all events of the vertex are discrete, as at mirrors
+  /// f/p of the path up to the vertex: [1] for paths from the sensor, a power for paths from
+  /// lights.
   Rgb throughput;
   float first_throughput = 1;  ///< largest component of the throughput after the first step
   /// Product of the factors by which refraction has compressed solid angles so far, inverted. Times
@@ -60,9 +61,9 @@ class TerminationRule {
   /// Returns the factor of the light samples at the vertex, from 0 to kMostFactor [1]: the expected
   /// number of times that lights are sampled there, each weighted by one over this factor. `factor`
   /// is the factor of the steps, as returned by factor() and limited by the integrator. If both are
-  /// equal, lights are sampled once for each step. A factor of 0 is right only if light samples have
-  /// no value, because the weights of light that steps hit count on them. Rules of the stage `step`
-  /// are not asked.
+  /// equal, lights are sampled once for each step. A factor of 0 is right only if light samples
+  /// have no value, because the weights of light that steps hit count on them. Rules of the stage
+  /// `step` are not asked.
   virtual float light_factor(const TerminationQuery& /*query*/, float /*factor*/) const {
     return 1;
   }
