@@ -285,6 +285,15 @@ SampleSums Film::sample_sums(int x, int y) const {
   return {sum.samples, sum.luminance, sum.squared_luminance};
 }
 
+double Film::mean_cost() const {
+  double cost = 0, samples = 0;
+  for (const Pixel& pixel : total_) {
+    cost += pixel.sum.features.cost;
+    samples += pixel.sum.samples;
+  }
+  return samples > 0 ? cost / samples : 0;
+}
+
 Image Film::layers() const {
   std::vector<std::string> names;
   for (const LayerChannels& channels : all_channels()) {

@@ -143,6 +143,9 @@ class Film {
   /// `splitting` and `cost` (means over samples).
   Image layers() const;
   double samples_per_pixel() const { return samples_; }
+  /// Returns the mean number of steps of the paths of all ended passes
+  /// (Features::cost); 0 if there are none.
+  double mean_cost() const;
   /// Returns the sums over all samples of a pixel of the window.
   SampleSums sample_sums(int x, int y) const;
   /// The number of passes that were not cut short.

@@ -186,7 +186,7 @@ class RenderJob::Implementation {
     result_.samples_per_pixel += film.samples_per_pixel();
     spending_.samples += state.done;
     spending_.seconds_per_sample = taken / std::max(state.done, 1u);
-    if (iteration_.training && !is_stopped) update_learning(state.done, taken);
+    if (iteration_.training && !is_stopped) update_learning(state, taken);
   }
 
   void show(const Film& film) const {
@@ -196,14 +196,14 @@ class RenderJob::Implementation {
     control_.on_pass({progress(film.samples_per_pixel()), image});
   }
 
-  /// Updates what is learned after a training iteration of `samples` samples per pixel, which were
-  /// rendered in `taken` seconds.
-  void update_learning(std::uint32_t samples, double taken) {
+  /// Updates what is learned after a training iteration, which was rendered in `taken` seconds.
+  void update_learning(const IterationState& done, double taken) {
     const double start = watch_.seconds();
     IterationCost cost{.spent = schedule_->fraction(result_.samples_per_pixel, seconds())};
     // What a budget of samples renders does not depend on the clock.
     if (config().budget.seconds) {
-      cost.samples = samples;
+      cost.samples = done.done;
+      cost.steps = done.film.mean_cost();
       cost.seconds = taken;
     }
     if (learning_->may_end_training(cost)) {
@@ -214,7 +214,7 @@ class RenderJob::Implementation {
     const TrainingStage stage{iteration_.index, iteration_.training_left};
     units_->on_idle_cores([&] { learning_->update(stage); });
     if (stage.is_last()) spare_logs_.clear();
-    spending_.region_minimum = region_minimum(samples);
+    spending_.region_minimum = region_minimum(done.done);
     spending_.update_seconds = watch_.seconds() - start;
     result_.times.update += spending_.update_seconds;
   }

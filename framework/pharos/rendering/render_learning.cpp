@@ -26,7 +26,9 @@ void RenderLearning::absorb(const PathLog& log) {
   if (termination_ != nullptr) termination_->absorb(log);
 }
 
-bool RenderLearning::may_end_training(const IterationCost& cost) {
+bool RenderLearning::may_end_training(IterationCost cost) {
+  // Without a learned rule, guides alone make paths longer. They pay for it.
+  if (termination_ == nullptr) cost.steps = 1;
   return guiding_ != nullptr && guiding_->may_end_training(cost);
 }
 

@@ -24,9 +24,9 @@ class RenderLearning {
   const TerminationRule* rule() const { return rule_.get(); }
 
   void absorb(const PathLog& log);
-  /// Ends the recording of an iteration. Returns whether training may end; see
-  /// GuideTrial::end_iteration().
-  bool may_end_training(const IterationCost& cost);
+  /// Ends the recording of an iteration. `cost.steps` is the number of steps of its paths, whether
+  /// or not a rule is learned. Returns whether training may end; see GuideTrial::end_iteration().
+  bool may_end_training(IterationCost cost);
   /// Returns the largest share of the budget that the next training iteration is worth [1].
   double worthwhile_share() const;
   /// Ends a training iteration.

@@ -167,6 +167,19 @@ TEST_CASE("merged films are one film") {
   }
 }
 
+TEST_CASE("the mean number of steps is that of all samples of ended passes") {
+  Film film(kSize, kSize, std::make_shared<Box>());
+  CHECK(film.mean_cost() == 0);
+  FilmTile tile = film.make_tile(kAll);
+  tile.add_sample({2.5f, 3.5f}, Rgb(), {.cost = 3});
+  tile.add_sample({4.5f, 3.5f}, Rgb(), {.cost = 8});
+  tile.add_features({4.5f, 1.5f}, {.cost = 4});
+  film.merge(tile);
+  CHECK(film.mean_cost() == 0);
+  film.end_pass(1);
+  CHECK(film.mean_cost() == doctest::Approx(5));
+}
+
 TEST_CASE("selected layers follow the color") {
   Film film(kSize, kSize, std::make_shared<Box>());
   add_pass(film, 2, 1, [](Vec2, RandomStream&) { return Rgb(1); });

@@ -27,11 +27,12 @@ bool GuideTrial::end_iteration(const IterationCost& cost, bool is_guided) {
   has_measured_ = is_guided && gain_.end_iteration();
   // Few paths with light say nothing about guides, and iterations without guides do not either.
   noise_.end_iteration(has_measured_);
+  const double work = cost.samples * cost.steps;
   if (!is_guided) {
-    unguided_samples_ += cost.samples;
+    unguided_work_ += work;
     unguided_seconds_ += cost.seconds;
-  } else if (cost.samples > 0) {
-    guided_seconds_ = cost.seconds / cost.samples;
+  } else if (work > 0) {
+    guided_seconds_ = cost.seconds / work;
   }
   if (!has_measured_) return false;
   ++measurements_;
@@ -48,7 +49,7 @@ bool GuideTrial::is_on_trial() const {
 double GuideTrial::path_cost() const {
   constexpr double kUsual = 1.5;  // 1.0 to 2.9 were measured
   const bool is_measured = guided_seconds_ > 0 && unguided_seconds_ > 0;
-  return is_measured ? guided_seconds_ * unguided_samples_ / unguided_seconds_ : kUsual;
+  return is_measured ? guided_seconds_ * unguided_work_ / unguided_seconds_ : kUsual;
 }
 
 std::optional<double> GuideTrial::noise_in_time() const {

@@ -17,7 +17,8 @@ struct GuideGain {
   double nats = 0;  ///< gain in the last training iteration, see HeldOutGain
   /// Mean squared error of guided images over the error of unguided ones [1], see NoiseRatio.
   std::optional<double> noise_ratio;
-  double path_cost = 1;  ///< time of a guided path over the time of an unguided one [1]
+  double path_cost = 1;  ///< time of a guided path over the time of an unguided one [1]; see
+                         ///< IterationCost::steps
   bool is_off = false;   ///< neither suffices, see TrainingSettings: the image is not guided
 };
 
@@ -25,6 +26,10 @@ struct GuideGain {
 struct IterationCost {
   double spent = 0;    ///< share of the budget that is spent after it [1]
   double samples = 0;  ///< per pixel; 0: not known
+  /// Mean number of steps of a path, if a rule is learned that ends and splits paths; otherwise 1.
+  /// The rule makes guided paths longer or shorter than those of the first iterations, which says
+  /// nothing about guides.
+  double steps = 1;
   double seconds =
       0;  ///< of rendering them. Budgets of samples do not depend on it and leave it 0.
 };
@@ -35,7 +40,8 @@ struct IterationCost {
 /// Let q be the noise ratio times the time of a guided path over the time of an unguided one: in
 /// the same time, guided paths make an image with q times the error. The time is measured by
 /// training iterations with and without guides, or taken as 1.5 if the budget is a number of
-/// samples.
+/// samples. If a rule is learned that ends and splits paths, it is the time of a step: NoiseRatio
+/// compares guided and unguided paths of the same rule.
 ///
 /// Let training have spent the share s of the time, and let its next iteration take the share t. If
 /// training ends, the rest of the time is worth (1 - s) / q times as much as the whole time without
@@ -84,12 +90,12 @@ class GuideTrial {
   std::optional<GuideGain> gain() const;
 
   void archive(Archive& archive) {
-    archive(gain_, noise_, parts_before_, spent_before_, spent_, unguided_samples_,
-            unguided_seconds_, guided_seconds_, has_measured_, measurements_);
+    archive(gain_, noise_, parts_before_, spent_before_, spent_, unguided_work_, unguided_seconds_,
+            guided_seconds_, has_measured_, measurements_);
   }
 
  private:
-  /// Returns the time of a guided path over the time of an unguided one [1].
+  /// Returns the time of a guided path, or step, over the time of an unguided one [1].
   double path_cost() const;
   /// Returns q of an image that is made now; none if the noise ratio is unknown.
   std::optional<double> noise_in_time() const;
@@ -111,11 +117,11 @@ class GuideTrial {
   TrainingSettings settings_;
   HeldOutGain gain_;
   NoiseRatio noise_;
-  std::vector<HeldOutGain::Part> parts_before_;         ///< of the measurement before the last
-  double spent_before_ = 0, spent_ = 0;                 ///< shares of the budget
-  double unguided_samples_ = 0, unguided_seconds_ = 0;  ///< of iterations without guides
-  double guided_seconds_ =
-      0;  ///< for each sample per pixel of the last guided iteration; 0: unknown
+  std::vector<HeldOutGain::Part> parts_before_;  ///< of the measurement before the last
+  double spent_before_ = 0, spent_ = 0;          ///< shares of the budget
+  /// Samples per pixel, times IterationCost::steps, of iterations without guides, and their time.
+  double unguided_work_ = 0, unguided_seconds_ = 0;
+  double guided_seconds_ = 0;       ///< of as much work in the last guided iteration; 0: unknown
   bool has_measured_ = false;       ///< the last iteration has measured the gain
   std::uint32_t measurements_ = 0;  ///< of the gain, in all iterations so far
 };
