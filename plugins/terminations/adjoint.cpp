@@ -7,7 +7,9 @@
 //
 //     v = T Psi / (I + e)
 //
-// times the value of its pixel. The offset e keeps dark pixels from splitting without limit.
+// times the value of its pixel. If guides of the camera choose film positions, T is without the
+// factor with which they have done so: they know which pixels need more paths, and roulette and
+// splitting must not undo it. The offset e keeps dark pixels from splitting without limit.
 // Contributions within a weight window [a, s a], a = 2 / (1 + s), are left alone (sections 4 and 5;
 // the middle of the window is 1). Below the window the path plays roulette, and above it the path
 // splits, so that each branch is on the edge of the window:
@@ -43,7 +45,8 @@ class AdjointRule final : public TerminationRule {
     if (settings_.spares(query)) return 1;
     const float radiance = known_->at(query).radiance;
     if (!(radiance > 0)) return 1;
-    const float contribution = mean(query.throughput) * radiance / known_->scale_at(query.film);
+    const float throughput = mean(query.throughput) / query.film_weight;
+    const float contribution = throughput * radiance / known_->scale_at(query.film);
     return settings_.clamped(weight_window_factor(contribution, settings_.window));
   }
   /// Each step has a light sample of its own, as in what was learned.

@@ -4,8 +4,9 @@
 // Let T be the throughput of a path at a vertex, I the radiance of its pixel, and X the estimate of
 // the radiance that a step from the vertex and its light sample find, of second moment E[X^2],
 // variance V and cost C. Let C_I be the mean cost of a path, and V_I the mean squared error of a
-// path relative to its pixel, (value - I)^2 / (I + e)^2. The best numbers of steps are (sections 4
-// and 5)
+// path relative to its pixel, (value - I)^2 / (I + e)^2. If guides of the camera choose film
+// positions, the factor with which they have done so is part of T, and its square is part of the
+// squared error. The best numbers of steps are (sections 4 and 5)
 //
 //     q_s = T / (I + e) sqrt(V      / C  C_I / V_I)     for splitting,
 //     q_r = T / (I + e) sqrt(E[X^2] / C  C_I / V_I)     for roulette.

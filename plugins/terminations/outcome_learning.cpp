@@ -28,8 +28,8 @@ void OutcomeLearning::learn_path(const PathView& path) {
   film_.add(path.film, {found.radiance, found.paths, path.albedo, path.normal});
   if (learned_ == nullptr) return;
   const double difference = found.radiance / found.paths - learned_->pixels.at(path.film);
-  const double relative = difference / learned_->scale_at(path.film);
-  error_.add(found.paths * relative * relative, found.cost);
+  const double error = found.paths * difference / learned_->scale_at(path.film);
+  error_.add(error * error, found.cost);
 }
 
 void OutcomeLearning::learn_steps() {

@@ -19,10 +19,14 @@ struct Unit {
         sampler(config.sampler->prepare({config.film.width, config.film.height}, {}, nullptr)),
         film(config.film.width, config.film.height, config.film.filter) {}
 
-  WorkResult render(bool record, const GuidingFrame* guides = nullptr) {
+  WorkResult render(bool record, const GuidingFrame* guides = nullptr,
+                    const TerminationRule* rule = nullptr) {
     const PixelRect all{0, 0, config.film.width, config.film.height};
     WorkResult result{.film = film.make_tile(all)};
-    integrator->render({all, 0, 0, 2}, {*sampler, 7, guides, record}, result);
+    integrator->render(
+        {all, 0, 0, 2},
+        {.sampler = *sampler, .seed = 7, .guiding = guides, .record = record, .termination = rule},
+        result);
     return result;
   }
 
@@ -295,6 +299,37 @@ TEST_CASE("records of light samples that split: their numbers, weights and copie
     }
   }
   CHECK(lights / static_cast<double>(firsts) == doctest::Approx(1.5).epsilon(0.02));
+}
+
+/// Splits nothing. Checks that without light or media on the way, the throughput at the first
+/// vertex is the weight of the film position, and that the rest of the path keeps it.
+class FilmWeights final : public TerminationRule {
+ public:
+  float factor(const TerminationQuery& query) const override {
+    if (query.bounce == 1) {
+      weight_ = query.throughput.g;
+      different_ += weight_ != 1 ? 1 : 0;
+    }
+    CHECK(query.film_weight == doctest::Approx(weight_));
+    return 1;
+  }
+  int different() const { return different_; }
+
+ private:
+  mutable float weight_ = 0;
+  mutable int different_ = 0;
+};
+
+TEST_CASE("terminations are told how much more often a guide of the camera chooses a position") {
+  const MadeUpLearning learning("{ learner: stub_camera, guider: stub_camera }");
+  GuidingState state = learning.begin();
+  state.update({0, 0});
+  Unit unit(path_config(kDiffuseScene, 4, "", 2));
+  FilmWeights even, guided;
+  unit.render(false, nullptr, &even);
+  CHECK(even.different() == 0);
+  unit.render(false, state.frame().get(), &guided);
+  CHECK(guided.different() > 100);
 }
 
 TEST_CASE("records have the features of the first surface") {

@@ -118,6 +118,7 @@ class CameraWalk {
     }
     flight.found.features.cost = 1;
     const bool goes = kernel_.advance(path, step, guidance, flight.counterparts);
+    if (flight.found.splat) path.film_weight = path.arrival.unguided / path.arrival.total;
     if (path.bounce == 1) note_features(flight);
     return goes;
   }

@@ -36,6 +36,7 @@ struct Path {
   bool arrived_discretely = true;
 
   float first_throughput = 1;   ///< largest component after the first step, for Russian roulette
+  float film_weight = 1;        ///< part of the throughput; see TerminationQuery
   float solid_angle_scale = 1;  ///< undoes the compression of radiance by refraction so far
 
   PathMemories memories{};  ///< what guides remember along the path

@@ -70,6 +70,7 @@ class TerminationChoice {
             .discrete = scattering.purely_discrete(),
             .throughput = path.throughput,
             .first_throughput = path.first_throughput,
+            .film_weight = path.film_weight,
             .solid_angle_scale = path.solid_angle_scale};
   }
 

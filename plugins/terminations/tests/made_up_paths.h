@@ -1,25 +1,31 @@
 #pragma once
 
+#include <array>
+
 #include <pharos/guiding/record/path_record.h>
 
 namespace pharos::test {
 
 /// Adds a path to a log: lens - wall - light. One step in `branches` from the wall, each weighted
-/// by `continuation`, finds the radiance `found` times 1, 2, 3 …; the wall reflects one half.
+/// by `continuation`, finds the radiance `found` times 1, 2, 3 …; the wall reflects one half. A
+/// guide of the camera has chosen the film position with one over `film_weight` times the density
+/// of even choice.
 inline void add_path(PathLog& log, float found, std::uint32_t branches, float continuation,
-                     Point3 wall = {0, 0, 1}, Vec2 film = {0.5f, 0.5f}) {
+                     Point3 wall = {0, 0, 1}, Vec2 film = {0.5f, 0.5f}, float film_weight = 1) {
   log.begin_path(film, Transport::radiance);
   log.add(RecordedVertex{.kind = VertexKind::sensor,
                          .event = Event::smooth_reflect,
                          .throughput = Rgb(1),
-                         .local_weight = Rgb(1),
-                         .direction = {0, 0, 1}});
+                         .local_weight = Rgb(film_weight),
+                         .direction = {0, 0, 1},
+                         .pdf = 1 / film_weight});
+  log.set_techniques(0, std::array{Technique{0, 1}, Technique{1, 1 / film_weight}});
   for (std::uint32_t i = 0; i < branches; ++i) {
     log.add(RecordedVertex{.position = wall,
                            .event = Event::smooth_reflect,
                            .guidable = true,
                            .parent = 0,
-                           .throughput = Rgb(1),
+                           .throughput = Rgb(film_weight),
                            .local_weight = Rgb(0.5f * continuation),
                            .direction = {0, 0, -1},
                            .pdf = 1,
@@ -28,7 +34,7 @@ inline void add_path(PathLog& log, float found, std::uint32_t branches, float co
   }
   for (std::uint32_t i = 0; i < branches; ++i) {
     log.add(RecordedVertex{.parent = 1 + i,
-                           .throughput = Rgb(0.5f * continuation),
+                           .throughput = Rgb(0.5f * continuation * film_weight),
                            .emission = Rgb(found * static_cast<float>(i + 1))});
   }
 }

@@ -24,12 +24,13 @@ TerminationQuery at_wall(float throughput, std::uint16_t bounce = 6) {
 }
 
 /// Teaches a termination paths that find 8 with one step in four, from a wall that reflects half.
-std::unique_ptr<TerminationState> taught(const Termination& termination) {
+/// `film_weight` is that of all paths.
+std::unique_ptr<TerminationState> taught(const Termination& termination, float film_weight = 1) {
   auto state = termination.begin(kContext);
   PathLog log;
   for (int i = 0; i < 400; ++i) {
     test::add_path(log, i % 4 == 0 ? 8 : 0, 1, 1, {0, 0, 1},
-                   {static_cast<float>(i / 4 % 4) + 0.5f, 0.5f});
+                   {static_cast<float>(i / 4 % 4) + 0.5f, 0.5f}, film_weight);
   }
   for (const std::uint32_t left : {2u, 1u, 0u}) {
     state->absorb(log);
@@ -115,6 +116,36 @@ TEST_CASE("efficiency: the path itself is the fixed point of a single step") {
   settings.pixel_offset = 1e-6;
   const float factor = taught(EfficiencyTermination(settings))->rule()->factor(at_wall(1));
   CHECK(factor == doctest::Approx(std::sqrt(2)).epsilon(0.05));
+}
+
+TEST_CASE("learned terminations: guides of the camera do not change the factors of their paths") {
+  AdjointTermination::Settings adjoint;
+  EfficiencyTermination::Settings efficiency;
+  for (OutcomeSettings* settings : std::array<OutcomeSettings*, 2>{&adjoint, &efficiency}) {
+    settings->outliers = 0;
+    settings->pixel_offset = 1e-6;
+  }
+  const AdjointTermination by_adjoint(adjoint);
+  const EfficiencyTermination by_efficiency(efficiency);
+  for (const Termination* termination :
+       std::array<const Termination*, 2>{&by_adjoint, &by_efficiency}) {
+    const auto even = taught(*termination)->rule();
+    for (const float weight : {0.25f, 4.0f}) {
+      const auto guided = taught(*termination, weight)->rule();
+      for (const float throughput : {0.1f, 1.0f, 4.0f}) {
+        TerminationQuery query = at_wall(throughput * weight);
+        query.film_weight = weight;
+        CHECK(guided->factor(query) == doctest::Approx(even->factor(at_wall(throughput))));
+      }
+    }
+  }
+}
+
+TEST_CASE("adjoint: where the camera is guided, rare pixels do not split more than others") {
+  const auto rule = taught(AdjointTermination({}))->rule();
+  TerminationQuery rare = at_wall(30);
+  rare.film_weight = 30;
+  CHECK(rule->factor(rare) == rule->factor(at_wall(1)));
 }
 
 TEST_CASE("learned terminations: mirrors and the first vertices are left alone") {

@@ -25,6 +25,10 @@ struct TerminationQuery {
   /// lights.
   Rgb throughput;
   float first_throughput = 1;  ///< largest component of the throughput after the first step
+  /// Density of evenly chosen film positions over the density with which the path has got its own
+  /// [1]. It is part of the throughput, and differs from 1 only if guides of the camera choose film
+  /// positions.
+  float film_weight = 1;
   /// Product of the factors by which refraction has compressed solid angles so far, inverted. Times
   /// this number, the throughput shows how much light was lost on the way [1]. It is 1 for rules of
   /// the stage `vertex`.
