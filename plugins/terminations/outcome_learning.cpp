@@ -69,13 +69,17 @@ void OutcomeLearning::make_rule() {
 
 void OutcomeLearning::archive(Archive& archive) {
   archive.heading("outcomes of steps", 3);
-  archive(steps_, cells_, film_, error_, updates_, is_in_use_);
+  archive(steps_, cells_, film_, error_, updates_);
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     const std::size_t bins = cells_[i].bins.size();
     archive.expect(bins == 0 || bins == directions().count(), "what was learned of steps");
   }
+  archive_rule(archive);
+}
+
+void OutcomeLearning::archive_rule(Archive& archive) {
   bool is_known = learned_ != nullptr;
-  archive(is_known);
+  archive(is_in_use_, is_known);
   LearnedOutcomes learned = is_known && !archive.loads()
                                 ? *learned_
                                 : LearnedOutcomes{OutcomeField(directions()), PixelMap(window_)};

@@ -43,6 +43,7 @@ class OutcomeLearning final : public TerminationState {
   void update(const TrainingStage& stage) override;
   std::shared_ptr<const TerminationRule> rule() const override { return rule_; }
   void archive(Archive& archive) override;
+  void archive_rule(Archive& archive) override;
 
  private:
   void learn_path(const PathView& path);

@@ -8,6 +8,7 @@
 #include <pharos/conformance/guided.h>
 #include <pharos/conformance/stage.h>
 #include <pharos/conformance/suites.h>
+#include <pharos/core/saved_bytes.h>
 
 namespace pharos::conformance {
 namespace {
@@ -163,7 +164,7 @@ void check_determinism(const School& school, const TerminationState& state,
                check);
 }
 
-/// Tests that a saved and loaded state has the same rule, and goes on to learn the same.
+/// Tests that a saved and loaded state has the same rule, alone too, and goes on to learn the same.
 void check_save_load(const School& school, TerminationState& state,
                      const std::vector<Question>& questions, Check& check) {
   try {
@@ -172,6 +173,11 @@ void check_save_load(const School& school, TerminationState& state,
     const auto loaded = school.begin();
     load(file, *loaded);
     expect_alike(state, *loaded, questions, "saved and loaded, the rule answers otherwise", check);
+    const auto learner_of_nothing = school.begin();
+    load_bytes(saved_bytes([&](Archive& archive) { state.archive_rule(archive); }),
+               [&](Archive& archive) { learner_of_nothing->archive_rule(archive); });
+    expect_alike(state, *learner_of_nothing, questions,
+                 "saved and loaded alone, the rule answers otherwise", check);
     for (TerminationState* each : {&state, loaded.get()}) school.teach(*each, kIterations - 1);
     expect_alike(state, *loaded, questions, "saved and loaded, the state learns otherwise", check);
   } catch (const Error& e) {

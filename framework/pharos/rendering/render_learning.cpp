@@ -56,7 +56,7 @@ void RenderLearning::archive_frozen(Archive& archive) {
   bool has_guides = frame_ != nullptr;
   archive(has_guides);
   if (has_guides) guiding_->archive_guides(archive);
-  if (termination_ != nullptr) termination_->archive(archive);
+  if (termination_ != nullptr) termination_->archive_rule(archive);
   if (!archive.loads()) return;
   apply();
   if (!has_guides) frame_ = nullptr;

@@ -1,13 +1,16 @@
 // Tests of what a render learns beside its guides.
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include <doctest/doctest.h>
 
+#include <pharos/core/saved_bytes.h>
 #include <pharos/rendering/render_learning.h>
 
 #include "tiny_methods.h"
@@ -16,13 +19,33 @@
 namespace pharos {
 namespace {
 
-/// Learns nothing, but is asked to.
+/// The same factor everywhere.
+class TinyRule final : public TerminationRule {
+ public:
+  explicit TinyRule(float factor) : factor_(factor) {}
+  float factor(const TerminationQuery&) const override { return factor_; }
+
+ private:
+  float factor_;
+};
+
+/// Remembers the size of every log. The number of iterations is the factor.
 class TinyTerminationState final : public TerminationState {
  public:
-  void absorb(const PathLog&) override {}
-  void update(const TrainingStage&) override {}
-  std::shared_ptr<const TerminationRule> rule() const override { return nullptr; }
-  void archive(Archive&) override {}
+  void absorb(const PathLog& log) override { sizes_.push_back(log.size()); }
+  void update(const TrainingStage&) override { ++iterations_; }
+  std::shared_ptr<const TerminationRule> rule() const override {
+    return std::make_shared<const TinyRule>(static_cast<float>(iterations_));
+  }
+  void archive(Archive& archive) override {
+    archive(sizes_);
+    archive_rule(archive);
+  }
+  void archive_rule(Archive& archive) override { archive(iterations_); }
+
+ private:
+  std::vector<std::uint64_t> sizes_;
+  std::uint32_t iterations_ = 0;
 };
 
 class TinyTermination final : public Termination {
@@ -74,6 +97,23 @@ TEST_CASE("render learning: the time of steps counts if a rule is learned, else 
     REQUIRE(gain);
     CHECK(gain->path_cost == doctest::Approx(learns_rule ? 2 : 6));
   }
+}
+
+TEST_CASE("render learning: other processes get the rule, without what it was learned from") {
+  const TinyIntegrator integrator(std::nullopt, true);
+  RenderLearning learning(integrator, {}), other(integrator, {});
+  const auto frozen = [&] {
+    return saved_bytes([&](Archive& archive) { learning.archive_frozen(archive); });
+  };
+  const std::size_t size = frozen().size();
+  for (const std::uint32_t i : {0u, 1u}) {
+    for (int unit = 0; unit < 100; ++unit) learning.absorb({});
+    learning.update({i, 1 - i});
+  }
+  CHECK(frozen().size() == size);
+  load_bytes(frozen(), [&](Archive& archive) { other.archive_frozen(archive); });
+  REQUIRE(other.rule() != nullptr);
+  CHECK(other.rule()->factor({}) == 2);
 }
 
 }  // namespace pharos

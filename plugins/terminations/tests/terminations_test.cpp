@@ -1,8 +1,11 @@
 #include <array>
 #include <cmath>
 #include <sstream>
+#include <string>
 
 #include <doctest/doctest.h>
+
+#include <pharos/core/saved_bytes.h>
 
 #include "../adjoint.h"
 #include "../efficiency.h"
@@ -231,6 +234,31 @@ TEST_CASE("learned terminations: without light, roulette by throughput stays") {
   state->absorb(log);
   state->update({});
   CHECK(state->rule()->stage() == TerminationRule::Stage::step);
+}
+
+TEST_CASE("learned terminations: the saved rule is small and has the same factors") {
+  constexpr PixelRect kWindow{0, 0, 64, 64};
+  const LearningContext context{.seed = 3, .window = kWindow};
+  const EfficiencyTermination termination({});
+  auto state = termination.begin(context);
+  PathLog log;
+  for (int i = 0; i < 2000; ++i) test::add_path(log, i % 4 == 0 ? 8 : 0, 1, 1);
+  for (const std::uint32_t left : {2u, 1u, 0u}) {
+    state->absorb(log);
+    state->update({.left = left});
+  }
+  state->absorb(log);
+  const std::string rule = saved_bytes([&](Archive& archive) { state->archive_rule(archive); });
+  const std::string all = saved_bytes([&](Archive& archive) { state->archive(archive); });
+  CHECK(rule.size() < kWindow.area() * sizeof(float) + 1000);
+  CHECK(all.size() > 5 * rule.size());
+  auto loaded = termination.begin(context);
+  load_bytes(rule, [&](Archive& archive) { loaded->archive_rule(archive); });
+  REQUIRE(loaded->rule()->stage() == TerminationRule::Stage::vertex);
+  for (const float throughput : {0.3f, 1.0f, 3.0f}) {
+    CHECK(loaded->rule()->factor(at_wall(throughput)) ==
+          state->rule()->factor(at_wall(throughput)));
+  }
 }
 
 TEST_CASE("learned terminations: a saved state goes on as the state does") {

@@ -87,6 +87,10 @@ class TerminationState {
   virtual std::shared_ptr<const TerminationRule> rule() const = 0;
   /// Saves the state, or loads it into a state that Termination::begin() made for the same render.
   virtual void archive(Archive& archive) = 0;
+  /// Saves what rule() depends on, or loads it into a state that Termination::begin() made for the
+  /// same render and that learns no more. Other processes of a render get it before each iteration,
+  /// so it should be small. By default, it is the whole state.
+  virtual void archive_rule(Archive& archive) { this->archive(archive); }
 };
 
 /// Contract: where paths end by Russian roulette, and where they split.
