@@ -358,6 +358,23 @@ TEST_CASE("recording changes nothing") {
   }
 }
 
+TEST_CASE("records of a unit have a limit, which changes nothing else") {
+  const std::string config = with_factor(path_config(kDiffuseScene, 4, "", 2), 2.5);
+  const std::string path = "type: path\n";
+  std::string limited = config;
+  limited.insert(config.find(path) + path.size(), "  most_records: 5000\n");
+  const Rendered all(config), first(limited);
+  CHECK(all.result.log.size() == 2u * 32 * 32);
+  REQUIRE(first.result.log.size() > 10);
+  CHECK(first.result.log.size() < all.result.log.size() / 2);
+  CHECK(first.mean == all.mean);
+  std::size_t records = 0;
+  for (std::size_t i = 0; i + 1 < first.result.log.size(); ++i) {
+    records += first.result.log[i].vertices.size() + first.result.log[i].light_samples.size();
+  }
+  CHECK(records < 5000);
+}
+
 TEST_CASE("incident radiance follows branches") {
   PathLog log;
   log.begin_path({}, Transport::radiance);

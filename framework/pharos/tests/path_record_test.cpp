@@ -364,6 +364,23 @@ TEST_CASE("path logs: a loaded log goes on") {
   for (std::size_t i = 0; i < copy.size(); ++i) check_equal(original[i], copy[i]);
 }
 
+TEST_CASE("path logs: no path begins in a full log") {
+  PathLog log;
+  log.set_most_records(6);
+  CHECK(log.begin_path({}, Transport::radiance));
+  for (int i = 0; i < 3; ++i) log.add(RecordedVertex{});
+  for (int i = 0; i < 2; ++i) log.add(RecordedLightSample{.vertex = 1});
+  CHECK(log.begin_path({}, Transport::radiance));  // there are five records
+  for (int i = 0; i < 20; ++i) log.add(RecordedVertex{.throughput = Rgb(1)});
+  CHECK_FALSE(log.begin_path({}, Transport::radiance));
+  log.blacken_last_path();  // which was left out
+  REQUIRE(log.size() == 2);
+  CHECK(log[1].vertices.size() == 20);
+  CHECK(log[1].vertices[0].throughput == Rgb(1));
+  log.clear();
+  CHECK(log.begin_path({}, Transport::radiance));
+}
+
 TEST_CASE("path logs: cut off anywhere, they are refused") {
   const std::string bytes = saved(example());
   for (std::size_t size = 0; size < bytes.size(); ++size) {

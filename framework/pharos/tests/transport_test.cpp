@@ -7,6 +7,7 @@
 
 #include <pharos/conformance/guide_stage.h>
 #include <pharos/conformance/guided.h>
+#include <pharos/tests/fixtures.h>
 #include <pharos/transport/counterparts.h>
 #include <pharos/transport/light_walk.h>
 #include <pharos/transport/path_loop.h>
@@ -131,6 +132,42 @@ TEST_CASE("a path has at most as many branches as the settings allow") {
     CHECK((branches > 0) == (most > 0));
   }
   CHECK(branches_of(stage, Factor(0.7f)) == 0);
+}
+
+TEST_CASE("paths of a unit are recorded until its log is full, and traced in any case") {
+  Stage stage;
+  stage.settings.most_branches = 20;
+  const Factor rule(2.5f);
+  stage.shared.termination = &rule;
+  constexpr std::size_t kMost = 2000;
+  PathLog all, first;
+  first.set_most_records(kMost);
+  const auto record = [&](PathLog& log) {
+    LogRecorder recorder(log);
+    const CameraWalk<LogRecorder> walk(stage.shared, stage.context, stage.arenas, stage.counters,
+                                       recorder);
+    std::vector<Rgb> found;
+    for (int i = 0; i < kEdge * kEdge; ++i) {
+      found.push_back(walk.run(stage.stream(i), stage.settings.max_depth).radiance);
+    }
+    return found;
+  };
+  CHECK(record(all) == record(first));
+  REQUIRE(first.size() > 1);
+  CHECK(first.size() < all.size());
+  std::size_t before_last = 0;
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    CHECK(first[i].film == all[i].film);
+    CHECK(first[i].vertices.size() == all[i].vertices.size());
+    CHECK(first[i].light_samples.size() == all[i].light_samples.size());
+    if (i + 1 == first.size()) break;
+    before_last += first[i].vertices.size() + first[i].light_samples.size();
+  }
+  CHECK(before_last < kMost);
+  // Logs are saved as they lie in memory.
+  const PathView last = first[first.size() - 1];
+  const std::size_t records = before_last + last.vertices.size() + last.light_samples.size();
+  CHECK(test::saved(first).size() < 200 * records);
 }
 
 TEST_CASE("branches take nothing from the heap once a work unit has served its largest path") {

@@ -35,6 +35,10 @@ void PathSettings::describe(Schema<PathSettings>& s) {
        "most_branches", &PathSettings::most_branches,
        "Largest number of branches that may split off a path; beyond it, the path does not split")
       .at_most(100'000);
+  s.field("most_records", &PathSettings::most_records,
+          "Number of recorded vertices and light samples of a work unit from which on its further "
+          "paths are not recorded, which limits the memory")
+      .at_least(1);
   s.field("guiding", &PathSettings::guiding, "Path guiding: what is learned and how it is used");
   s.field(
       "training", &PathSettings::training,

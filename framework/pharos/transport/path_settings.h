@@ -47,6 +47,9 @@ struct PathSettings {
   float roulette_limit = 0.95f;
   Ref<Termination> termination;  ///< null: as the settings of roulette say
   std::uint32_t most_branches = 1000;
+  /// Limit of the vertices and light samples in the log of a work unit; see
+  /// PathLog::set_most_records(). The unit has 4,096 paths if its tile has the default size.
+  std::uint32_t most_records = 1'000'000;
   std::optional<GuidingSettings> guiding;
   std::optional<TrainingSettings> training;
 

@@ -17,6 +17,7 @@ class PreparedPath : public PreparedIntegrator {
 
   void render(const WorkUnit& unit, const IterationContext& context,
               WorkResult& result) const override {
+    result.log.set_most_records(settings_.most_records);
     with_recorder(context, result,
                   [&](auto& recorder) { render_unit(unit, context, recorder, result); });
   }

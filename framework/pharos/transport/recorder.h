@@ -62,20 +62,25 @@ struct SilentRecorder {
   void contribute(Vec2 /*film*/, Rgb /*contribution*/) {}
 };
 
-/// Writes paths into a PathLog, one after another. Its only state of a path in flight is
-/// Path::record, so that branches of a path can be recorded in turn.
+/// Writes paths into a PathLog, one after another, until the log is full. Its only state of a path
+/// in flight is Path::record, so that branches of a path can be recorded in turn.
 class LogRecorder {
  public:
   static constexpr bool kRecords = true;
   explicit LogRecorder(PathLog& log) : log_(log) {}
 
   void begin(Path& path, Vec2 film) {
-    log_.begin_path(film, path.transport);
+    is_on_ = log_.begin_path(film, path.transport);
     path.record = kNoVertex;
   }
-  void film(Vec2 film) { log_.set_film(film); }
-  void features(Rgb albedo, Vec3 normal) { log_.set_features(albedo, normal); }
+  void film(Vec2 film) {
+    if (is_on_) log_.set_film(film);
+  }
+  void features(Rgb albedo, Vec3 normal) {
+    if (is_on_) log_.set_features(albedo, normal);
+  }
   void arrive(Path& path) {
+    if (!is_on_) return;
     path.record = log_.add_after(path.record);
     RecordedVertex& here = log_.vertex(path.record);
     here.position = path.current.position;
@@ -85,12 +90,14 @@ class LogRecorder {
     here.branch = path.branch;
   }
   void emission(const Path& path, Rgb radiance, PathWeight weight) {
+    if (!is_on_) return;
     RecordedVertex& here = log_.vertex(path.record);
     here.emission += weight.own_end * radiance;
     here.joint_emission += weight.both_ends * radiance;
     here.unguided_emission += weight.unguided * radiance;
   }
   void leave(const Path& path, const LocalScattering& scattering, const Guidance& guidance) {
+    if (!is_on_) return;
     RecordedVertex& here = log_.vertex(path.record);
     here.roughness = path.current.roughness;
     if (scattering.is_surface()) here.eta = scattering.bsdf().relative_ior();
@@ -98,10 +105,11 @@ class LogRecorder {
     here.mixing_key = guidance.mixing_key;
   }
   void weigh(const Path& path, float continuation) {
-    log_.vertex(path.record).continuation = continuation;
+    if (is_on_) log_.vertex(path.record).continuation = continuation;
   }
   /// Records the vertex once more, without the light that was found there.
   void split(const Path& trunk, Path& branch) {
+    if (!is_on_) return;
     const RecordedVertex first = log_.vertex(trunk.record);
     branch.record = log_.add_after(first.parent);
     RecordedVertex& twin = log_.vertex(branch.record);
@@ -117,9 +125,10 @@ class LogRecorder {
     twin.branch = branch.branch;
   }
   void lights(const Path& path, std::uint32_t count) {
-    log_.vertex(path.record).light_samples = count;
+    if (is_on_) log_.vertex(path.record).light_samples = count;
   }
   void connect(const Path& path, const Connection& end, PathWeight weight, Rgb value) {
+    if (!is_on_) return;
     log_.add(RecordedLightSample{.vertex = path.record,
                                  .position = end.position,
                                  .kind = end.kind,
@@ -135,6 +144,7 @@ class LogRecorder {
   }
   void step(const Path& path, const ScatterStep& step, const Guidance& guidance, Rgb weight,
             const ResolvedVertex& target, Rgb transmittance) {
+    if (!is_on_) return;
     RecordedVertex& here = log_.vertex(path.record);
     here.event = step.event;
     here.direction = step.direction;
@@ -153,6 +163,7 @@ class LogRecorder {
 
  private:
   PathLog& log_;
+  bool is_on_ = true;  ///< the log takes the path that began last
 };
 
 }  // namespace pharos

@@ -36,8 +36,10 @@ PathView PathLog::operator[](std::size_t i) const {
           .log_techniques = techniques_};
 }
 
-void PathLog::begin_path(Vec2 film, Transport transport) {
-  paths_.push_back({vertices_.size(), light_samples_.size(), film, transport});
+bool PathLog::begin_path(Vec2 film, Transport transport) {
+  has_last_path_ = vertices_.size() + light_samples_.size() < most_records_;
+  if (has_last_path_) paths_.push_back({vertices_.size(), light_samples_.size(), film, transport});
+  return has_last_path_;
 }
 
 std::uint32_t PathLog::add(const RecordedVertex& added) {
@@ -65,6 +67,7 @@ void PathLog::set_techniques(std::uint32_t index, std::span<const Technique> tec
 }
 
 void PathLog::blacken_last_path() {
+  if (!has_last_path_) return;
   for (std::size_t i = paths_.back().first_vertex; i < vertices_.size(); ++i) {
     vertices_[i].throughput = vertices_[i].local_weight = Rgb();
     vertices_[i].emission = vertices_[i].joint_emission = vertices_[i].unguided_emission = Rgb();
@@ -77,6 +80,7 @@ void PathLog::clear() {
   vertices_.clear();
   light_samples_.clear();
   techniques_.clear();
+  has_last_path_ = false;
 }
 
 void PathLog::archive(Archive& archive) {
@@ -85,6 +89,7 @@ void PathLog::archive(Archive& archive) {
   archive.block(vertices_);
   archive.block(light_samples_);
   archive.block(techniques_);
+  if (archive.loads()) has_last_path_ = !paths_.empty();
   // Refuses a damaged log whose indices lead outside it.
   const auto expect = [&](bool holds) { archive.expect(holds, "the path log"); };
   for (std::size_t i = 0; archive.loads() && i < paths_.size(); ++i) {

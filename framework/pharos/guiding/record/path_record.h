@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -121,7 +123,13 @@ class PathLog {
   std::size_t size() const { return paths_.size(); }
   PathView operator[](std::size_t i) const;
 
-  void begin_path(Vec2 film, Transport transport);
+  /// Limits the memory of the log: no path begins in it any more once it has `most` vertices and
+  /// light samples, so it has at most those of another path above. clear() keeps the limit.
+  void set_most_records(std::size_t most) { most_records_ = most; }
+  /// Begins a path. Returns false if the log is full. The path is left out then, and nothing may be
+  /// added before the next path begins. Whether a path is left out depends on the paths before it
+  /// alone, so the mean over the paths of a pixel that are not left out is unbiased.
+  bool begin_path(Vec2 film, Transport transport);
   /// Adds a vertex to the last path, after its parent. Returns the index of the vertex within the
   /// path.
   std::uint32_t add(const RecordedVertex& vertex);
@@ -131,7 +139,8 @@ class PathLog {
   /// Records the techniques that could have drawn the step from a vertex of the last path; see
   /// PathView::techniques().
   void set_techniques(std::uint32_t vertex, std::span<const Technique> techniques);
-  /// Sets the value of the last path to zero, because it was NaN or infinite.
+  /// Sets the value of the last path to zero, because it was NaN or infinite. Nothing happens if
+  /// the path was left out.
   void blacken_last_path();
   /// Sets the film position [pixels] of the last path, once it is known.
   void set_film(Vec2 film) { paths_.back().film = film; }
@@ -160,6 +169,8 @@ class PathLog {
   std::vector<RecordedVertex> vertices_;
   std::vector<RecordedLightSample> light_samples_;
   std::vector<Technique> techniques_;
+  std::size_t most_records_ = std::numeric_limits<std::size_t>::max();
+  bool has_last_path_ = false;  ///< the path that began last is not left out
 };
 
 /// The set of sampling techniques over which MIS weights sum to one.
