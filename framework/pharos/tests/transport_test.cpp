@@ -139,7 +139,7 @@ TEST_CASE("paths of a unit are recorded until its log is full, and traced in any
   stage.settings.most_branches = 20;
   const Factor rule(2.5f);
   stage.shared.termination = &rule;
-  constexpr std::size_t kMost = 2000;
+  constexpr std::size_t kMost = 1000;
   PathLog all, first;
   first.set_most_records(kMost);
   const auto record = [&](PathLog& log) {
