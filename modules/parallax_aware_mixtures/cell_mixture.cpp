@@ -122,7 +122,7 @@ class CellUpdate {
   }
 
   AimedSample aim(const Sample& sample) const {
-    AimedSample aimed{sample.direction, 0, sample.weight, sample.pdf};
+    AimedSample aimed{sample.direction, 0, sample.weight, sample.pdf, sample.steps};
     if (!settings_.parallax) return aimed;
     const PlacedLobe there{{1, to_vector(sample.direction), 0}, sample.inverse_distance};
     const PlacedLobe here = there.seen_from(cell_.pivot_ - to_vector(sample.origin));

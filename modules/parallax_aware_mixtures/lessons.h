@@ -18,7 +18,7 @@ class ParallaxAwareMixturesLessons {
   using Sample = parallax_aware_mixtures::Sample;
   using Cell = CellMixture;
   static constexpr const char* kHeading = "parallax_aware_mixtures_learning";
-  static constexpr std::uint32_t kVersion = 1;
+  static constexpr std::uint32_t kVersion = 2;
 
   ParallaxAwareMixturesLessons(const ParallaxAwareMixturesSettings& settings,
                                const LearningContext& context)

@@ -108,8 +108,9 @@ void assess_part(std::span<const TestLobes8> lobes, std::span<const AimedSample>
       total8 += lobes[g].weight * densities[g];
     }
     const float total = sum(total8), q = total + scale.least_density;
-    const float difference = sample.weight * sample.pdf * scale.over_light / q - 1;
-    const float factor = difference * difference / sample.pdf;
+    const float step_weight = sample.weight / sample.steps;
+    const float difference = step_weight * sample.pdf * scale.over_light / q - 1;
+    const float factor = sample.steps * difference * difference / sample.pdf;
     const float over_total = total > 0 ? 1 / total : 0;
     for (std::size_t g = 0; g < lobes.size(); ++g) {
       sums[g].add(lobes[g], sample, densities[g], factor, over_total);
@@ -194,9 +195,11 @@ Assessment& Assessment::operator*=(double factor) {
 
 std::vector<Assessment> assess(const Mixture& mixture, std::span<const AimedSample> samples,
                                float least_density) {
-  double light = 0;
-  for (const AimedSample& s : samples) light += s.weight;
-  const auto count = static_cast<double>(samples.size());
+  double light = 0, count = 0;
+  for (const AimedSample& s : samples) {
+    light += s.weight;
+    count += s.steps;
+  }
   std::vector<Assessment> all(mixture.size(), {.samples = count});
   if (!(light > 0)) return all;
   const Scale scale{static_cast<float>(count / light), least_density};

@@ -38,11 +38,12 @@ struct AimedSample {
   float inverse_distance = 0;
   float weight = 0;  ///< as in Sample
   float pdf = 0;     ///< as in Sample
+  float steps = 1;   ///< as in Sample
 };
 
 /// The statistics of one lobe over samples. Assessments can be added.
 struct Assessment {
-  double samples = 0;
+  double samples = 0;         ///< number of steps for which they count
   double divergence_sum = 0;  ///< see divergence()
   double weight = 0;          ///< sum of the samples' weights, by responsibility
   /// Weighted second moments of the samples in the plane across the mean, in world space.
@@ -55,11 +56,11 @@ struct Assessment {
 
   /// Returns the lobe's part of the Pearson chi-square divergence:
   ///
-  ///     D_k = 1/N sum_n p_k v_k(w_n) (f_n / q_n - 1)^2 / p(w_n)
+  ///     D_k = 1/N sum_n s_n p_k v_k(w_n) (f_n / q_n - 1)^2 / p(w_n),   N = sum_n s_n,
   ///
-  /// where q is the mixture's density and f is the normalized density of the incident light
-  /// (Ruppert et al. 2020, eq. 24). The integral of the light that normalizes f is estimated from
-  /// the same samples. Samples without light count.
+  /// where sample n counts for s_n steps, q is the mixture's density and f is the normalized
+  /// density of the incident light (Ruppert et al. 2020, eq. 24). The integral of the light that
+  /// normalizes f is estimated from the same samples. Samples without light count.
   double divergence() const { return samples > 0 ? divergence_sum / samples : 0; }
   /// Returns the tangential axis of largest variance about `mean`, with the length of half a
   /// standard deviation. Returns nothing if the samples do not determine it.

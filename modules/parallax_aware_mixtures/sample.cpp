@@ -21,13 +21,14 @@ void extract_samples(const PathView& path, const SampleRule& rule, PathScratch& 
                        .direction = step.from.direction,
                        .inverse_distance = inverse,
                        .weight = weight,
-                       .pdf = pdf});
+                       .pdf = pdf,
+                       .steps = step.from.continuation});
   });
 }
 
 void Sample::archive(Archive& archive) {
-  archive(origin, direction, inverse_distance, weight, pdf);
-  archive.expect(weight >= 0 && pdf > 0 && inverse_distance >= 0 &&
+  archive(origin, direction, inverse_distance, weight, pdf, steps);
+  archive.expect(weight >= 0 && pdf > 0 && steps > 0 && inverse_distance >= 0 &&
                      std::abs(length_squared(direction) - 1) < 1e-3f,
                  "a sample of the von Mises-Fisher mixtures");
 }

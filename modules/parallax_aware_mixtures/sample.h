@@ -12,8 +12,11 @@ struct Sample {
   Point3 origin;
   Vec3 direction;              ///< unit
   float inverse_distance = 0;  ///< to the light or its image [1/scene unit]; 0: infinitely far
-  float weight = 0;            ///< L / p, mean of the channels; 0 if no light arrived
-  float pdf = 0;               ///< density of the direction, > 0 [1/sr]
+  float weight = 0;  ///< L / p, mean of the channels, times `steps`; 0 if no light arrived
+  float pdf = 0;     ///< density of the direction, > 0 [1/sr]
+  /// Number of steps for which it counts, > 0 [1]: one over the probability that a path survives
+  /// roulette, or over the expected number of branches.
+  float steps = 1;
 
   void archive(Archive& archive);
 };

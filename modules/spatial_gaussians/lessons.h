@@ -18,7 +18,7 @@ class SpatialGaussiansLessons {
   using Sample = spatial_gaussians::Sample;
   using Cell = CellMixture;
   static constexpr const char* kHeading = "spatial_gaussians_learning";
-  static constexpr std::uint32_t kVersion = 2;
+  static constexpr std::uint32_t kVersion = 3;
 
   SpatialGaussiansLessons(const SpatialGaussiansSettings& settings, const LearningContext& context);
 

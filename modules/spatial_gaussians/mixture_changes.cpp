@@ -30,7 +30,8 @@ double overlap(const Gaussian3& i, const Gaussian3& j, const Gaussian3& whole) {
   return std::sqrt(determinants) * std::exp(-0.5 * s);
 }
 
-/// Eight samples as a structure of arrays. Missing samples are copies of the last one and count 0.
+/// Eight samples as a structure of arrays. Missing samples are copies of the last one and count for
+/// no step.
 struct Samples8 {
   Samples8(std::span<const Sample> samples, std::size_t first, const Vector<3>& pivot) {
     for (std::size_t i = 0; i < 8; ++i) {
@@ -40,12 +41,13 @@ struct Samples8 {
         origin[axis][i] = static_cast<float>(s.origin[axis] - pivot[axis]);
         omega[axis][i] = direction[axis];
       }
-      counts[i] = first + i < samples.size() ? 1.0f : 0.0f;
+      steps[i] = first + i < samples.size() ? s.steps : 0.0f;
       pdf[i] = s.pdf;
-      weight[i] = s.weight;
+      weight[i] = s.weight / s.steps;
     }
   }
-  Float8 origin[3], omega[3], pdf, weight, counts;
+  Float8 origin[3], omega[3], pdf, steps;
+  Float8 weight;  ///< of each of the steps
 };
 
 /// A component in single precision, relative to the pivot.
@@ -95,7 +97,7 @@ struct TestScale {
   float least_density;  ///< [1/sr]
 };
 
-/// Returns for each component k the sum of p_k N_k (f / q - 1)^2 / p over the samples.
+/// Returns for each component k the sum of s p_k N_k (f / q - 1)^2 / p over the samples.
 std::vector<double> sums_of_part(const std::vector<Component>& components, const Vector<3>& pivot,
                                  std::span<const Sample> samples, const TestScale& scale) {
   std::vector<double> sums(components.size());
@@ -108,7 +110,7 @@ std::vector<double> sums_of_part(const std::vector<Component>& components, const
       q += densities[k];
     }
     const Float8 difference = eight.weight * eight.pdf * scale.over_light / q - 1;
-    const Float8 factor = eight.counts * difference * difference / eight.pdf;
+    const Float8 factor = eight.steps * difference * difference / eight.pdf;
     for (std::size_t k = 0; k < components.size(); ++k) {
       const float sum_of_eight = sum(densities[k] * factor);
       if (std::isfinite(sum_of_eight)) sums[k] += sum_of_eight;  // else float overflow
@@ -132,9 +134,11 @@ double merge_cost(double weight_i, const Gaussian3& i, double weight_j, const Ga
 
 std::vector<DirectionTest> test_directions(const Mixture& mixture, const Vector<3>& pivot,
                                            std::span<const Sample> samples, float least_density) {
-  double light = 0;
-  for (const Sample& s : samples) light += s.weight;
-  const auto count = static_cast<double>(samples.size());
+  double light = 0, count = 0;
+  for (const Sample& s : samples) {
+    light += s.weight;
+    count += s.steps;
+  }
   std::vector<DirectionTest> tests(mixture.size(), {0, count});
   if (!(light > 0)) return tests;
   const auto over_light = static_cast<float>(count / light);

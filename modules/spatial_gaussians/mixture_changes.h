@@ -26,16 +26,16 @@ double merge_cost(double weight_i, const Gaussian3& i, double weight_j, const Ga
 /// The Pearson chi-square test of a mixture, over the directions of samples. For each component it
 /// estimates
 ///
-///     D_k = 1/N sum_n p_k N_k(w_n) (f_n / q_n - 1)^2 / p(w_n),
+///     D_k = 1/N sum_n s_n p_k N_k(w_n) (f_n / q_n - 1)^2 / p(w_n),   N = sum_n s_n,
 ///
-/// where q is the mixture's directional density at the sample's own origin, and f is the normalized
-/// density of the incident light (Ruppert et al. 2020, eq. 24). The integral of the light that
-/// normalizes f is estimated from the same samples. Samples without light count. `least_density`
-/// [1/sr] is added to q: a direction that the mixture leaves out matters only as far as unguided
-/// sampling does not find it.
+/// where sample n counts for s_n steps, q is the mixture's directional density at the sample's own
+/// origin, and f is the normalized density of the incident light (Ruppert et al. 2020, eq. 24). The
+/// integral of the light that normalizes f is estimated from the same samples. Samples without
+/// light count. `least_density` [1/sr] is added to q: a direction that the mixture leaves out
+/// matters only as far as unguided sampling does not find it.
 struct DirectionTest {
   double sum = 0;      ///< N D_k
-  double samples = 0;  ///< N
+  double samples = 0;  ///< N [steps]
 
   void archive(Archive& archive) { archive(sum, samples); }
   double divergence() const { return samples > 0 ? sum / samples : 0; }

@@ -19,13 +19,17 @@ void extract_samples(const PathView& path, const SampleRule& rule, std::vector<R
         escapes ? origin + rule.environment_distance * step.from.direction : step.to.position;
     // The points are so close that rounding leaves no direction.
     if (!(length_squared(target - origin) > 0)) return;
-    samples.push_back({.origin = origin, .target = target, .weight = weight, .pdf = pdf});
+    samples.push_back({.origin = origin,
+                       .target = target,
+                       .weight = weight,
+                       .pdf = pdf,
+                       .steps = step.from.continuation});
   });
 }
 
 void Sample::archive(Archive& archive) {
-  archive(origin, target, weight, pdf);
-  archive.expect(weight >= 0 && pdf > 0 && length_squared(target - origin) > 0,
+  archive(origin, target, weight, pdf, steps);
+  archive.expect(weight >= 0 && pdf > 0 && steps > 0 && length_squared(target - origin) > 0,
                  "a sample of the Gaussians");
 }
 

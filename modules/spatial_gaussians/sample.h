@@ -12,9 +12,12 @@ struct Sample {
   Point3 origin;
   Point3 target;  ///< the next vertex; for the environment, a point far outside the scene
   /// L / p: radiance along the step divided by the density of its direction, and in a medium also
-  /// by the density of its length. Mean of the channels; 0 if no light arrived.
+  /// by the density of its length. Mean of the channels, times `steps`; 0 if no light arrived.
   float weight = 0;
   float pdf = 0;  ///< density of the direction, > 0 [1/sr]
+  /// Number of steps for which it counts, > 0 [1]: one over the probability that a path survives
+  /// roulette, or over the expected number of branches. It is part of `weight`.
+  float steps = 1;
 
   void archive(Archive& archive);
 };

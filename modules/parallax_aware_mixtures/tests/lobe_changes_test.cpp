@@ -102,6 +102,29 @@ TEST_CASE("a mixture that is right has no divergence, one that is wrong has wher
   }
 }
 
+TEST_CASE("a sample that counts for several steps is assessed as so many samples") {
+  RandomStream random(5);
+  const Mixture light = any_mixture(3, 1, 8, random);
+  const std::vector<AimedSample> found = samples_of(light, 5'000, 6);
+  std::vector<AimedSample> plain, mixed;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    AimedSample sample = found[i];
+    if (i % 3 == 0) sample.weight = 0;
+    // A path splits in four, or survives in place of two.
+    const bool splits = i % 2 == 0;
+    plain.insert(plain.end(), splits ? 1 : 2, sample);
+    sample.steps = splits ? 0.25f : 2;
+    sample.weight *= sample.steps;
+    mixed.insert(mixed.end(), splits ? 4 : 1, sample);
+  }
+  const std::vector<Assessment> a = assess(light, plain, 1e-6f), b = assess(light, mixed, 1e-6f);
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    CHECK(b[k].samples == doctest::Approx(a[k].samples));
+    CHECK(b[k].divergence() == doctest::Approx(a[k].divergence()).epsilon(1e-3));
+    CHECK(b[k].weight == doctest::Approx(a[k].weight).epsilon(1e-3));
+  }
+}
+
 TEST_CASE("the axis to split along is that of largest spread, half a standard deviation long") {
   // Two spots side by side along x, seen by one lobe.
   std::vector<AimedSample> samples;

@@ -136,6 +136,28 @@ TEST_CASE("samples that find nothing count") {
   CHECK(all < 0.02);
 }
 
+TEST_CASE("a sample that counts for several steps is tested as so many samples") {
+  RandomStream random(7);
+  const SpatialGaussian g = oriented_gaussian({0, 0, 2}, {1, 0.7f, 0.9f}, random);
+  const Mixture mixture{{1}, {to_gaussian(g)}};
+  const std::vector<Sample> found = uniform_samples({g}, 6'000, 8);
+  std::vector<Sample> plain, mixed;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    Sample sample = found[i];
+    if (i % 3 == 0) sample.weight = 0;
+    // A path splits in four, or survives in place of two.
+    const bool splits = i % 2 == 0;
+    plain.insert(plain.end(), splits ? 1 : 2, sample);
+    sample.steps = splits ? 0.25f : 2;
+    sample.weight *= sample.steps;
+    mixed.insert(mixed.end(), splits ? 4 : 1, sample);
+  }
+  const auto a = test_directions(mixture, Vector<3>::Zero(), plain, kLeast)[0];
+  const auto b = test_directions(mixture, Vector<3>::Zero(), mixed, kLeast)[0];
+  CHECK(b.samples == doctest::Approx(a.samples));
+  CHECK(b.divergence() == doctest::Approx(a.divergence()).epsilon(1e-3));
+}
+
 TEST_CASE("mixtures are tested where they are: from any pivot, in any part, however compact") {
   RandomStream random(5);
   const SpatialGaussian g = oriented_gaussian({0, 0, 2}, {1, 0.6f, 0.8f}, random);
