@@ -12,15 +12,16 @@
 
 namespace pharos {
 
-/// Sums over outcomes of steps.
+/// Sums over outcomes, each times the number of steps for which it counts.
 struct OutcomeSums {
   double steps = 0, radiance = 0, squared = 0, cost = 0;
 
   void add(const StepOutcome& outcome) {
-    steps += 1;
-    radiance += outcome.radiance;
-    squared += double{outcome.radiance} * outcome.radiance;
-    cost += outcome.cost;
+    const double count = outcome.steps;
+    steps += count;
+    radiance += count * outcome.radiance;
+    squared += count * outcome.radiance * outcome.radiance;
+    cost += count * outcome.cost;
   }
   OutcomeSums& operator+=(const OutcomeSums& other);
   void scale(double factor);

@@ -23,7 +23,7 @@ void OutcomeLearning::absorb(const PathLog& log) {
 }
 
 void OutcomeLearning::learn_path(const PathView& path) {
-  const PathOutcome found = reader_.read(path, steps_);
+  const PathOutcome found = reader_.read(path, rule_->stage(), steps_);
   if (!std::isfinite(found.radiance) || !std::isfinite(found.paths) || !(found.paths > 0)) return;
   film_.add(path.film, {found.radiance, found.paths, path.albedo, path.normal});
   if (learned_ == nullptr) return;
@@ -68,7 +68,7 @@ void OutcomeLearning::make_rule() {
 }
 
 void OutcomeLearning::archive(Archive& archive) {
-  archive.heading("outcomes of steps", 3);
+  archive.heading("outcomes of steps", 4);
   archive(steps_, cells_, film_, error_, updates_);
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     const std::size_t bins = cells_[i].bins.size();

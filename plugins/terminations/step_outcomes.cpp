@@ -54,7 +54,9 @@ void OutcomeReader::count_costs(const PathView& path) {
   }
 }
 
-PathOutcome OutcomeReader::read(const PathView& path, std::vector<StepOutcome>& steps) {
+PathOutcome OutcomeReader::read(const PathView& path, TerminationRule::Stage stage,
+                                std::vector<StepOutcome>& steps) {
+  const bool is_late = stage == TerminationRule::Stage::step;
   estimate_incident_radiance(path, incident_);
   read_lights(path);
   count_costs(path);
@@ -67,7 +69,8 @@ PathOutcome OutcomeReader::read(const PathView& path, std::vector<StepOutcome>& 
     steps.push_back({.origin = vertex.position,
                      .towards_viewer = -path.vertices[vertex.parent].direction,
                      .radiance = static_cast<float>(radiance),
-                     .cost = costs_[i]});
+                     .cost = costs_[i],
+                     .steps = is_late ? vertex.continuation : 1});
   }
   const RecordedVertex& lens = path.vertices[0];
   const std::span<const Technique> techniques = path.techniques(lens);

@@ -4,13 +4,12 @@
 #include <vector>
 
 #include <pharos/core/archive.h>
+#include <pharos/guiding/contract/termination.h>
 #include <pharos/guiding/record/path_record.h>
 
 namespace pharos {
 
-/// What one step from a vertex has found, as if it had been the only one. Whether a step is taken,
-/// and in how many branches, depends on the path before it. So every step counts once, survivors of
-/// roulette and branches too: larger weights of survivors would only add noise.
+/// What one step from a vertex has found, as if it had been the only one.
 struct StepOutcome {
   Point3 origin;        ///< of the vertex
   Vec3 towards_viewer;  ///< unit, from the vertex along the path back to the sensor
@@ -20,8 +19,12 @@ struct StepOutcome {
   /// Number of steps and light samples from here on, this step and its light sample included, in
   /// all branches.
   float cost = 0;
+  float steps = 1;  ///< number of steps for which it counts, > 0; see OutcomeReader
 
-  void archive(Archive& archive) { archive(origin, towards_viewer, radiance, cost); }
+  void archive(Archive& archive) {
+    archive(origin, towards_viewer, radiance, cost, steps);
+    archive.expect(steps > 0, "what was learned of steps");
+  }
 };
 
 /// What a whole path has found.
@@ -34,12 +37,20 @@ struct PathOutcome {
 };
 
 /// Reads what steps have found from recorded paths. It keeps scratch memory from path to path.
+///
+/// If the number of steps from a vertex was decided before they were drawn, it depends on the path
+/// before it alone. Every step then counts once, survivors of roulette and branches too: larger
+/// weights of survivors would only add noise. But roulette that is played after the step was drawn
+/// lets steps of some kinds survive more often than others, such as those that refract. A survivor
+/// then counts for the steps that have not survived, too.
 class OutcomeReader {
  public:
   /// Reads a path from the sensor. Appends the outcomes of the steps after the first one to
   /// `steps`. Steps from vertices whose events are all discrete are left out, because their paths
-  /// are left alone (TerminationQuery::discrete).
-  PathOutcome read(const PathView& path, std::vector<StepOutcome>& steps);
+  /// are left alone (TerminationQuery::discrete). `stage` is that of the rule by which the path has
+  /// ended or split.
+  PathOutcome read(const PathView& path, TerminationRule::Stage stage,
+                   std::vector<StepOutcome>& steps);
 
  private:
   /// Finds what the light samples that go with each step have found.

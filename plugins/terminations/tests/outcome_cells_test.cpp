@@ -76,6 +76,19 @@ TEST_CASE("outcome cells: a bin with few steps finds what the same bin of a larg
   }
 }
 
+TEST_CASE("outcome cells: an outcome counts for its number of steps") {
+  const DirectionBins bins(1);
+  OutcomeCells cells;
+  std::vector<StepOutcome> steps{{{}, {0, 0, 1}, 1, 2, 3}, {{}, {0, 0, 1}, 5, 6, 1}};
+  cells.learn(steps, {}, [&](OutcomeCell& cell, std::span<const StepOutcome> own, std::size_t) {
+    cell.learn(own, bins);
+  });
+  const ExpectedOutcome found = OutcomeField(cells, bins, 4).at({}, {0, 0, 1});
+  CHECK(found.radiance == doctest::Approx((3 * 1 + 5) / 4.0));
+  CHECK(found.squared == doctest::Approx((3 * 1 + 25) / 4.0));
+  CHECK(found.cost == doctest::Approx((3 * 2 + 6) / 4.0));
+}
+
 TEST_CASE("outcome cells: moments that no float can hold are the largest float") {
   const DirectionBins bins(1);
   OutcomeCells cells;

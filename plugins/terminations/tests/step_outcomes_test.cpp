@@ -9,10 +9,11 @@ namespace {
 
 /// Everything that is read from a log.
 struct Outcomes {
-  explicit Outcomes(const PathLog& log) {
+  explicit Outcomes(const PathLog& log,
+                    TerminationRule::Stage stage = TerminationRule::Stage::vertex) {
     OutcomeReader reader;
     for (std::size_t i = 0; i < log.size(); ++i) {
-      paths.push_back(reader.read(log[i], steps));
+      paths.push_back(reader.read(log[i], stage, steps));
     }
   }
   std::vector<PathOutcome> paths;
@@ -55,6 +56,18 @@ TEST_CASE(
   CHECK(found.paths[0].radiance == doctest::Approx(16));
   CHECK(found.paths[3].radiance == 0);
   CHECK(found.paths[3].cost == 1);
+}
+
+TEST_CASE("outcomes: survivors count for others only if roulette has seen their step") {
+  PathLog log;
+  test::add_path(log, 8, 1, 4);
+  for (int i = 0; i < 3; ++i) test::add_ended_path(log);
+  for (const auto stage : {TerminationRule::Stage::vertex, TerminationRule::Stage::step}) {
+    const Outcomes found(log, stage);
+    REQUIRE(found.steps.size() == 1);
+    CHECK(found.steps[0].radiance == doctest::Approx(4));
+    CHECK(found.steps[0].steps == (stage == TerminationRule::Stage::step ? 4 : 1));
+  }
 }
 
 TEST_CASE("outcomes: each step has found what its own light sample has found, and pays for it") {

@@ -112,6 +112,23 @@ TEST_CASE("learned terminations begin with roulette by throughput and then use w
   CHECK(taught(by_adjoint)->rule()->factor(at_wall(0.1f)) == doctest::Approx(0.1f / low));
 }
 
+TEST_CASE("learned terminations: the first roulette favors refracted steps, which is made up for") {
+  AdjointTermination::Settings settings;
+  settings.pixel_offset = 1e-6;
+  auto state = AdjointTermination(settings).begin(kContext);
+  PathLog log;
+  // Half of the steps refract and find light. They always survive, of the others one in four.
+  for (int i = 0; i < 100; ++i) {
+    for (int k = 0; k < 4; ++k) test::add_path(log, 8, 1, 1);
+    test::add_path(log, 0, 1, 4);
+    for (int k = 0; k < 3; ++k) test::add_ended_path(log);
+  }
+  state->absorb(log);
+  state->update({.left = 0});
+  const float low = 2 / (1 + settings.window);
+  CHECK(state->rule()->factor(at_wall(0.1f)) == doctest::Approx(0.1f / low));
+}
+
 TEST_CASE("efficiency: the path itself is the fixed point of a single step") {
   // All noise of the image comes from the step at the wall, and half of the cost.
   EfficiencyTermination::Settings settings;
