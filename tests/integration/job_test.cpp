@@ -276,33 +276,47 @@ TEST_CASE("replay knows what guides later iterations") {
   CHECK(job.replay(20, 20, 0, 1).radiance == result.image.rgb(20, 20));
 }
 
-TEST_CASE("layers: the factor at the first vertex, and the number of steps") {
+/// The means of the layers of an image that tell of its paths.
+struct PathLayers {
+  double first = 0, second = 0;  ///< factor at the vertices number 1 and 2 where there are such
+  double cost = 0;
+};
+
+TEST_CASE("layers: the factors at the first vertices, and the number of steps") {
   const auto layers_of = [](const std::string& termination) {
     const RenderResult result = render(
         cornell(fmt::format("budget: {{ spp: 32 }}\nintegrator: {{ type: path, max_depth: 3, "
                             "next_event_estimation: false, termination: {} }}\n",
                             termination)));
     const Image& image = result.image;
-    double splitting = 0, cost = 0;
-    for (int y = 0; y < image.height(); ++y) {
-      for (int x = 0; x < image.width(); ++x) {
-        splitting += image.pixel(x, y)[image.channel_index("splitting.N")];
-        cost += image.pixel(x, y)[image.channel_index("cost.N")];
+    const auto mean_of = [&](const char* channel) {
+      const int c = image.channel_index(channel);
+      double sum = 0, count = 0;
+      for (int y = 0; y < image.height(); ++y) {
+        for (int x = 0; x < image.width(); ++x) {
+          sum += image.pixel(x, y)[c];
+          count += image.pixel(x, y)[c] > 0 ? 1 : 0;
+        }
       }
-    }
-    const double pixels = static_cast<double>(image.width()) * image.height();
-    return std::pair{splitting / pixels, cost / pixels};
+      CHECK(count > 0.5 * image.width() * image.height());
+      return sum / count;
+    };
+    return PathLayers{mean_of("splitting.1"), mean_of("splitting.2"), mean_of("cost.N")};
   };
-  const auto [whole, whole_cost] = layers_of("none");
-  const auto [split, split_cost] = layers_of("{ type: stub_factor, factor: 2.5 }");
-  CHECK(whole == doctest::Approx(split / 2.5).epsilon(0.01));
-  CHECK(whole > 0.5);
-  CHECK(whole <= 1);
+  const PathLayers whole = layers_of("none");
+  CHECK(whole.first == doctest::Approx(1));
+  CHECK(whole.second == doctest::Approx(1));
+  const PathLayers split = layers_of("{ type: stub_factor, factor: 2.5 }");
+  CHECK(split.first == doctest::Approx(2.5));
+  CHECK(split.second == doctest::Approx(2.5));
+  const PathLayers late = layers_of("{ type: stub_factor, factor: 1.5, first: 2 }");
+  CHECK(late.first == doctest::Approx(1));
+  CHECK(late.second == doctest::Approx(1.5));
   // At most one step from the lens, 2.5 from the first vertex, and 6.25 from the second.
-  CHECK(whole_cost > 2);
-  CHECK(whole_cost <= 3);
-  CHECK(split_cost > 2 * whole_cost);
-  CHECK(split_cost <= 9.75);
+  CHECK(whole.cost > 2);
+  CHECK(whole.cost <= 3);
+  CHECK(split.cost > 2 * whole.cost);
+  CHECK(split.cost <= 9.75);
 }
 
 TEST_CASE("replay runs all branches of a path and names them") {

@@ -21,8 +21,8 @@ const std::vector<LayerChannels>& all_channels() {
       {9, {"depth.Z"}},
       {10, {"variance.R", "variance.G", "variance.B"}},
       {13, {"samples.N"}},
-      {14, {"splitting.N"}},
-      {15, {"cost.N"}},
+      {14, {"splitting.1", "splitting.2"}},
+      {16, {"cost.N"}},
   };
   return channels;
 }
@@ -81,7 +81,10 @@ Features& Features::operator+=(const Features& other) {
   albedo += other.albedo;
   normal += other.normal;
   depth += other.depth;
-  splitting += other.splitting;
+  for (std::size_t i = 0; i < splitting.size(); ++i) {
+    splitting[i].sum += other.splitting[i].sum;
+    splitting[i].vertices += other.splitting[i].vertices;
+  }
   cost += other.cost;
   return *this;
 }
@@ -318,8 +321,9 @@ Image Film::layers() const {
       const Rgb variance = freedom > 0 ? variance_scale * moments_[i].squares : Rgb(kInfinity);
       image.set_rgb(x, y, variance, 10);
       image.pixel(x, y)[13] = sum.samples;
-      image.pixel(x, y)[14] = per_sample * sum.features.splitting;
-      image.pixel(x, y)[15] = per_sample * sum.features.cost;
+      image.pixel(x, y)[14] = sum.features.splitting[0].mean();
+      image.pixel(x, y)[15] = sum.features.splitting[1].mean();
+      image.pixel(x, y)[16] = per_sample * sum.features.cost;
     }
   }
   return image;

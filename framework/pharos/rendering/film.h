@@ -17,13 +17,25 @@
 
 namespace pharos {
 
+/// The factors by which paths end or split at some vertices; see TerminationRule.
+struct VertexFactors {
+  float sum = 0, vertices = 0;  ///< sum of the factors, and number of the vertices
+
+  void add(float factor) {
+    sum += factor;
+    vertices += 1;
+  }
+  float mean() const { return vertices > 0 ? sum / vertices : 0; }
+};
+
 /// Features of a path, averaged over a pixel.
 struct Features {
-  Rgb albedo;           ///< of the first surface
-  Vec3 normal;          ///< shading normal of the first surface, in world space
-  float depth = 0;      ///< distance to the first surface [scene units]; 0 if there is none
-  float splitting = 0;  ///< expected number of steps from the first vertex; 0 if there is none
-  float cost = 0;       ///< number of steps of the path, in all branches
+  Rgb albedo;       ///< of the first surface
+  Vec3 normal;      ///< shading normal of the first surface, in world space
+  float depth = 0;  ///< distance to the first surface [scene units]; 0 if there is none
+  /// At the vertices number 1 and 2, the latter in all branches.
+  std::array<VertexFactors, 2> splitting{};
+  float cost = 0;  ///< number of steps of the path, in all branches
 
   Features& operator+=(const Features& other);
 };
@@ -140,7 +152,8 @@ class Film {
 
   /// Returns R G B, followed by every Layer: `albedo`, `normal`, `depth` (means over samples),
   /// `variance` (of the pixel's mean, per channel; infinite before two complete passes), `samples`,
-  /// `splitting` and `cost` (means over samples).
+  /// `splitting` (means over vertices; 0 if no path has come so far) and `cost` (mean over
+  /// samples).
   Image layers() const;
   double samples_per_pixel() const { return samples_; }
   /// Returns the mean number of steps of the paths of all ended passes

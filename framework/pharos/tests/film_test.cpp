@@ -180,11 +180,32 @@ TEST_CASE("the mean number of steps is that of all samples of ended passes") {
   CHECK(film.mean_cost() == doctest::Approx(5));
 }
 
+TEST_CASE("factors of vertices are averaged over the vertices of a pixel, not over its samples") {
+  Film film(kSize, kSize, std::make_shared<Box>());
+  FilmTile tile = film.make_tile(kAll);
+  Features splits, ends;
+  splits.splitting[0].add(2.5f);
+  for (const float factor : {0.5f, 2.0f, 0.5f}) splits.splitting[1].add(factor);
+  ends.splitting[0].add(0.5f);
+  tile.add_sample({2.5f, 3.5f}, Rgb(), splits);
+  tile.add_sample({2.5f, 3.5f}, Rgb(), ends);
+  tile.add_sample({2.5f, 3.5f}, Rgb(), {});  // sees nothing
+  film.merge(tile);
+  film.end_pass(1);
+  const Image image = film.layers();
+  const auto layer = [&](int x, const char* name) {
+    return image.pixel(x, 3)[image.channel_index(name)];
+  };
+  CHECK(layer(2, "splitting.1") == doctest::Approx(1.5));
+  CHECK(layer(2, "splitting.2") == doctest::Approx(1));
+  CHECK(layer(5, "splitting.1") == 0);
+}
+
 TEST_CASE("selected layers follow the color") {
   Film film(kSize, kSize, std::make_shared<Box>());
   add_pass(film, 2, 1, [](Vec2, RandomStream&) { return Rgb(1); });
   CHECK(select_layers(film.layers(), {Layer::splitting, Layer::cost}).channels() ==
-        std::vector<std::string>{"R", "G", "B", "splitting.N", "cost.N"});
+        std::vector<std::string>{"R", "G", "B", "splitting.1", "splitting.2", "cost.N"});
   const Image image = select_layers(film.layers(), {Layer::depth, Layer::samples});
   CHECK(image.channels() == std::vector<std::string>{"R", "G", "B", "depth.Z", "samples.N"});
   CHECK(image.pixel(0, 0)[4] == 2);

@@ -193,7 +193,9 @@ class CameraWalk {
       branching = walk.termination_.branching(path, flight.found.film, scattering, most_new,
                                               walk.shared_.lights.most_copies());
       Features& features = flight.found.features;
-      if (path.bounce == 1) features.splitting = 1 / branching.weight;
+      if (path.bounce <= features.splitting.size()) {
+        features.splitting[path.bounce - 1].add(1 / branching.weight);
+      }
       if (!branching.is_plain()) features.cost += static_cast<float>(branching.count);
       return branching;
     }
