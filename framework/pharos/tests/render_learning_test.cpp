@@ -1,6 +1,5 @@
 // Tests of what a render learns beside its guides.
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -86,7 +85,9 @@ TEST_CASE("render learning: the time of steps counts if a rule is learned, else 
     RenderLearning learning(integrator, {});
     // With the rule, paths have three times as many steps, each of which takes twice as long.
     for (const std::uint32_t i : {0u, 1u}) {
-      learning.absorb(test::guided_paths(std::array{i == 0 ? 0.5 : 0.8}, 100'000, i));
+      for (std::uint64_t unit = 0; unit < 100; ++unit) {
+        learning.absorb(test::guided_paths(i == 0 ? 0.5 : 0.8, 1000, 100 * i + unit));
+      }
       learning.may_end_training({.spent = 0.1 * (i + 1),
                                  .samples = 2,
                                  .steps = i == 0 ? 4.0 : 12.0,
