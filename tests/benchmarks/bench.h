@@ -34,6 +34,7 @@ std::vector<Measurement> bench_aligned(int repeats);
 std::vector<Measurement> bench_gaussians(int repeats);
 std::vector<Measurement> bench_baselines(int repeats);
 std::vector<Measurement> bench_records(int repeats);
+std::vector<Measurement> bench_terminations(int repeats);
 
 /// A group with the name by which `--filter` selects it.
 struct Group {

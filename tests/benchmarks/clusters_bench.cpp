@@ -22,6 +22,8 @@
 namespace pharos::bench {
 namespace {
 
+using testing::GuidePair;
+
 /// The machines of the simulation.
 constexpr double kRanks[]{1, 8, 64, 512};
 constexpr double kGigabits[]{10, 100};
@@ -55,7 +57,7 @@ struct Way {
 std::vector<Way> ways(const Registry& registry) {
   std::vector<Way> all;
   std::set<std::string> learners;
-  for (const GuidePair& pair : guide_pairs(registry)) {
+  for (const GuidePair& pair : testing::guide_pairs(registry)) {
     const std::string learner = pair.name.substr(0, pair.name.find('+'));
     if (!learners.insert(learner).second) continue;
     all.push_back(

@@ -24,6 +24,8 @@
 namespace pharos::bench {
 namespace {
 
+using testing::GuidePair;
+
 constexpr std::size_t kVertices = 50'000;  // two densities are measured at each vertex
 constexpr int kThreads = 2;
 constexpr std::uint32_t kSamples = 32;  ///< samples per pixel of timed renders
@@ -168,7 +170,7 @@ std::vector<Measurement> bench_guiding_growth(int repeats) {
 
 std::vector<Group> guiding_groups(const std::shared_ptr<const Registry>& registry) {
   std::vector<Group> groups;
-  for (const GuidePair& pair : guide_pairs(*registry)) {
+  for (const GuidePair& pair : testing::guide_pairs(*registry)) {
     groups.push_back({"guiding." + pair.name, [registry, pair](int repeats) {
                         return measure_or_leave_out(pair, *registry, repeats);
                       }});

@@ -16,6 +16,8 @@
 namespace pharos::bench {
 namespace {
 
+using testing::GuidePair;
+
 constexpr int kThreads = 2;
 
 Measurement update_share(const GuidePair& pair, const std::string& learner,
@@ -36,7 +38,7 @@ Group learning_group(const std::shared_ptr<const Registry>& registry, double sec
             tbb::task_arena arena(kThreads);
             std::vector<Measurement> all;
             std::set<std::string> learners;  // each is measured with its first guider
-            for (const GuidePair& pair : guide_pairs(*registry)) {
+            for (const GuidePair& pair : testing::guide_pairs(*registry)) {
               const std::string learner = pair.name.substr(0, pair.name.find('+'));
               if (!learners.insert(learner).second) continue;
               for (const char* scene : {"cornell-box", "pool"}) {

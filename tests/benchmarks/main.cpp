@@ -50,12 +50,17 @@ std::string line(const Measurement& m) {
 }
 
 std::vector<Group> all_groups(const Options& options) {
-  std::vector<Group> groups{
-      {"startup", bench_startup},     {"rays", bench_rays},
-      {"threads", bench_threads},     {"samplers", bench_samplers},
-      {"growth", bench_growth},       {"guiding_growth", bench_guiding_growth},
-      {"aligned", bench_aligned},     {"gaussians", bench_gaussians},
-      {"baselines", bench_baselines}, {"records", bench_records}};
+  std::vector<Group> groups{{"startup", bench_startup},
+                            {"rays", bench_rays},
+                            {"threads", bench_threads},
+                            {"samplers", bench_samplers},
+                            {"growth", bench_growth},
+                            {"guiding_growth", bench_guiding_growth},
+                            {"aligned", bench_aligned},
+                            {"gaussians", bench_gaussians},
+                            {"baselines", bench_baselines},
+                            {"records", bench_records},
+                            {"terminations", bench_terminations}};
   const auto registry = std::make_shared<const Registry>(load_default_modules());
   groups.push_back(learning_group(registry, options.learning_seconds));
   groups.push_back(clusters_group(registry));

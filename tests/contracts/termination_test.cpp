@@ -3,10 +3,45 @@
 
 #include <cmath>
 
+#include <pharos/config/module_loader.h>
+
 #include "furnace.h"
+#include "guide_pairs.h"
 
 namespace pharos::testing {
 namespace {
+
+/// Walls and a ball that absorb a part of the light and emit as much, a glass ball, and a medium
+/// that only scatters. Every pixel shows 1. Paths of 24 segments miss about 1e-5.
+constexpr double kAbsorbingFurnace = 1;
+const std::string kAbsorbingScene = R"(
+scene:
+  media:
+    fog: { type: stub_gray, scattering: 0.7 }
+  shapes:
+    - { type: sphere, radius: 1, flip_normals: true, material: { type: diffuse, reflectance: 0.2 }, emitter: { type: area, radiance: 0.8 } }
+    - { type: sphere, center: [-0.3, 0.3, 0.3], radius: 0.2, material: { type: diffuse, reflectance: 0.5 }, emitter: { type: area, radiance: 0.5 } }
+    - { type: sphere, center: [0.2, -0.1, 0.4], radius: 0.35, material: { type: dielectric, ior: 1.5 }, exterior: fog }
+  sensor: { type: perspective, fov: 60, to_world: { look_at: { origin: [-0.3, 0.1, -0.6], target: [0, 0, 0.5], up: [0, 1, 0] } } }
+  medium: fog
+film: { width: 32, height: 32, filter: box }
+)";
+
+/// A glass ball in front of a black wall that emits 1.
+const std::string kGlassScene = R"(
+scene:
+  shapes:
+    - { type: sphere, radius: 1, flip_normals: true, material: { type: diffuse, reflectance: 0 }, emitter: { type: area, radiance: 1 } }
+    - { type: sphere, center: [0.2, -0.1, 0.4], radius: 0.35, material: { type: dielectric, ior: 1.5 } }
+  sensor: { type: perspective, fov: 60, to_world: { look_at: { origin: [-0.3, 0.1, -0.6], target: [0, 0, 0.5], up: [0, 1, 0] } } }
+film: { width: 32, height: 32, filter: box }
+)";
+
+/// Returns a scene with a quarter of the pixels.
+std::string on_small_film(std::string scene) {
+  const std::string film = "width: 32, height: 32";
+  return scene.replace(scene.find(film), film.size(), "width: 16, height: 16");
+}
 
 /// A config with a termination.
 std::string config_with(const std::string& scene, int depth, const std::string& termination,
@@ -29,6 +64,24 @@ double diffuse_t(const std::string& termination, const std::string& guiding = ""
 double fog_t(const std::string& termination, const std::string& guiding = "", int spp = 32) {
   return furnace_t(config_with(kGlassInFogScene, 40, termination, guiding, spp),
                    kGlassInFogFurnace);
+}
+
+/// Two factors, of the steps and of the light samples.
+std::string stubs(float steps, float lights) {
+  return fmt::format("{{ type: stub_factor, factor: {}, lights: {} }}", steps, lights);
+}
+
+/// A termination that learns, with settings by which many paths split or end after few samples.
+std::string learned(const std::string& name) {
+  return fmt::format("{{ type: {}, {}cell_steps: 1000, least_steps: 100 }}", name,
+                     name == "adjoint" ? "window: 1.1, " : "");
+}
+
+/// Few branches suffice, and each of them is long.
+double absorbing_t(const std::string& termination, int spp) {
+  return furnace_t(config_with(on_small_film(kAbsorbingScene), 24,
+                               termination + "\n  most_branches: 20", "", spp),
+                   kAbsorbingFurnace);
 }
 
 std::string pair(const std::string& learner, const std::string& guider) {
@@ -55,23 +108,21 @@ TEST_CASE("termination: splitting at the largest factor is unbiased, at the firs
 }
 
 TEST_CASE("termination: light samples split and end unbiasedly, with and without the steps") {
-  const auto both = [](float steps, float lights) {
-    return fmt::format("{{ type: stub_factor, factor: {}, lights: {} }}", steps, lights);
-  };
   // Light samples alone find the light of paths that hit no light.
   const std::string only = "\n  mis: light_samples";
   for (const float lights : {0.4f, 2.0f, 2.75f, 20.0f}) {
     CAPTURE(lights);
-    CHECK(std::abs(diffuse_t(both(1, lights))) < kLimit);
-    CHECK(std::abs(diffuse_t(both(1, lights) + only)) < kLimit);
-    CHECK(std::abs(diffuse_t(both(1.5f, lights))) < kLimit);
-    CHECK(std::abs(diffuse_t(both(0.6f, lights), "", 64)) < kLimit);
+    CHECK(std::abs(diffuse_t(stubs(1, lights))) < kLimit);
+    CHECK(std::abs(diffuse_t(stubs(1, lights) + only)) < kLimit);
+    CHECK(std::abs(diffuse_t(stubs(1.5f, lights))) < kLimit);
+    CHECK(std::abs(diffuse_t(stubs(0.6f, lights), "", 64)) < kLimit);
   }
-  CHECK(std::abs(diffuse_t(both(2.5f, 2.5f) + "\n  light_selection: all")) < kLimit);
-  CHECK(std::abs(fog_t(both(1.2f, 1.2f))) < kLimit);
-  CHECK(std::abs(fog_t(both(0.8f, 3))) < kLimit);
-  CHECK(std::abs(furnace_t(config_with(kDiffuseScene, 4, both(0.8f, 2.5f), "", 64, "bidirectional"),
-                           kDiffuseFurnace)) < kLimit);
+  CHECK(std::abs(diffuse_t(stubs(2.5f, 2.5f) + "\n  light_selection: all")) < kLimit);
+  CHECK(std::abs(fog_t(stubs(1.2f, 1.2f))) < kLimit);
+  CHECK(std::abs(fog_t(stubs(0.8f, 3))) < kLimit);
+  CHECK(
+      std::abs(furnace_t(config_with(kDiffuseScene, 4, stubs(0.8f, 2.5f), "", 64, "bidirectional"),
+                         kDiffuseFurnace)) < kLimit);
 }
 
 TEST_CASE("termination: every kind of guide goes along with splitting and roulette") {
@@ -103,10 +154,7 @@ TEST_CASE("termination: paths from lights and from both ends survive roulette un
 TEST_CASE("termination: learned factors are unbiased, with and without guides") {
   for (const char* name : {"adjoint", "efficiency"}) {
     CAPTURE(name);
-    // A narrow window, so that many paths split or end.
-    const std::string termination =
-        fmt::format("{{ type: {}, {}cell_steps: 1000, least_steps: 100 }}", name,
-                    std::string(name) == "adjoint" ? "window: 1.1, " : "");
+    const std::string termination = learned(name);
     CHECK(std::abs(diffuse_t(termination)) < kLimit);
     CHECK(std::abs(fog_t(termination)) < kLimit);
     CHECK(std::abs(diffuse_t(termination, pair("stub_direction", "stub_direction"))) < kLimit);
@@ -114,19 +162,96 @@ TEST_CASE("termination: learned factors are unbiased, with and without guides") 
   }
 }
 
+TEST_CASE("termination: absorbing walls, glass and fog together, at every factor") {
+  for (const std::string& ending : {stub(0.7f), stubs(0.7f, 3), stubs(0.8f, 0.6f)}) {
+    CAPTURE(ending);
+    CHECK(std::abs(absorbing_t(ending, 64)) < kLimit);
+  }
+  for (const std::string& splitting : {stub(1.3f), stubs(1, 2.75f)}) {
+    CAPTURE(splitting);
+    CHECK(std::abs(absorbing_t(splitting, 16)) < kLimit);
+  }
+  for (const char* name : {"adjoint", "efficiency"}) {
+    CAPTURE(name);
+    CHECK(std::abs(absorbing_t(learned(name), 64)) < kLimit);
+  }
+}
+
+TEST_CASE("termination: paths split at the largest factor in fog, with and without lights") {
+  // Only the first vertices have this factor, because 20 light samples at all of them would take
+  // too long. Depending on the path, the first vertex is in the fog, on glass or on a wall.
+  const auto largest = [](int lights) {
+    return fmt::format("{{ type: stub_factor, factor: 20, lights: {}, last: 2 }}", lights);
+  };
+  CHECK(std::abs(absorbing_t(largest(20), 4)) < kLimit);
+  CHECK(std::abs(absorbing_t(largest(1), 8)) < kLimit);
+}
+
+TEST_CASE("termination: at glass paths survive roulette unbiasedly, and never split") {
+  const auto config = [](const std::string& termination) {
+    return config_with(kGlassScene, 100, termination);
+  };
+  const auto vertices = [&](const std::string& termination) {
+    return render(config(termination)).counters.vertices;
+  };
+  CHECK(std::abs(furnace_t(config(stub(0.6f)), 1)) < kLimit);
+  const std::uint64_t whole = vertices("none");
+  CHECK(static_cast<double>(vertices(stub(0.6f))) < 0.95 * static_cast<double>(whole));
+  CHECK(vertices(stub(3)) == whole);
+}
+
+/// Returns every pair of a learner and a guider that is installed. They learn little, because there
+/// are many renders.
+std::vector<GuidePair> installed_pairs() {
+  Registry plugins;
+  load_modules(plugins, PHAROS_PLUGINS, true);
+  std::vector<GuidePair> pairs = guide_pairs(plugins);
+  for (GuidePair& each : pairs) {
+    // The fits of large mixtures would take most of the time.
+    if (each.name.find("vertex_triplets") == 0) {
+      each.learner = "{ type: vertex_triplets, cells: 4, components: 8, reservoir: 256 }";
+    }
+  }
+  return pairs;
+}
+
+/// Checks a guide with every termination.
+void check_with_terminations(const std::string& guiding) {
+  for (const std::string& termination :
+       {std::string("none"), std::string("{ type: throughput, depth: 1 }"), learned("adjoint"),
+        learned("efficiency")}) {
+    CAPTURE(termination);
+    CHECK(std::abs(furnace_t(config_with(on_small_film(kDiffuseScene), 4, termination, guiding),
+                             kDiffuseFurnace)) < kLimit);
+  }
+}
+
+TEST_CASE("termination: every learner and guider goes along with every termination") {
+  const std::vector<GuidePair> pairs = installed_pairs();
+  CHECK(pairs.size() >= 8);
+  for (const GuidePair& each : pairs) {
+    CAPTURE(each.name);
+    check_with_terminations(pair(each.learner, each.guider));
+  }
+}
+
+TEST_CASE("termination: robust guiding goes along with every termination") {
+  check_with_terminations("robust");
+}
+
 TEST_CASE("termination: a learner finds the same radiance, however paths end and split") {
   // Paths of two segments, so that all learned steps begin at the first vertex.
-  const auto learned = [](const std::string& termination) {
+  const auto radiance = [](const std::string& termination) {
     const std::string guiding =
         "{ learner: uniform, guider: uniform, training: { iterations: 1, share: 0.9 } }";
     const RenderResult result = render(config_with(kDiffuseScene, 2, termination, guiding));
     return result.model->density({}, nullptr);
   };
-  const double undivided = learned("none");
+  const double undivided = radiance("none");
   CHECK(undivided > 0.2);
   for (const std::string& termination : {stub(0.5f), stub(2.5f), stub(4)}) {
     CAPTURE(termination);
-    CHECK(learned(termination) == doctest::Approx(undivided).epsilon(0.02));
+    CHECK(radiance(termination) == doctest::Approx(undivided).epsilon(0.02));
   }
 }
 

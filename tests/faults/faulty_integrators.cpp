@@ -11,6 +11,7 @@
 #include "../../plugins/integrators/light.h"
 #include "../../plugins/integrators/path.h"
 #include "faulty_guider.h"
+#include "faulty_learner.h"
 #include "planted_fault.h"
 
 namespace pharos {
@@ -78,4 +79,5 @@ PHAROS_MODULE(registry) {
                                                 "Bidirectional path tracing with a planted fault");
   registry.add<ShareBlind>("share_blind", "Bidirectional path tracing that forgets pixel shares");
   registry.add<pharos::testing::FoldingGuider>("folding", "Directions of another guider, folded");
+  registry.add<pharos::testing::RetellingLearner>("retelling", "Passes paths on to a learner");
 }

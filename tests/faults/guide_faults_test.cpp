@@ -1,4 +1,5 @@
-// Faults planted into a guide. Its conformance suite and a guided furnace must notice them.
+// Faults planted into a guide and into a learner. The conformance suite and guided furnaces must
+// notice them.
 
 #include <cmath>
 #include <set>
@@ -41,6 +42,27 @@ bool furnace_turns_red(const std::string& fault) {
          kLimit;
 }
 
+/// Returns the mean radiance that the learner `uniform` finds in the diffuse furnace, where a
+/// learner with a fault passes on the paths.
+double learned_radiance(const std::string& fault, const std::string& termination) {
+  const RenderResult result = render(
+      kDiffuseScene +
+      fmt::format("integrator:\n  type: path\n  max_depth: 3\n  termination: {}\n"
+                  "  guiding: {{ learner: {{ type: retelling, fault: {}, learner: uniform }}, "
+                  "guider: uniform, training: {{ iterations: 1, share: 0.9 }} }}\n"
+                  "sampler: independent\nbudget: {{ spp: 32 }}\n",
+                  termination, fault));
+  return result.model->density({}, nullptr);
+}
+
+/// Returns whether a learner with a fault notices that paths split at their second vertex, where
+/// steps find less light than at the first one.
+bool learning_turns_red(const std::string& fault) {
+  const std::string split = "{ type: stub_factor, factor: 2.5, first: 2 }";
+  const double quotient = learned_radiance(fault, split) / learned_radiance(fault, "none");
+  return std::abs(quotient - 1) > 0.02;
+}
+
 }  // namespace
 
 TEST_CASE("a guide that folds directions rightly") {
@@ -64,6 +86,10 @@ TEST_CASE("fault: the flip to the hemisphere is missing") {
 TEST_CASE("fault: a guide uses the numbers of two techniques at once") {
   // The density is right, so only samplers that relate these numbers show an error.
   CHECK(red_checks("directions_of_both") == Names{"numbers"});
+}
+TEST_CASE("fault: a learner counts each branch of a vertex as a whole step") {
+  CHECK_FALSE(learning_turns_red("none"));
+  CHECK(learning_turns_red("branches_counted"));
 }
 
 }  // namespace pharos::testing

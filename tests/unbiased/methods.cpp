@@ -64,6 +64,28 @@ Method simplex(const char* name, const char* methods, const char* bounds, const 
            fmt::format("training={{ schedule: geometric, images: {} }}", images)}};
 }
 
+/// A termination with its settings, on one line.
+struct Ending {
+  std::string name, settings;
+  bool learns = false;
+};
+
+/// Returns every termination, so that many paths end or split: from the first vertex on, and after
+/// few samples.
+std::vector<Ending> endings() {
+  return {{"none", "none"},
+          {"throughput", "{ type: throughput, depth: 2 }"},
+          {"adjoint",
+           "{ type: adjoint, window: 1.5, depth: 1, cell_steps: 2000, least_steps: 200 }", true},
+          {"efficiency", "{ type: efficiency, cell_steps: 2000, least_steps: 200 }", true}};
+}
+
+Method with_termination(Method method, const Ending& ending) {
+  method.name += ", " + ending.name;
+  method.others.push_back("integrator.termination=" + ending.settings);
+  return method;
+}
+
 }  // namespace
 
 Method focal(float unguided_fraction, const char* extent, const char* images) {
@@ -226,6 +248,24 @@ std::vector<Method> robust_methods() {
       {"robust, short trial", {"=robust", ".training.trial=0.1", ".training.least_gain=0.1"}},
       {"robust, methods left out",
        {"=robust", ".training.trial=0.01", ".training.least_gain=0", ".training.least_part=10"}}};
+}
+
+std::vector<Method> termination_methods() {
+  std::vector<Method> methods;
+  for (const Ending& ending : endings()) {
+    if (ending.name == "none") continue;  // this is what all methods are compared with
+    Method unguided{"unguided", {}};
+    if (ending.learns) {
+      unguided.others.push_back("integrator.training={ schedule: uniform, iterations: 8 }");
+    }
+    methods.push_back(with_termination(unguided, ending));
+  }
+  const std::vector<Method> guides{focal(0.5f, "line", "combine"), sd_tree_methods().front(),
+                                   lobe_methods().front(), robust_methods().front()};
+  for (const Method& guide : guides) {
+    for (const Ending& ending : endings()) methods.push_back(with_termination(guide, ending));
+  }
+  return methods;
 }
 
 }  // namespace pharos::testing

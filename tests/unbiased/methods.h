@@ -48,5 +48,8 @@ std::vector<Method> resampled_methods();
 std::vector<Method> adaptive_methods();
 /// Returns the preset `robust` as it is, and with trainings whose ends depend on what they found.
 std::vector<Method> robust_methods();
+/// Returns every termination with focal guiding, an SD-tree, parallax-aware mixtures and the preset
+/// `robust`, and, first of all, those that end or split paths without guides.
+std::vector<Method> termination_methods();
 
 }  // namespace pharos::testing

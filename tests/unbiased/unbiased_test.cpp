@@ -111,6 +111,10 @@ TEST_CASE("unbiased: more samples for noisy pixels, with a filter wider than a p
   compare_proof("fog-box", adaptive_methods(), {"film.filter=gaussian"});
 }
 
+TEST_CASE("unbiased: paths that split and end by their efficiency, unguided") {
+  compare_proof("fog-box", {termination_methods()[2]}, {"budget={ spp: 64 }"});
+}
+
 TEST_CASE("unbiased: vertex triplets in fog, with paths from lights") {
   compare_proof("fog-box", {triplet_methods(1).back()});
 }
@@ -207,6 +211,20 @@ TEST_CASE("long: robust guiding is unbiased in the proof variant mirror-chamber"
 }
 TEST_CASE("long: robust guiding is unbiased in the proof variant pool") {
   compare_proof("pool", robust_methods());
+}
+
+TEST_SUITE_END();
+
+TEST_SUITE_BEGIN("terminations");
+
+TEST_CASE("long: terminations are unbiased in the proof variant living-room") {
+  compare_proof("living-room", termination_methods());
+}
+TEST_CASE("long: terminations are unbiased in the proof variant mirror-chamber") {
+  compare_proof("mirror-chamber", termination_methods(), {"budget={ spp: 48 }"});
+}
+TEST_CASE("long: terminations are unbiased in the proof variant fog-box") {
+  compare_proof("fog-box", termination_methods(), {"budget={ spp: 64 }"});
 }
 
 TEST_SUITE_END();

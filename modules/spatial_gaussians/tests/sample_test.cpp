@@ -73,6 +73,30 @@ TEST_CASE("the environment stands at its distance along the ray") {
   CHECK(samples_of(path_to(kVertex, sky))[0].target == Point3{0, 0, 10});
 }
 
+TEST_CASE("branches of a vertex weigh as much as one step, and survivors as much as all steps") {
+  RecordedVertex branch = kVertex;
+  branch.continuation = 0.5f;
+  PathLog split = path_to(branch, kLamp);
+  RecordedVertex other = split[0].vertices[1];
+  other.next = kNoVertex;
+  other.branch = 1;
+  RecordedVertex bright = kLamp;
+  bright.emission = Rgb(9);
+  bright.parent = split.add(other);
+  split.add(bright);
+  const std::vector<Sample> samples = samples_of(split);
+  REQUIRE(samples.size() == 2);
+  // Whole steps weigh 3 / 0.5 and 9 / 0.5. Densities know nothing of branches.
+  CHECK(samples[0].weight == doctest::Approx(6 * 0.5));
+  CHECK(samples[1].weight == doctest::Approx(18 * 0.5));
+  for (const Sample& sample : samples) CHECK(sample.pdf == 0.5f);
+
+  RecordedVertex survivor = kVertex;
+  survivor.continuation = 4;
+  CHECK(samples_of(path_to(survivor, kLamp))[0].weight == doctest::Approx(6 * 4));
+  CHECK(samples_of(path_to(survivor, kLamp))[0].pdf == 0.5f);
+}
+
 TEST_CASE("steps that no guide makes are no samples") {
   RecordedVertex mirror = kVertex;
   mirror.event = Event::discrete_reflect;

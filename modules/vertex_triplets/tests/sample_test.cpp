@@ -146,6 +146,51 @@ TEST_CASE("samples: weights of suffixes are without the throughput, except at fi
   CHECK(suffixes[2] == doctest::Approx(2));
 }
 
+/// Returns the path lens -> wall -> floor -> two lamps of radiance 8 and 2. It splits at the floor,
+/// whose branches have the factor `continuation`. The throughput at the floor is 1.5.
+PathLog path_with_branches(float continuation) {
+  PathLog log;
+  log.begin_path({}, Transport::radiance);
+  log.add(RecordedVertex{.kind = VertexKind::sensor, .throughput = Rgb(1)});
+  log.add(RecordedVertex{.position = {1, 0, 0},
+                         .event = Event::smooth_reflect,
+                         .parent = 0,
+                         .throughput = Rgb(3),
+                         .local_weight = Rgb(0.5f)});
+  for (const std::uint32_t branch : {0u, 1u}) {
+    log.add(RecordedVertex{.position = {2, 0, 0},
+                           .event = Event::smooth_reflect,
+                           .parent = 1,
+                           .throughput = Rgb(1.5f),
+                           .local_weight = Rgb(0.4f * continuation),
+                           .continuation = continuation,
+                           .branch = branch});
+  }
+  for (const std::uint32_t floor : {2u, 3u}) {
+    log.add(RecordedVertex{.position = {3, static_cast<float>(floor), 0},
+                           .parent = floor,
+                           .emission = Rgb(floor == 2 ? 8.0f : 2.0f)});
+  }
+  return log;
+}
+
+TEST_CASE("samples: branches of a vertex weigh as much as one step together") {
+  for (const bool suffixes : {false, true}) {
+    CAPTURE(suffixes);
+    SampleRule rule = kRule;
+    rule.suffixes = suffixes;
+    const std::vector<Sample> samples = samples_of(path_with_branches(0.5f), rule);
+    REQUIRE(samples.size() == 3);
+    const double prefix = suffixes ? 1 : 1.5;
+    // The step to the floor counts once, with the mean of the branches. A whole branch weighs
+    // 0.4 times its lamp.
+    CHECK(samples[0].weight == doctest::Approx(3 * 0.5 * 0.4 * (8 + 2) / 2));
+    CHECK(samples[1].weight == doctest::Approx(prefix * 0.4 * 8 / 2));
+    CHECK(samples[2].weight == doctest::Approx(prefix * 0.4 * 2 / 2));
+    CHECK(samples[2].triplet.vertices[2] == Point3{3, 3, 0});
+  }
+}
+
 /// Adds a path to a pixel in the row y = 0. It is lit by `light` after an event. `even` is the
 /// density of an even choice of pixels over the density with which this pixel was chosen.
 void add_path(PathLog& log, float x, Event event, float light, float even) {

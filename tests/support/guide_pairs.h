@@ -5,7 +5,7 @@
 
 #include <pharos/config/registry.h>
 
-namespace pharos::bench {
+namespace pharos::testing {
 
 /// A learner and a guider with the same kind of model. They use their defaults or, if they have
 /// none, the first example that they declare.
@@ -17,4 +17,4 @@ struct GuidePair {
 /// Returns every pair of the registry.
 std::vector<GuidePair> guide_pairs(const Registry& registry);
 
-}  // namespace pharos::bench
+}  // namespace pharos::testing

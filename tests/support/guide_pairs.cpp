@@ -4,7 +4,7 @@
 #include <pharos/guiding/contract/guider.h>
 #include <pharos/guiding/contract/learner.h>
 
-namespace pharos::bench {
+namespace pharos::testing {
 namespace {
 
 using conformance::Subject;
@@ -34,4 +34,4 @@ std::vector<GuidePair> guide_pairs(const Registry& registry) {
   return pairs;
 }
 
-}  // namespace pharos::bench
+}  // namespace pharos::testing
