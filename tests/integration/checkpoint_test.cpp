@@ -73,8 +73,8 @@ TEST_CASE("checkpoints: unguided, and light paths") {
 TEST_CASE("checkpoints: every preset") {
   for (const char* preset :
        {"focal", "focal-robust", "pairs", "pavmm", "pavmm-product", "pavmm-robust", "ppg-improved",
-        "ppg-paper", "robust", "spatial-gaussians", "spatial-gaussians-robust", "triplets",
-        "triplets-robust", "varpg", "vmm"}) {
+        "ppg-paper", "ppg-robust", "robust", "spatial-gaussians", "spatial-gaussians-robust",
+        "triplets", "triplets-robust", "varpg", "vmm"}) {
     CAPTURE(preset);
     check_goes_on(config_in("cornell-box",
                             fmt::format("integrator: {{ type: path, guiding: {} }}\n", preset)));
