@@ -9,7 +9,7 @@ void PracticalPathGuidingSettings::describe(Schema<PracticalPathGuidingSettings>
   using S = PracticalPathGuidingSettings;
   s.field("spatial_threshold", &S::spatial_threshold,
           "A cell is halved if its records in an iteration exceed this number times the square "
-          "root of half the iteration's samples per pixel (c)")
+          "root of a quarter of the iteration's samples per pixel (c)")
       .at_least(10);
   s.field("spatial_depth", &S::spatial_depth, "Maximum number of dividing planes above a cell")
       .at_least(0)

@@ -99,7 +99,8 @@ void PracticalPathGuidingLearningState::flush() {
 Learned PracticalPathGuidingLearningState::update(const TrainingStage&) {
   flush();
   const double samples = paths_ / film_pixels_;  // per pixel
-  const double threshold = settings_.spatial_threshold * std::sqrt(samples / 2);
+  // c sqrt(2^k) of the paper for iterations of 4 * 2^k samples per pixel, as in the published code.
+  const double threshold = settings_.spatial_threshold * std::sqrt(samples / 4);
   parallel_for(cells_.size(), [&](std::size_t i) { conclude(cells_[i]); });
   const std::vector<std::uint32_t> leaves = tree_.leaves();
   for (std::uint32_t cell = 0; cell < leaves.size(); ++cell) {

@@ -38,7 +38,7 @@ TEST_CASE("every config loads and renders something") {
   int configs = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(kConfigs)) {
     const std::filesystem::path& path = entry.path();
-    if (path.extension() != ".yaml") continue;  // a folder or points
+    if (path.extension() != ".yaml") continue;                 // a folder or points
     if (read_config(path).find("scene") == nullptr) continue;  // a base or an experiment
     CAPTURE(path.string());
     check_finds_light(path);

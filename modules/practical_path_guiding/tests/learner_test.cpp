@@ -127,11 +127,11 @@ TEST_CASE("the guide finds the lamp, with every filter and target") {
 TEST_CASE("cells are halved where records are above the threshold, axis after axis") {
   PracticalPathGuidingSettings settings = small_settings();
   settings.spatial_filter = SpatialFilter::nearest;
-  // 3000 records, 30 paths per pixel: the threshold is 100 sqrt(30 / 2) = 387. Each half is assumed
+  // 3000 records, 30 paths per pixel: the threshold is 100 sqrt(30 / 4) = 274. Each half is assumed
   // to have half of the records, also if the plane is across z and leaves one side without records.
   const Learned learned = trained(settings, 1);
-  CHECK(learned.model->info().regions == 8);
-  CHECK(learned.region_origins == std::vector<std::uint32_t>(8, 0));
+  CHECK(learned.model->info().regions == 16);
+  CHECK(learned.region_origins == std::vector<std::uint32_t>(16, 0));
   settings.spatial_threshold = 1e9;
   CHECK(trained(settings, 4).model->info().regions == 1);
   settings.spatial_threshold = 1e-3;
@@ -213,10 +213,10 @@ TEST_CASE("halves of a cell have half of its memory each") {
   settings.memory = 1;
   const auto state = PracticalPathGuidingLearner(settings).begin(context());
   state->absorb(lamp_paths(3000, 1));
-  REQUIRE(state->update({0, 1}).model->info().regions == 8);
-  // Nothing new was found, so that each of the eight cells knows what it got.
+  REQUIRE(state->update({0, 1}).model->info().regions == 16);
+  // Nothing new was found, so that each of the sixteen cells knows what it got.
   const auto model = state->update({1, 0}).model;
-  CHECK(as_tree(model).place({.position = {0.5f, 0.5f, 0}}).evidence == doctest::Approx(375));
+  CHECK(as_tree(model).place({.position = {0.5f, 0.5f, 0}}).evidence == doctest::Approx(187.5));
 }
 
 /// Returns paths with one guidable step each. Radiance (1, 2, 6) arrives from all directions within

@@ -31,12 +31,11 @@ Vec3 direction_at(HemisphereMap map, Vec2 u) {
   return {};
 }
 
-/// Returns cos / (pi p). For the octahedral map it is written without the division, because the
-/// cosine and the density p are both 0 at the horizon.
+/// Returns cos / (pi p), where p is the density of the direction. It is 0 at the horizon.
 double weight(HemisphereMap map, Vec3 direction) {
   if (map != HemisphereMap::octahedral) return 1;
-  const double sum = std::abs(direction.x) + std::abs(direction.y) + direction.z;
-  return direction.z * 2 * sum * sum * sum / std::numbers::pi;
+  const float p = warp::octahedral_hemisphere_pdf(direction);
+  return p > 0 ? direction.z / (std::numbers::pi * p) : 0;
 }
 
 }  // namespace
