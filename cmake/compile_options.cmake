@@ -21,7 +21,7 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_L
   # GCC 12 warns of overlapping and too long copies in "text" + std::string (GCC bug 105651). It
   # also warns of uninitialized values inside its own AVX-512 headers (GCC bug 105593).
   target_compile_options(pharos_warnings INTERFACE
-    -Wno-restrict -Wno-stringop-overflow -Wno-maybe-uninitialized)
+    -Wno-restrict -Wno-array-bounds -Wno-stringop-overflow -Wno-maybe-uninitialized)
 endif()
 if(PHAROS_WERROR)
   target_compile_options(pharos_warnings INTERFACE -Werror)
