@@ -14,6 +14,9 @@ void PracticalPathGuidingSettings::describe(Schema<PracticalPathGuidingSettings>
   s.field("spatial_depth", &S::spatial_depth, "Maximum number of dividing planes above a cell")
       .at_least(0)
       .at_most(KdTree::kMostLevels);
+  s.field("by_facing", &S::by_facing,
+          "Whether surfaces in a cell learn apart if their normals lie along different axes, or "
+          "point different ways along one");
   s.field(
        "directional_threshold", &S::directional_threshold,
        "Share of the cell's flux above which a quarter of the quadtree's square is divided (rho)")
@@ -50,11 +53,11 @@ void PracticalPathGuidingSettings::describe(Schema<PracticalPathGuidingSettings>
           "For `relative`: lower bound of the pixel values, relative to the mean of the image")
       .above(0);
   s.field("batch_records", &S::batch_records,
-          "Number of waiting records (24 bytes each) at which they are added to the trees before "
+          "Number of waiting records (32 bytes each) at which they are added to the trees before "
           "the iteration ends")
       .at_least(1024);
   s.example("{ target: product, spatial_filter: nearest, directional_filter: nearest }");
-  s.example("{ target: relative, spatial_threshold: 500 }");
+  s.example("{ target: relative, spatial_threshold: 500, by_facing: true }");
 }
 
 LearnerTraits PracticalPathGuidingLearner::traits() const {
@@ -68,8 +71,9 @@ std::unique_ptr<LearningState> PracticalPathGuidingLearner::begin(
 
 std::shared_ptr<GuidingModel> PracticalPathGuidingLearner::empty_model() const {
   const bool of_radiance = settings_.target == GuidingTarget::radiance;
+  const Cells cells{.space = {}, .by_facing = settings_.by_facing};
   return std::make_shared<PracticalPathGuidingModel>(
-      KdTree(), std::vector<PracticalPathGuidingModel::Cell>(1), of_radiance);
+      cells, std::vector<PracticalPathGuidingModel::Cell>(cells.count()), of_radiance);
 }
 
 }  // namespace pharos::practical_path_guiding

@@ -25,6 +25,7 @@ enum class DirectionalFilter {
 struct PracticalPathGuidingSettings {
   double spatial_threshold = 4000;
   int spatial_depth = 40;
+  bool by_facing = false;
   double directional_threshold = 0.01;
   int directional_depth = 20;
   SpatialFilter spatial_filter = SpatialFilter::stochastic;

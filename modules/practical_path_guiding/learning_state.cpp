@@ -44,7 +44,10 @@ PracticalPathGuidingLearningState::PracticalPathGuidingLearningState(
     : settings_(settings),
       seed_(context.seed),
       film_pixels_(static_cast<double>(context.window.area())),
-      cells_{{.box = cube_around(context.region), .learning = QuadTree(refinement())}},
+      division_{.space = {}, .by_facing = settings.by_facing},
+      cells_(division_.count(),
+             {.box = cube_around(context.region), .learning = QuadTree(refinement())}),
+      origins_(division_.count(), 0),
       pixels_(settings.target == GuidingTarget::relative ? context.window : PixelRect{}) {}
 
 void PracticalPathGuidingLearningState::absorb(const PathLog& log) {
@@ -62,14 +65,14 @@ void PracticalPathGuidingLearningState::absorb(const PathLog& log) {
 
 std::uint32_t PracticalPathGuidingLearningState::cell_for(const Record& record,
                                                           RandomStream random) const {
-  const std::uint32_t own = tree_.cell_at(record.position);
+  const std::uint32_t own = division_.at(record.position, record.facing);
   if (settings_.spatial_filter == SpatialFilter::nearest) return own;
   const Bounds3& box = cells_[own].box;
   Point3 p = record.position;
   for (int axis = 0; axis < 3; ++axis) {
     p[axis] += (random.next_1d() - 0.5f) * (box.high[axis] - box.low[axis]);
   }
-  return tree_.cell_at(p);
+  return division_.at(p, record.facing);
 }
 
 void PracticalPathGuidingLearningState::flush() {
@@ -102,7 +105,7 @@ Learned PracticalPathGuidingLearningState::update(const TrainingStage&) {
   // c sqrt(2^k) of the paper for iterations of 4 * 2^k samples per pixel, as in the published code.
   const double threshold = settings_.spatial_threshold * std::sqrt(samples / 4);
   parallel_for(cells_.size(), [&](std::size_t i) { conclude(cells_[i]); });
-  const std::vector<std::uint32_t> leaves = tree_.leaves();
+  const std::vector<std::uint32_t> leaves = division_.space.leaves();
   for (std::uint32_t cell = 0; cell < leaves.size(); ++cell) {
     halve(leaves[cell], cell, threshold);
   }
@@ -134,21 +137,22 @@ void PracticalPathGuidingLearningState::conclude(Cell& cell) const {
 
 void PracticalPathGuidingLearningState::halve(std::uint32_t leaf, std::uint32_t cell,
                                               double threshold) {
-  if (!(cells_[cell].records > threshold) || cells_[cell].level >= settings_.spatial_depth) return;
-  const int axis = cells_[cell].level % 3;
-  const std::array<Bounds3, 2> parts = halves(cells_[cell].box, axis);
-  const KdTree::Halves places = tree_.divide(leaf, axis, parts[1].low[axis]);
-  const auto added = static_cast<std::uint32_t>(cells_.size());
-  cells_[cell].records /= 2;
-  cells_[cell].light /= 2;
-  cells_[cell].weight /= 2;
-  cells_[cell].steps /= 2;
-  cells_[cell].learning.scale(0.5);
-  ++cells_[cell].level;
-  cells_.push_back(cells_[cell]);
-  origins_.push_back(origins_[cell]);
-  cells_[cell].box = parts[0];
-  cells_[added].box = parts[1];
+  double records = 0;
+  for (const Cell& part : cells_in(cell)) records += part.records;
+  const int level = cells_in(cell).front().level;
+  if (!(records > threshold) || level >= settings_.spatial_depth) return;
+  const int axis = level % 3;
+  const std::array<Bounds3, 2> parts = halves(cells_in(cell).front().box, axis);
+  const std::uint32_t added = division_.space.cell_count();
+  const KdTree::Halves places = division_.space.divide(leaf, axis, parts[1].low[axis]);
+  for (std::uint32_t i = 0; i < division_.in_each(); ++i) {
+    const std::uint32_t low = cell * division_.in_each() + i;
+    cells_[low].halve();
+    cells_.push_back(cells_[low]);
+    origins_.push_back(origins_[low]);
+    cells_[low].box = parts[0];
+    cells_.back().box = parts[1];
+  }
   halve(places.low, cell, threshold);
   halve(places.high, added, threshold);
 }
@@ -158,24 +162,24 @@ std::shared_ptr<const GuidingModel> PracticalPathGuidingLearningState::model() c
   for (const Cell& cell : cells_) {
     cells.push_back({cell.known, cell.known_light, cell.known_records});
   }
-  return std::make_shared<PracticalPathGuidingModel>(tree_, cells,
+  return std::make_shared<PracticalPathGuidingModel>(division_, cells,
                                                      settings_.target == GuidingTarget::radiance);
 }
 
 void PracticalPathGuidingLearningState::archive(Archive& archive) {
-  archive.heading("practical_path_guiding_learning", 4);
-  archive(tree_, origins_, pixels_, batches_, paths_, records_);
+  archive.heading("practical_path_guiding_learning", 5);
+  archive(division_, origins_, pixels_, batches_, paths_, records_);
   archive.list(cells_, [&] { return Cell{.box = {}, .learning = QuadTree(refinement())}; });
   if (!archive.loads()) return;
   const auto expect = [&](bool holds) { archive.expect(holds, "the learning of the SD-tree"); };
-  expect(cells_.size() == tree_.cell_count() && origins_.size() == cells_.size());
-  const std::vector<std::uint32_t> leaves = tree_.leaves();
-  const std::vector<int> levels = tree_.levels();
+  expect(cells_.size() == division_.count() && origins_.size() == cells_.size());
+  const std::vector<std::uint32_t> leaves = division_.space.leaves();
+  const std::vector<int> levels = division_.space.levels();
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     const Cell& cell = cells_[i];
-    expect(origins_[i] <= i && cell.level == levels[leaves[i]] && !cell.box.empty() &&
-           is_density(cell.known) && cell.records >= 0 && cell.light >= 0 && cell.weight >= 0 &&
-           cell.steps >= 0 && cell.known_light >= 0 && cell.known_records >= 0);
+    expect(origins_[i] <= i && cell.level == levels[leaves[i / division_.in_each()]] &&
+           !cell.box.empty() && is_density(cell.known) && cell.records >= 0 && cell.light >= 0 &&
+           cell.weight >= 0 && cell.steps >= 0 && cell.known_light >= 0 && cell.known_records >= 0);
   }
 }
 

@@ -1,14 +1,15 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <pharos/core/bounds.h>
 #include <pharos/core/random.h>
 #include <pharos/guiding/contract/learner.h>
-#include <pharos/guiding/toolkit/kd_tree.h>
 #include <pharos/guiding/toolkit/pixel_estimates.h>
 
+#include "cells.h"
 #include "learner.h"
 #include "quad_tree.h"
 
@@ -41,6 +42,15 @@ class PracticalPathGuidingLearningState final : public LearningState {
     float known_light = 0;    ///< mean value of the steps behind `known`
     float known_records = 0;  ///< number of the records behind `known`
 
+    /// Halves what the cell has accumulated, and counts a plane above it.
+    void halve() {
+      records /= 2;
+      light /= 2;
+      weight /= 2;
+      steps /= 2;
+      learning.scale(0.5);
+      ++level;
+    }
     void archive(Archive& archive) {
       archive(box, level, records, learning, light, weight, steps, known, known_light,
               known_records);
@@ -60,17 +70,21 @@ class PracticalPathGuidingLearningState final : public LearningState {
   /// Replaces a cell's known density by what it accumulated, and refines its tree for the next
   /// iteration. Keeps the known density if the cell found no light.
   void conclude(Cell& cell) const;
-  /// Halves a cell, and then its halves, as long as a cell's share of the records is above
-  /// `threshold`.
+  /// Halves a cell of the tree over space, and then its halves, as long as a cell's share of the
+  /// records is above `threshold`.
   void halve(std::uint32_t leaf, std::uint32_t cell, double threshold);
+  /// Returns the cells that learn apart in a cell of the tree over space.
+  std::span<Cell> cells_in(std::uint32_t cell) {
+    return {cells_.data() + std::size_t{cell} * division_.in_each(), division_.in_each()};
+  }
   std::shared_ptr<const GuidingModel> model() const;
 
   PracticalPathGuidingSettings settings_;
   std::uint64_t seed_;
   double film_pixels_;
-  KdTree tree_;
-  std::vector<Cell> cells_;
-  std::vector<std::uint32_t> origins_{0};  ///< cell of the last model that contained each cell
+  Cells division_;
+  std::vector<Cell> cells_;             ///< by the numbers of `division_`
+  std::vector<std::uint32_t> origins_;  ///< cell of the last model that contained each cell
   PixelEstimates pixels_;
   std::uint64_t batches_ = 0;    ///< number of calls of flush()
   double paths_ = 0;             ///< number of paths in this iteration

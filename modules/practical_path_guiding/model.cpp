@@ -22,11 +22,11 @@ class CellRadiance final : public RadianceAround {
 
 }  // namespace
 
-PracticalPathGuidingModel::PracticalPathGuidingModel(KdTree tree, const std::vector<Cell>& cells,
+PracticalPathGuidingModel::PracticalPathGuidingModel(Cells cells, const std::vector<Cell>& learned,
                                                      bool of_radiance)
-    : tree_(std::move(tree)), first_{0}, of_radiance_(of_radiance) {
+    : cells_(std::move(cells)), first_{0}, of_radiance_(of_radiance) {
   facts_.clear();
-  for (const Cell& cell : cells) add(cell);
+  for (const Cell& cell : learned) add(cell);
 }
 
 void PracticalPathGuidingModel::add(const Cell& cell) {
@@ -36,10 +36,10 @@ void PracticalPathGuidingModel::add(const Cell& cell) {
 }
 
 void PracticalPathGuidingModel::archive(Archive& archive) {
-  archive(tree_, of_radiance_);
+  archive(cells_, of_radiance_);
   const auto expect = [&](bool holds) { archive.expect(holds, "the SD-tree"); };
-  if (archive.loads()) *this = PracticalPathGuidingModel(std::move(tree_), {}, of_radiance_);
-  for (std::uint32_t i = 0; i < tree_.cell_count(); ++i) {
+  if (archive.loads()) *this = PracticalPathGuidingModel(std::move(cells_), {}, of_radiance_);
+  for (std::uint32_t i = 0; i < cells_.count(); ++i) {
     Cell cell;
     if (!archive.loads()) {
       const std::span<const QuadNode> own = nodes(i);
@@ -53,25 +53,31 @@ void PracticalPathGuidingModel::archive(Archive& archive) {
 
 ModelInfo PracticalPathGuidingModel::info() const {
   std::size_t known = 0, most = 0;
-  for (std::uint32_t cell = 0; cell < tree_.cell_count(); ++cell) {
+  for (std::uint32_t cell = 0; cell < cells_.count(); ++cell) {
     const std::size_t count = nodes(cell).size();
     known += count > 0 ? 1 : 0;
     most = std::max(most, count);
   }
   return {.name = std::string(kName),
-          .version = 2,
-          .bytes = tree_.size_bytes() + nodes_.size() * sizeof(QuadNode) +
+          .version = 3,
+          .bytes = cells_.space.size_bytes() + nodes_.size() * sizeof(QuadNode) +
                    facts_.size() * (sizeof(CellFacts) + sizeof(std::uint32_t)),
-          .regions = tree_.cell_count(),
+          .regions = cells_.count(),
           .facts = {{"cells", fmt::format("{}, {} levels of planes, {} know something",
-                                          tree_.cell_count(), tree_.depth(), known)},
+                                          cells_.count(), cells_.space.depth(), known)},
                     {"directional nodes",
                      fmt::format("{}, {} in one cell at most", nodes_.size(), most)}}};
 }
 
 double PracticalPathGuidingModel::density(Point3 point, const Vec3* direction) const {
-  const std::uint32_t cell = tree_.cell_at(point);
-  if (direction == nullptr) return facts_[cell].light;
+  if (direction == nullptr) {
+    double light = 0;
+    const std::uint32_t first = cells_.at(point, std::uint32_t{0});
+    for (std::uint32_t i = 0; i < cells_.in_each(); ++i) light += facts_[first + i].light;
+    return light;
+  }
+  // Light from a direction arrives on surfaces that face it.
+  const std::uint32_t cell = cells_.at(point, *direction);
   if (nodes(cell).empty()) return 0;
   return QuadDensity(nodes(cell)).at(warp::square_from_sphere(*direction)) * warp::sphere_pdf();
 }
@@ -79,7 +85,8 @@ double PracticalPathGuidingModel::density(Point3 point, const Vec3* direction) c
 // The cell's mean of radiance divided by density estimates the integral of radiance over all
 // directions.
 float PracticalPathGuidingModel::incident_radiance(Point3 point, Vec3 direction) const {
-  return static_cast<float>(density(point, nullptr) * density(point, &direction));
+  const float light = facts_[cells_.at(point, direction)].light;
+  return static_cast<float>(light * density(point, &direction));
 }
 
 const RadianceAround* PracticalPathGuidingModel::radiance_around(const GuidingQuery& query,

@@ -5,8 +5,8 @@
 
 #include <pharos/guiding/contract/model.h>
 #include <pharos/guiding/contract/radiance_estimate.h>
-#include <pharos/guiding/toolkit/kd_tree.h>
 
+#include "cells.h"
 #include "quad_density.h"
 
 namespace pharos::practical_path_guiding {
@@ -27,14 +27,14 @@ class PracticalPathGuidingModel final : public GuidingModel, public RadianceEsti
   };
 
   PracticalPathGuidingModel() = default;
-  /// `cells` is in the order of the cell numbers in the tree. `of_radiance` states that the
-  /// densities are proportional to incident radiance.
-  PracticalPathGuidingModel(KdTree tree, const std::vector<Cell>& cells, bool of_radiance);
+  /// `learned` is in the order of the numbers of the cells. `of_radiance` states that the densities
+  /// are proportional to incident radiance.
+  PracticalPathGuidingModel(Cells cells, const std::vector<Cell>& learned, bool of_radiance);
 
   ModelInfo info() const override;
   void archive(Archive& archive) override;
   Place place(const GuidingVertex& vertex) const override {
-    const std::uint32_t cell = tree_.cell_at(vertex.position);
+    const std::uint32_t cell = cells_.at(vertex.position, vertex.normal);
     return {cell, nodes(cell).empty() ? 0.0f : std::max(facts_[cell].records, 1.0f)};
   }
   double density(Point3 point, const Vec3* direction) const override;
@@ -57,7 +57,7 @@ class PracticalPathGuidingModel final : public GuidingModel, public RadianceEsti
   };
   void add(const Cell& cell);
 
-  KdTree tree_;
+  Cells cells_;
   std::vector<QuadNode> nodes_;             ///< nodes of all cells, one cell after another
   std::vector<std::uint32_t> first_{0, 0};  ///< index of each cell's first node, and the end
   std::vector<CellFacts> facts_{{}};

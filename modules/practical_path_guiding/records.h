@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -26,7 +27,8 @@ enum class GuidingTarget {
 /// A step of a path: its position, its direction, and its value in the leaf of this direction.
 struct Record {
   Point3 position;
-  Vec2 direction;  ///< point on the square by warp::square_from_sphere()
+  Vec2 direction;            ///< point on the square by warp::square_from_sphere()
+  std::uint32_t facing = 0;  ///< facing_of() the surface
   /// x / p for `radiance`, x^2 / p for the other targets, where p [1/sr] is the density of the
   /// direction; 0 if no light arrived
   float value = 0;
