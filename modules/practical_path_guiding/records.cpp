@@ -40,9 +40,9 @@ void extract_records(const PathView& path, GuidingTarget target, LightHits hits,
 void Record::archive(Archive& archive) {
   archive(position, direction, facing, value, steps);
   const auto is_unit = [](float v) { return v >= 0 && v < 1; };
-  archive.expect(is_unit(direction.x) && is_unit(direction.y) && facing < kFacings && value >= 0 &&
-                     steps > 0,
-                 "a record of the directional trees");
+  archive.expect(
+      is_unit(direction.x) && is_unit(direction.y) && facing < kFacings && value >= 0 && steps > 0,
+      "a record of the directional trees");
 }
 
 }  // namespace pharos::practical_path_guiding

@@ -10,7 +10,7 @@ namespace pharos {
 
 /// The mean squared error and the mean cost of the paths of one image. The largest squared errors
 /// are left out, together with their costs: a single path that finds a small bright light may have
-/// a larger one than all others together, and nobody would wait for such pixels to converge.
+/// a larger one than all others together, and factors that follow it would serve this path alone.
 class ImageError {
  public:
   /// Of each `pass` paths, `outliers` are left out. A last pass that is not full loses as many.

@@ -82,7 +82,7 @@ OutcomeField::OutcomeField(const OutcomeCells& cells, DirectionBins directions, 
   const std::size_t bins = directions.count();
   const std::vector<OutcomeSums> sums = sums_by_place(cells, bins);
   const std::vector<std::uint32_t> leaves = tree_.leaves(), parents = tree_.parents();
-  // From where nobody has ever looked, all that was found anywhere counts.
+  // Where no step was recorded, the mean over the whole scene counts.
   OutcomeSums all;
   for (std::size_t bin = 0; bin < bins; ++bin) all += sums[bin];
   expected_.reserve(cells.size() * bins);

@@ -99,7 +99,7 @@ TEST_CASE("outcome cells: moments that no float can hold are the largest float")
   CHECK(std::isfinite(OutcomeField(cells, bins, 10).at({}, {0, 0, 1}).squared));
 }
 
-TEST_CASE("outcome cells: where nobody has looked, the mean of the scene counts") {
+TEST_CASE("outcome cells: where no step was recorded, the mean of the scene counts") {
   const DirectionBins bins(2);
   OutcomeCells cells;
   std::vector<StepOutcome> steps(100, {{}, {0.1f, 0.1f, 0.99f}, 6, 2});
