@@ -17,9 +17,9 @@
 //
 // The variances and costs depend on the factors of all later vertices and of the whole image. V,
 // E[X^2] and C accumulate in bins of direction in the cells of a kd-tree (outcome_cells.h). V_I and
-// C_I are those of the last iteration alone, without the largest errors (image_error.h). The next
-// factors follow from them: a fixed-point iteration. Costs are numbers of steps and light samples.
-// I is a denoised image of all training iterations (film_estimate.h).
+// C_I are measured in the last iteration alone, without the largest errors (image_error.h). The
+// next factors follow from them: a fixed-point iteration. Costs are numbers of steps and light
+// samples. I is a denoised image of all training iterations (film_estimate.h).
 //
 // This follows the program of the authors, with some differences on purpose:
 //

@@ -85,11 +85,26 @@ TEST_CASE("checkpoints: what terminations learn, with and without guides") {
 }
 
 TEST_CASE("checkpoints: every preset") {
-  for (const char* preset :
-       {"adrrs", "ears", "focal", "focal-robust", "pairs", "pavmm", "pavmm-product", "pavmm-robust",
-        "ppg-improved", "ppg-paper", "ppg-robust", "robust", "robust-adrrs", "robust-ears",
-        "spatial-gaussians", "spatial-gaussians-robust", "triplets", "triplets-robust", "varpg",
-        "vmm"}) {
+  for (const char* preset : {"adrrs",
+                             "ears",
+                             "focal",
+                             "focal-robust",
+                             "pairs",
+                             "pavmm",
+                             "pavmm-product",
+                             "pavmm-robust",
+                             "ppg-improved",
+                             "ppg-paper",
+                             "ppg-robust",
+                             "robust",
+                             "robust-adrrs",
+                             "robust-ears",
+                             "spatial-gaussians",
+                             "spatial-gaussians-robust",
+                             "triplets",
+                             "triplets-robust",
+                             "varpg",
+                             "vmm"}) {
     CAPTURE(preset);
     check_goes_on(config_in("cornell-box",
                             fmt::format("integrator: {{ type: path, guiding: {} }}\n", preset)));

@@ -253,27 +253,30 @@ TEST_CASE("a stopped render keeps what it has") {
   CHECK(image_mean(result.image) > 0.05);
 }
 
-TEST_CASE("replay runs the very path") {
-  // With one sample per pixel and a box filter, the value of the pixel is the value of the path.
-  const std::string config = cornell("budget: { spp: 1 }\n");
+/// Checks that replayed paths of an iteration have the values of their pixels, and that the text
+/// about them contains `part`. The iteration has one sample per pixel, and its image alone counts.
+void check_replay(const std::string& config, std::uint32_t iteration, std::string_view part) {
   const RenderResult result = render(config);
   const LoadedConfig loaded = config_from(config);
   RenderJob job(loaded.config);
   for (const auto& [x, y] : {std::pair{3, 7}, {20, 20}, {40, 33}}) {
-    const PathTrace trace = job.replay(x, y, 0, 0);
+    const PathTrace trace = job.replay(x, y, 0, iteration);
     CHECK(trace.radiance == result.image.rgb(x, y));
-    CHECK(trace.text.find("surface") != std::string::npos);
+    CHECK(trace.text.find(part) != std::string::npos);
   }
+}
+
+TEST_CASE("replay runs the very path") {
+  // With one sample per pixel and a box filter, the value of the pixel is the value of the path.
+  const std::string config = cornell("budget: { spp: 1 }\n");
+  check_replay(config, 0, "surface");
 }
 
 TEST_CASE("replay knows what guides later iterations") {
   const std::string config = cornell(
       "budget: { spp: 2 }\nintegrator: { type: path, guiding: { learner: stub_direction, "
       "guider: stub_direction, training: { iterations: 1, images: discard } } }\n");
-  const RenderResult result = render(config);
-  const LoadedConfig loaded = config_from(config);
-  RenderJob job(loaded.config);
-  CHECK(job.replay(20, 20, 0, 1).radiance == result.image.rgb(20, 20));
+  check_replay(config, 1, "surface");
 }
 
 /// The means of the layers of an image that tell of its paths.
@@ -323,24 +326,14 @@ TEST_CASE("replay runs all branches of a path and names them") {
   const std::string config = cornell(
       "budget: { spp: 1 }\nintegrator: { type: path, termination: { type: stub_factor, factor: 2 } "
       "}\n");
-  const RenderResult result = render(config);
-  const LoadedConfig loaded = config_from(config);
-  RenderJob job(loaded.config);
-  for (const auto& [x, y] : {std::pair{3, 7}, {20, 20}, {40, 33}}) {
-    const PathTrace trace = job.replay(x, y, 0, 0);
-    CHECK(trace.radiance == result.image.rgb(x, y));
-    CHECK(trace.text.find("branch 1 after 0") != std::string::npos);
-  }
+  check_replay(config, 0, "branch 1 after 0");
 }
 
 TEST_CASE("replay knows the factors that later iterations have learned") {
   const std::string config = cornell(
       "budget: { spp: 2 }\nintegrator: { type: path, termination: { type: adjoint, window: 1 }, "
       "training: { iterations: 1, images: discard } }\n");
-  const RenderResult result = render(config);
-  const LoadedConfig loaded = config_from(config);
-  RenderJob job(loaded.config);
-  CHECK(job.replay(20, 20, 0, 1).radiance == result.image.rgb(20, 20));
+  check_replay(config, 1, "surface");
 }
 
 }  // namespace

@@ -60,7 +60,7 @@ struct IterationContext {
   bool record = false;                    ///< fill WorkResult::log
   bool training = false;                  ///< this is a training iteration
   const PixelShares* pixels = nullptr;    ///< how samples are shared among pixels; null: evenly
-  /// What was learned of where paths end and split; null: nothing.
+  /// The learned rule that ends and splits paths; null: none was learned.
   const TerminationRule* termination = nullptr;
 };
 

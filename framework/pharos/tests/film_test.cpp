@@ -167,7 +167,7 @@ TEST_CASE("merged films are one film") {
   }
 }
 
-TEST_CASE("the mean number of steps is that of all samples of ended passes") {
+TEST_CASE("the mean number of steps counts all samples of ended passes") {
   Film film(kSize, kSize, std::make_shared<Box>());
   CHECK(film.mean_cost() == 0);
   FilmTile tile = film.make_tile(kAll);

@@ -77,7 +77,9 @@ class TinyIntegrator final : public Integrator {
 
 }  // namespace
 
-TEST_CASE("render learning: the time of steps counts if a rule is learned, else that of paths") {
+TEST_CASE(
+    "render learning: guides are judged by the time of a step if a rule is learned, otherwise by "
+    "the time of a path") {
   GuidingSettings settings = test::tiny_settings();
   settings.training.least_gain = 0.2;
   for (const bool learns_rule : {false, true}) {

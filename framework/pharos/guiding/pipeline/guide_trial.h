@@ -27,8 +27,8 @@ struct IterationCost {
   double spent = 0;    ///< share of the budget that is spent after it [1]
   double samples = 0;  ///< per pixel; 0: not known
   /// Mean number of steps of a path, if a rule is learned that ends and splits paths; otherwise 1.
-  /// The rule makes guided paths longer or shorter than those of the first iterations, which says
-  /// nothing about guides.
+  /// Such a rule changes the length of paths between iterations, with or without guides. Guides are
+  /// therefore judged by the time of a step.
   double steps = 1;
   double seconds =
       0;  ///< of rendering them. Budgets of samples do not depend on it and leave it 0.

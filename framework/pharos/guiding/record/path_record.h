@@ -123,8 +123,8 @@ class PathLog {
   std::size_t size() const { return paths_.size(); }
   PathView operator[](std::size_t i) const;
 
-  /// Limits the memory of the log: no path begins in it any more once it has `most` vertices and
-  /// light samples, so it has at most those of another path above. clear() keeps the limit.
+  /// Limits the memory of the log: once it has `most` vertices and light samples, no further path
+  /// is recorded. The last recorded path may exceed the limit. clear() keeps the limit.
   void set_most_records(std::size_t most) { most_records_ = most; }
   /// Begins a path. Returns false if the log is full. The path is left out then, and nothing may be
   /// added before the next path begins. Whether a path is left out depends on the paths before it
