@@ -17,17 +17,21 @@
 //
 // The variances and costs depend on the factors of all later vertices and of the whole image. V,
 // E[X^2] and C accumulate in bins of direction in the cells of a kd-tree (outcome_cells.h). V_I and
-// C_I are measured in the last iteration alone, without the largest errors (image_error.h). The
-// next factors follow from them: a fixed-point iteration. Costs are numbers of steps and light
-// samples. I is a denoised image of all training iterations (film_estimate.h).
+// C_I are measured in the last iteration alone (image_error.h). The next factors follow from them:
+// a fixed-point iteration. Costs are numbers of steps and light samples. I is a denoised image of
+// all training iterations (film_estimate.h).
 //
 // This follows the program of the authors, with some differences on purpose:
 //
+// - Rare large errors are limited in V_I, and T X is limited alike in V (outcome_settings.h). The
+//   program leaves the largest errors out of V_I alone, so V_I has less noise than V suggests, and
+//   paths split more and more from iteration to iteration. E[X^2] has no limit, because roulette
+//   must expect rare light.
 // - Numbers are means over the channels of each factor, so that a bin has one number of each kind.
 // - If training ends before the first three iterations are over, the final image uses what was
 //   learned nevertheless.
-// - Training images are weighted as `images` of `training` says. Weights by inverse variances
-//   depend on the values that they weight, which would bias the image.
+// - Training images are weighted by the time that they took (image_combiner.h). Weights by inverse
+//   variances depend on the values that they weight, which would bias the image.
 //
 //     termination: { type: efficiency, most: 20 }
 #include "efficiency.h"
@@ -68,7 +72,7 @@ float efficiency_factor(float relative, const ExpectedOutcome& expected, float w
   };
   const float roulette = best(expected.squared);
   if (roulette < 1) return roulette;
-  return std::max(best(expected.variance()), 1.0f);
+  return std::max(best(expected.variance), 1.0f);
 }
 
 void EfficiencyTermination::Settings::describe(Schema<Settings>& s) {

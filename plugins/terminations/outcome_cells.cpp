@@ -1,9 +1,9 @@
 #include "outcome_cells.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
-
-#include <pharos/core/warp.h>
+#include <utility>
 
 namespace pharos {
 namespace {
@@ -13,10 +13,11 @@ float limited(double number) {
   return static_cast<float>(std::min(number, double{std::numeric_limits<float>::max()}));
 }
 
-ExpectedOutcome expected(const OutcomeSums& sums) {
-  if (!(sums.steps > 0)) return {};
-  return {limited(sums.radiance / sums.steps), limited(sums.squared / sums.steps),
-          limited(std::max(sums.cost / sums.steps, 1.0))};
+/// Returns the expected values of a mean step.
+ExpectedOutcome expected(const OutcomeSums& mean) {
+  const double variance = std::max(mean.limited_squared - mean.limited * mean.limited, 0.0);
+  return {limited(mean.radiance), limited(mean.squared), limited(variance),
+          limited(std::max(mean.cost, 1.0))};
 }
 
 /// Returns what was found below each plane and in each cell of the tree, by place and bin.
@@ -34,6 +35,35 @@ std::vector<OutcomeSums> sums_by_place(const OutcomeCells& cells, std::size_t bi
   return sums;
 }
 
+/// Returns the mean of a step. `prior` is the mean without the steps of `sums`, and counts as
+/// `prior_steps` steps.
+OutcomeSums mean_of(const OutcomeSums& sums, OutcomeSums prior, double prior_steps) {
+  if (!(prior_steps + sums.steps > 0)) return prior;
+  prior.scale(prior_steps);
+  prior += sums;
+  prior.scale(1 / prior.steps);
+  return prior;
+}
+
+/// Returns the mean of a step at each place and in each bin. Each starts from the mean of the same
+/// bin at the place above, the uppermost one from the mean of the scene, as if this were the mean
+/// of `prior_steps` further steps. Something rare that a small cell has not found yet, but a larger
+/// one has, is thus still expected.
+std::vector<OutcomeSums> means_by_place(const std::vector<OutcomeSums>& sums,
+                                        const std::vector<std::uint32_t>& parents, std::size_t bins,
+                                        double prior_steps) {
+  OutcomeSums all;
+  for (std::size_t bin = 0; bin < bins; ++bin) all += sums[bin];
+  all.scale(1 / all.steps);
+  std::vector<OutcomeSums> means(sums.size(), all);
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    const std::size_t place = i / bins, bin = i % bins;
+    const OutcomeSums& above = place > 0 ? means[parents[place] * bins + bin] : all;
+    means[i] = mean_of(sums[i], above, prior_steps);
+  }
+  return means;
+}
+
 }  // namespace
 
 OutcomeSums& OutcomeSums::operator+=(const OutcomeSums& other) {
@@ -41,6 +71,8 @@ OutcomeSums& OutcomeSums::operator+=(const OutcomeSums& other) {
   radiance += other.radiance;
   squared += other.squared;
   cost += other.cost;
+  limited += other.limited;
+  limited_squared += other.limited_squared;
   return *this;
 }
 
@@ -49,21 +81,27 @@ void OutcomeSums::scale(double factor) {
   radiance *= factor;
   squared *= factor;
   cost *= factor;
+  limited *= factor;
+  limited_squared *= factor;
 }
 
 void OutcomeSums::archive(Archive& archive) {
-  archive(steps, radiance, squared, cost);
-  archive.expect(steps >= 0 && radiance >= 0 && squared >= 0 && cost >= 0,
+  archive(steps, radiance, squared, cost, limited, limited_squared);
+  archive.expect(steps >= 0 && radiance >= 0 && squared >= 0 && cost >= 0 && limited >= 0 &&
+                     limited_squared >= 0,
                  "what was learned of steps");
 }
 
 std::size_t DirectionBins::at(Vec3 direction) const {
-  const Vec2 u = warp::square_from_sphere(direction);
-  const auto bin = [this](float x) {
-    const auto i = static_cast<std::int64_t>(x * static_cast<float>(rows_));
+  // Along the edges of the square |x| + |y| = 1, from 0 to 4: an azimuth without an arc tangent.
+  const float size = std::max(std::abs(direction.x) + std::abs(direction.y), 1e-20f);
+  const float t = direction.y / size;
+  const float around = direction.x < 0 ? 2 - t : direction.y < 0 ? 4 + t : t;
+  const auto bin = [this](float u) {
+    const auto i = static_cast<std::int64_t>(u * static_cast<float>(rows_));
     return static_cast<std::size_t>(std::clamp<std::int64_t>(i, 0, rows_ - 1));
   };
-  return bin(u.x) * rows_ + bin(u.y);
+  return bin(0.5f * direction.z + 0.5f) * rows_ + bin(0.25f * around);
 }
 
 void OutcomeCell::forget(double factor) {
@@ -78,29 +116,32 @@ void OutcomeCell::learn(std::span<const StepOutcome> outcomes, const DirectionBi
 }
 
 OutcomeField::OutcomeField(const OutcomeCells& cells, DirectionBins directions, double least_steps)
-    : tree_(cells.tree()), directions_(directions) {
+    : directions_(directions) {
   const std::size_t bins = directions.count();
   const std::vector<OutcomeSums> sums = sums_by_place(cells, bins);
-  const std::vector<std::uint32_t> leaves = tree_.leaves(), parents = tree_.parents();
-  // Where no step was recorded, the mean over the whole scene counts.
-  OutcomeSums all;
-  for (std::size_t bin = 0; bin < bins; ++bin) all += sums[bin];
-  expected_.reserve(cells.size() * bins);
-  for (std::uint32_t place : leaves) {
+  const std::vector<std::uint32_t> parents = cells.tree().parents();
+  // A plane matters if a bin beside it has enough steps. The tree without the others is smaller, so
+  // look-ups take less time.
+  std::vector<bool> matters(parents.size(), false);
+  for (std::size_t i = bins; i < sums.size(); ++i) {
+    if (sums[i].steps >= least_steps) matters[parents[i / bins]] = true;
+  }
+  KdTree::UpperPart used = cells.tree().upper_part(matters);
+  const std::vector<OutcomeSums> means = means_by_place(sums, parents, bins, least_steps);
+  expected_.reserve(used.places.size() * bins);
+  for (const std::uint32_t place : used.places) {
     for (std::size_t bin = 0; bin < bins; ++bin) {
-      std::size_t from = place;
-      while (from > 0 && sums[from * bins + bin].steps < least_steps) from = parents[from];
-      const OutcomeSums& found = sums[from * bins + bin];
-      expected_.push_back(expected(found.steps > 0 ? found : all));
+      expected_.push_back(expected(means[place * bins + bin]));
     }
   }
+  tree_ = std::move(used.tree);
 }
 
 void OutcomeField::archive(Archive& archive) {
   archive(tree_, expected_);
   bool is_sound = expected_.size() == tree_.cell_count() * directions_.count();
   for (const ExpectedOutcome& e : expected_) {
-    is_sound &= e.radiance >= 0 && e.squared >= 0 && e.cost >= 1;
+    is_sound &= e.radiance >= 0 && e.squared >= 0 && e.variance >= 0 && e.cost >= 1;
   }
   archive.expect(is_sound, "what was learned of steps");
 }

@@ -15,6 +15,7 @@ namespace pharos {
 /// Sums over outcomes, each times the number of steps for which it counts.
 struct OutcomeSums {
   double steps = 0, radiance = 0, squared = 0, cost = 0;
+  double limited = 0, limited_squared = 0;  ///< of StepOutcome::limited and its square
 
   void add(const StepOutcome& outcome) {
     const double count = outcome.steps;
@@ -22,6 +23,8 @@ struct OutcomeSums {
     radiance += count * outcome.radiance;
     squared += count * outcome.radiance * outcome.radiance;
     cost += count * outcome.cost;
+    limited += count * outcome.limited;
+    limited_squared += count * outcome.limited * outcome.limited;
   }
   OutcomeSums& operator+=(const OutcomeSums& other);
   void scale(double factor);
@@ -32,15 +35,14 @@ struct OutcomeSums {
 struct ExpectedOutcome {
   float radiance = 0;  ///< outgoing radiance, without what the vertex itself emits
   float squared = 0;   ///< second moment of the estimates of `radiance`
+  float variance = 0;  ///< of the limited estimates (StepOutcome::limited)
   float cost = 1;      ///< steps and light samples that a step leads to, itself included
 
-  void archive(Archive& archive) { archive(radiance, squared, cost); }
-  float variance() const {
-    return squared > radiance * radiance ? squared - radiance * radiance : 0;
-  }
+  void archive(Archive& archive) { archive(radiance, squared, variance, cost); }
 };
 
-/// Bins of directions of equal solid angle: `rows` rows of as many bins.
+/// Bins of directions: `rows` rows of equal height along z, each of as many bins around z. 4 x 4
+/// bins have equal solid angles.
 class DirectionBins {
  public:
   explicit DirectionBins(std::uint32_t rows) : rows_(rows) {}
@@ -69,9 +71,10 @@ class OutcomeField {
  public:
   /// Knows nothing; for loading.
   explicit OutcomeField(DirectionBins directions) : directions_(directions) {}
-  /// Takes the means of what `cells` have found. If a bin has fewer than `least_steps` steps, the
-  /// same bin of the next larger cell counts instead: all cells below the plane that has made the
-  /// cell, and so on up to the whole scene.
+  /// Takes the means of what `cells` have found. To each bin of a cell, the same bin of the next
+  /// larger cell contributes its mean as if it was that of `least_steps` further steps. This larger
+  /// cell is made of all cells below the plane that has made the cell, and so on up to the whole
+  /// scene.
   OutcomeField(const OutcomeCells& cells, DirectionBins directions, double least_steps);
 
   /// Returns what steps from a point find if the viewer is in this unit direction.

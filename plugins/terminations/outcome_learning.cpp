@@ -1,6 +1,7 @@
 #include "outcome_learning.h"
 
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace pharos {
@@ -11,7 +12,7 @@ OutcomeLearning::OutcomeLearning(const OutcomeSettings& settings, const Learning
       window_(context.window),
       make_(std::move(make)),
       film_(context.window),
-      error_(settings.outliers, settings.pass(context.window.area())),
+      error_(settings.outliers_of_pass(), settings.pass()),
       rule_(settings.first.rule()) {}
 
 void OutcomeLearning::absorb(const PathLog& log) {
@@ -23,7 +24,12 @@ void OutcomeLearning::absorb(const PathLog& log) {
 }
 
 void OutcomeLearning::learn_path(const PathView& path) {
-  const PathOutcome found = reader_.read(path, rule_->stage(), steps_);
+  // The largest value of a path whose error counts in full.
+  const double limit = learned_ != nullptr && largest_error_ > 0
+                           ? learned_->pixels.at(path.film) +
+                                 std::sqrt(largest_error_) * learned_->scale_at(path.film)
+                           : std::numeric_limits<double>::infinity();
+  const PathOutcome found = reader_.read(path, rule_->stage(), limit, steps_);
   if (!std::isfinite(found.radiance) || !std::isfinite(found.paths) || !(found.paths > 0)) return;
   film_.add(path.film, {found.radiance, found.paths, path.albedo, path.normal});
   if (learned_ == nullptr) return;
@@ -58,7 +64,11 @@ void OutcomeLearning::update(const TrainingStage& stage) {
   learned_ = summary();
   is_in_use_ = ++updates_ >= settings_.first_iterations || stage.is_last();
   make_rule();
-  for (std::size_t i = 0; i < cells_.size(); ++i) cells_[i].forget(settings_.decay);
+  const bool was_unlimited = largest_error_ == 0;
+  if (was_unlimited) largest_error_ = error_.largest();
+  // What was found without a limit is forgotten.
+  const double kept = was_unlimited && largest_error_ > 0 ? 0 : settings_.decay;
+  for (std::size_t i = 0; i < cells_.size(); ++i) cells_[i].forget(kept);
   error_.clear();
 }
 
@@ -68,8 +78,9 @@ void OutcomeLearning::make_rule() {
 }
 
 void OutcomeLearning::archive(Archive& archive) {
-  archive.heading("outcomes of steps", 4);
-  archive(steps_, cells_, film_, error_, updates_);
+  archive.heading("outcomes of steps", 5);
+  archive(steps_, cells_, film_, error_, updates_, largest_error_);
+  archive.expect(largest_error_ >= 0, "the errors of paths");
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     const std::size_t bins = cells_[i].bins.size();
     archive.expect(bins == 0 || bins == directions().count(), "what was learned of steps");

@@ -63,6 +63,8 @@ class OutcomeLearning final : public TerminationState {
   FilmEstimate film_;
   ImageError error_;  ///< of the current iteration, against `learned_`
   Known learned_;     ///< at the last update(); null: nothing
+  /// Steps and paths of larger squared errors count as if they had this one [1]; 0: unknown.
+  double largest_error_ = 0;
   std::uint32_t updates_ = 0;
   bool is_in_use_ = false;  ///< the first iterations are over
   std::shared_ptr<const TerminationRule> rule_;

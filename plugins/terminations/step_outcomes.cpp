@@ -1,10 +1,14 @@
 #include "step_outcomes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 
 namespace pharos {
 namespace {
+
+/// Less than the throughput of any path that matters [1].
+constexpr float kTiny = 1e-30f;
 
 /// Returns whether a step was drawn from a vertex, even if it led nowhere. Otherwise the path has
 /// reached its largest depth there, or roulette has ended it before a step was drawn.
@@ -54,7 +58,7 @@ void OutcomeReader::count_costs(const PathView& path) {
   }
 }
 
-PathOutcome OutcomeReader::read(const PathView& path, TerminationRule::Stage stage,
+PathOutcome OutcomeReader::read(const PathView& path, TerminationRule::Stage stage, double limit,
                                 std::vector<StepOutcome>& steps) {
   const bool is_late = stage == TerminationRule::Stage::step;
   estimate_incident_radiance(path, incident_);
@@ -69,6 +73,8 @@ PathOutcome OutcomeReader::read(const PathView& path, TerminationRule::Stage sta
     steps.push_back({.origin = vertex.position,
                      .towards_viewer = -path.vertices[vertex.parent].direction,
                      .radiance = static_cast<float>(radiance),
+                     .limited = static_cast<float>(
+                         std::min(radiance, limit / std::max(mean(vertex.throughput), kTiny))),
                      .cost = costs_[i],
                      .steps = is_late ? vertex.continuation : 1});
   }

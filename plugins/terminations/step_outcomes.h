@@ -16,13 +16,14 @@ struct StepOutcome {
   /// Estimate of the radiance that leaves the vertex towards the viewer, mean of the channels,
   /// without emission of the vertex itself. It contains the light sample that goes with the step.
   float radiance = 0;
+  float limited = 0;  ///< the same, at most what the limit on contributions to a pixel allows
   /// Number of steps and light samples from here on, this step and its light sample included, in
   /// all branches.
   float cost = 0;
   float steps = 1;  ///< number of steps for which it counts, > 0; see OutcomeReader
 
   void archive(Archive& archive) {
-    archive(origin, towards_viewer, radiance, cost, steps);
+    archive(origin, towards_viewer, radiance, limited, cost, steps);
     archive.expect(steps > 0, "what was learned of steps");
   }
 };
@@ -48,8 +49,9 @@ class OutcomeReader {
   /// Reads a path from the sensor. Appends the outcomes of the steps after the first one to
   /// `steps`. Steps from vertices whose events are all discrete are left out, because their paths
   /// are left alone (TerminationQuery::discrete). `stage` is that of the rule by which the path has
-  /// ended or split.
-  PathOutcome read(const PathView& path, TerminationRule::Stage stage,
+  /// ended or split. The limited estimate of a step adds at most `limit` to the mean of the channels
+  /// of its pixel.
+  PathOutcome read(const PathView& path, TerminationRule::Stage stage, double limit,
                    std::vector<StepOutcome>& steps);
 
  private:

@@ -5,27 +5,27 @@
 namespace pharos {
 namespace {
 
-/// The share of all samples from which guides must have learned for images of full weight.
+/// The share of the budget from which guides must have learned for images of full weight.
 constexpr double kYoung = 1.0 / 8;
 
-/// Returns the sum of the weights of the first `samples` of `total` samples.
-double weight_up_to(double samples, double total) {
+/// Returns the sum of the weights of the first `spent` of `total` units of the budget.
+double weight_up_to(double spent, double total) {
   const double young = kYoung * total;
-  return samples < young ? 0.5 * samples * samples / young : samples - 0.5 * young;
+  return spent < young ? 0.5 * spent * spent / young : spent - 0.5 * young;
 }
 
 }  // namespace
 
-void ImageCombiner::add(const Film& film, double before) {
-  images_.push_back({film.layers(), before, before + film.samples_per_pixel()});
+void ImageCombiner::add(const Film& film, SpentBudget spent) {
+  images_.push_back({film.layers(), film.samples_per_pixel(), spent});
   if (images_.size() > latest_) images_.erase(images_.begin());
 }
 
 Image ImageCombiner::combine() const {
   if (images_.size() == 1) return images_.front().layers;
-  const double samples_in_all = images_.back().end;
+  const double total_spent = images_.back().spent.end;
   const auto weight = [&](const Weighted& w) {
-    return weight_up_to(w.end, samples_in_all) - weight_up_to(w.begin, samples_in_all);
+    return weight_up_to(w.spent.end, total_spent) - weight_up_to(w.spent.begin, total_spent);
   };
   double total = 0;
   for (const Weighted& w : images_) total += weight(w);
@@ -43,7 +43,7 @@ Image ImageCombiner::combine() const {
           const float factor = c == samples ? 1.0f : is_variance ? share * share : share;
           float value = w.layers.pixel(x, y)[c];
           if (is_variance && !std::isfinite(value)) {
-            value = last.layers.pixel(x, y)[c] * static_cast<float>(last.samples() / w.samples());
+            value = last.layers.pixel(x, y)[c] * static_cast<float>(last.samples / w.samples);
           }
           result.pixel(x, y)[c] += factor * value;
         }

@@ -15,14 +15,14 @@ class RenderImages {
   /// `blank` is the image of a render without iterations.
   RenderImages(const TrainingSettings& training, Image blank);
 
-  /// Adds the film of an iteration that is over, possibly because the render was stopped. `before`
-  /// is the number of samples per pixel that were taken before it.
-  void add(const Film& film, bool training, double before);
+  /// Adds the film of an iteration that is over, possibly because the render was stopped. It was
+  /// rendered with a part `spent` of the budget.
+  void add(const Film& film, bool training, SpentBudget spent);
   /// Returns the image with which the render would end now.
   Image result() const { return combiner_.empty() ? last_ : combiner_.combine(); }
   /// Returns the image with which the render would end if an iteration with this film was over; see
   /// add(). A training image that is not part of the result is shown by itself.
-  Image result_with(const Film& film, bool training, double before) const;
+  Image result_with(const Film& film, bool training, SpentBudget spent) const;
 
   void archive(Archive& archive);
 

@@ -180,8 +180,8 @@ class RenderJob::Implementation {
   void end_iteration(const IterationState& state, bool is_stopped) {
     const Film& film = state.film;
     const double taken = seconds() - state.start;
+    images_->add(film, iteration_.training, spent_on(film, taken));
     (iteration_.training ? result_.times.training : result_.times.rendering) += taken;
-    images_->add(film, iteration_.training, result_.samples_per_pixel);
     if (iteration_.training && adapts_pixels() && !guides_camera()) noise_.add(film);
     result_.samples_per_pixel += film.samples_per_pixel();
     spending_.samples += state.done;
@@ -189,9 +189,20 @@ class RenderJob::Implementation {
     if (iteration_.training && !is_stopped) update_learning(state, taken);
   }
 
+  /// Returns the part of the budget that the film of the current iteration has taken, after `taken`
+  /// seconds.
+  SpentBudget spent_on(const Film& film, double taken) const {
+    if (config().budget.seconds) {
+      const double before = result_.times.training + result_.times.rendering;
+      return {before, before + taken};
+    }
+    return {result_.samples_per_pixel, result_.samples_per_pixel + film.samples_per_pixel()};
+  }
+
   void show(const Film& film) const {
     const auto image = [&] {
-      return images_->result_with(film, iteration_.training, result_.samples_per_pixel);
+      return images_->result_with(film, iteration_.training,
+                                  spent_on(film, seconds() - current_->start));
     };
     control_.on_pass({progress(film.samples_per_pixel()), image});
   }
@@ -324,7 +335,7 @@ class RenderJob::Implementation {
   }
 
   void archive_state(Archive& archive) {
-    archive.heading("render", 4);
+    archive.heading("render", 5);
     double watch_seconds = watch_.seconds();
     archive(watch_seconds, result_.times.training, result_.times.update, result_.times.rendering,
             result_.counters, result_.samples_per_pixel, result_.first_invalid, *schedule_,

@@ -229,8 +229,8 @@ TEST_CASE("images combine by when their samples were taken, whatever their varia
   const double pixels = runs * kSize * kSize;
   for (int run = 0; run < runs; ++run) {
     ImageCombiner combiner(2);
-    combiner.add(noisy(1, 48, static_cast<std::uint64_t>(2 * run)), 0);
-    combiner.add(noisy(0.5f, 16, static_cast<std::uint64_t>(2 * run + 1)), 48);
+    combiner.add(noisy(1, 48, static_cast<std::uint64_t>(2 * run)), {0, 48});
+    combiner.add(noisy(0.5f, 16, static_cast<std::uint64_t>(2 * run + 1)), {48, 64});
     const Image image = combiner.combine();
     const double v = image.rgb(4, 4).r;
     mean_value += v / runs;
@@ -264,9 +264,9 @@ TEST_CASE("images of guides that know little count less, and only the latest are
   // 28.
   const auto combined = [](std::uint32_t latest) {
     ImageCombiner combiner(latest);
-    combiner.add(flat(1, 2), 0);
-    combiner.add(flat(2, 2), 2);
-    combiner.add(flat(3, 28), 4);
+    combiner.add(flat(1, 2), {0, 2});
+    combiner.add(flat(2, 2), {2, 4});
+    combiner.add(flat(3, 28), {4, 32});
     return combiner.combine().rgb(2, 3).r;
   };
   CHECK(combined(3) == doctest::Approx((0.5 + 1.5 * 2 + 28 * 3) / 30));
@@ -274,11 +274,20 @@ TEST_CASE("images of guides that know little count less, and only the latest are
   CHECK(combined(1) == doctest::Approx(3));
 }
 
+TEST_CASE("images combine by the time that they took if samples become dearer and better") {
+  // Each sample of the second image costs as much as ten samples of the first one.
+  ImageCombiner combiner(2);
+  combiner.add(flat(1, 40), {0, 4});
+  combiner.add(flat(2, 4), {4, 8});
+  // Second s of 8 has the weight min(1, s). The sums of the images' weights are 3.5 and 4.
+  CHECK(combiner.combine().rgb(2, 3).r == doctest::Approx((3.5 + 2 * 4) / 7.5));
+}
+
 TEST_CASE("an image of a single pass has the variance of the last image per sample") {
   ImageCombiner combiner(2);
   const Film single = noisy(1, 1, 1), many = noisy(1, 15, 2);
-  combiner.add(single, 0);
-  combiner.add(many, 1);
+  combiner.add(single, {0, 1});
+  combiner.add(many, {1, 16});
   const Image last = many.layers(), image = combiner.combine();
   const int variance = image.channel_index("variance.R");
   CHECK(std::isinf(single.layers().pixel(4, 4)[variance]));
@@ -293,11 +302,11 @@ TEST_CASE("an image of a single pass has the variance of the last image per samp
 TEST_CASE("the sum of the weights does not depend on where training ends") {
   // A training may end at any time because of what it found. The sum of the weights, with which the
   // combination is divided, must not know. A bright first sample shows its weight.
-  const auto weight_of_first = [](std::uint64_t training) {
+  const auto weight_of_first = [](std::uint32_t training) {
     ImageCombiner combiner(3);
-    combiner.add(flat(1, 1), 0);
-    combiner.add(flat(0, training), 1);
-    combiner.add(flat(0, 63 - training), 1 + static_cast<double>(training));
+    combiner.add(flat(1, 1), {0, 1});
+    combiner.add(flat(0, training), {1, 1.0 + training});
+    combiner.add(flat(0, 63 - training), {1.0 + training, 64});
     return combiner.combine().rgb(2, 3).r;
   };
   for (const std::uint64_t training : {1u, 2u, 3u, 10u, 40u}) {

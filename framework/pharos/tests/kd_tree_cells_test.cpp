@@ -49,6 +49,23 @@ TEST_CASE("a kd-tree finds the cell around a point; edges belong to the upper on
   }
 }
 
+TEST_CASE("the upper part of a kd-tree has the planes that are kept, and larger cells below them") {
+  const KdTree tree = small_tree();
+  const auto at_all = tree.upper_part(std::vector<bool>(7, true));
+  CHECK(at_all.tree == tree);
+  CHECK(at_all.places == tree.leaves());
+  // The plane at z = 2, at place 4, is dropped.
+  const auto upper = tree.upper_part({true, false, true, false, false, false, false});
+  REQUIRE(upper.tree.cell_count() == 3);
+  CHECK(upper.places == std::vector<std::uint32_t>{1, 3, 4});
+  CHECK(upper.tree.cell_at({-1, 5, 5}) == 0);
+  CHECK(upper.tree.cell_at({0, 0, 5}) == 1);
+  CHECK(upper.tree.cell_at({1, 1, 1.9f}) == 2);
+  CHECK(upper.tree.cell_at({1, 1, 2}) == 2);
+  // Nothing is left below a plane that is dropped.
+  CHECK(tree.upper_part({false, false, true, false, true, false, false}).tree == KdTree());
+}
+
 TEST_CASE("kd-trees survive being saved; damaged ones are refused or sound") {
   const auto loaded = [](const std::string& bytes) {
     std::istringstream in(bytes);

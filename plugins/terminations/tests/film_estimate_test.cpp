@@ -69,25 +69,33 @@ TEST_CASE("film estimate: paths with undefined features count without them") {
   CHECK(film.denoised({.levels = 2}).at({0.5f, 0.5f}) == doctest::Approx(2));
 }
 
-TEST_CASE("image error: the largest errors are left out with their costs") {
+TEST_CASE("image error: outliers count as the smallest one of them") {
   ImageError error(2, 100);
   CHECK(error.squared() == 0);
   for (const double squared : {3.0, 100.0, 1.0, 2.0, 50.0}) error.add(squared, 2 * squared);
-  CHECK(error.squared() == doctest::Approx(2));
-  CHECK(error.cost() == doctest::Approx(4));
+  CHECK(error.squared() == doctest::Approx((3 + 50 + 1 + 2 + 50) / 5.0));
+  CHECK(error.cost() == doctest::Approx(2 * (3 + 100 + 1 + 2 + 50) / 5.0));
   error.clear();
-  error.add(7, 1);
   CHECK(error.squared() == 0);
+  CHECK(error.cost() == 0);
 }
 
-TEST_CASE("image error: each pass has as many outliers") {
-  ImageError error(1, 3);
-  for (const double squared : {1.0, 100.0, 2.0, 5.0, 6.0, 70.0}) error.add(squared, squared);
-  CHECK(error.squared() == doctest::Approx((1 + 2 + 5 + 6) / 4.0));
+TEST_CASE("image error: each pass has as many outliers, and a limit of its own") {
+  ImageError error(2, 4);
+  CHECK(error.largest() == 0);
+  for (const double squared : {1.0, 100.0, 2.0, 5.0, 6.0, 70.0, 3.0, 9.0}) error.add(squared, 1);
+  CHECK(error.largest() == doctest::Approx((5 + 9) / 2.0));
+  CHECK(error.squared() == doctest::Approx((1 + 2 + 2 * 5 + 6 + 3 + 2 * 9) / 8.0));
   error.add(50, 1);  // the only path of its pass
-  CHECK(error.squared() == doctest::Approx((1 + 2 + 5 + 6) / 4.0));
-  error.add(9, 1);
-  CHECK(error.squared() == doctest::Approx((1 + 2 + 5 + 6 + 9) / 5.0));
+  CHECK(error.largest() == doctest::Approx((5 + 9) / 2.0));
+  CHECK(error.squared() == doctest::Approx((40 + 50) / 9.0));
+}
+
+TEST_CASE("image error: without outliers all paths count") {
+  ImageError error(0, 1);
+  for (const double squared : {1.0, 100.0}) error.add(squared, 1);
+  CHECK(error.squared() == doctest::Approx(50.5));
+  CHECK(error.largest() == 0);
 }
 
 }  // namespace pharos

@@ -19,7 +19,7 @@ OutcomeCells two_sides(const DirectionBins& bins, std::size_t count) {
     const float x = 2 * random.next_1d() - 1;
     const Vec3 viewer = warp::sphere_from_square({random.next_1d(), random.next_1d()});
     const float radiance = viewer.z > 0 ? (x < 0 ? 1.0f : 3.0f) : 0.0f;
-    steps.push_back({{x, 0.01f * x, 0}, viewer, radiance, x < 0 ? 2.0f : 5.0f});
+    steps.push_back({{x, 0.01f * x, 0}, viewer, radiance, radiance, x < 0 ? 2.0f : 5.0f});
   }
   OutcomeCells cells;
   cells.learn(steps, {.cell_samples = static_cast<std::uint32_t>(3 * count / 4)},
@@ -54,32 +54,52 @@ TEST_CASE("outcome cells: expected values by position and direction") {
   const DirectionBins bins(2);
   const OutcomeCells cells = two_sides(bins, 4000);
   CHECK(cells.size() == 2);
-  const OutcomeField field(cells, bins, 100);
+  const OutcomeField field(cells, bins, 1);
   const ExpectedOutcome left = field.at({-0.9f, 0, 0}, {0.1f, 0.1f, 0.99f});
   const ExpectedOutcome right = field.at({0.9f, 0, 0}, {0.1f, 0.1f, 0.99f});
   CHECK(left.radiance == doctest::Approx(1).epsilon(0.03));
   CHECK(right.radiance == doctest::Approx(3).epsilon(0.03));
   CHECK(right.squared == doctest::Approx(9).epsilon(0.03));
-  CHECK(right.variance() < 0.1f);
+  CHECK(right.variance < 0.1f);
   CHECK(left.cost == doctest::Approx(2).epsilon(0.03));
   CHECK(right.cost == doctest::Approx(5).epsilon(0.03));
   CHECK(field.at({0.9f, 0, 0}, {0, 0, -1}).radiance < 0.1f);
 }
 
-TEST_CASE("outcome cells: a bin with few steps finds what the same bin of a larger cell finds") {
+TEST_CASE("outcome cells: the same bin of the larger cell counts as a number of steps") {
   const DirectionBins bins(2);
-  // Each bin has about 1000 steps, half of them on each side.
-  const OutcomeField field(two_sides(bins, 4000), bins, 800);
+  // Each bin has about 1000 steps, half of them on each side. The mean of the scene is 1.
+  const OutcomeCells cells = two_sides(bins, 4000);
+  const double upper = (1000 * 2 + 400 * 1) / 1400.0, left = (500 * 1 + 400 * upper) / 900;
+  const OutcomeField field(cells, bins, 400);
+  CHECK(field.at({-0.9f, 0, 0}, {0.1f, 0.1f, 0.99f}).radiance ==
+        doctest::Approx(left).epsilon(0.05));
+  CHECK(field.at({-0.9f, 0, 0}, {0.1f, 0.1f, -0.99f}).radiance > 0.1f);
+  // No cell below the whole scene has enough steps.
+  const OutcomeField coarse(cells, bins, 800);
   for (const float x : {-0.9f, 0.9f}) {
-    CHECK(field.at({x, 0, 0}, {0.1f, 0.1f, 0.99f}).radiance == doctest::Approx(2).epsilon(0.05));
-    CHECK(field.at({x, 0, 0}, {0.1f, 0.1f, -0.99f}).radiance < 0.1f);
+    CHECK(coarse.at({x, 0, 0}, {0.1f, 0.1f, 0.99f}).radiance ==
+          doctest::Approx((1000 * 2 + 800) / 1800.0).epsilon(0.05));
   }
+}
+
+TEST_CASE("outcome cells: the variance is that of limited estimates, the second moment is not") {
+  const DirectionBins bins(1);
+  OutcomeCells cells;
+  std::vector<StepOutcome> steps{{{}, {0, 0, 1}, 1, 1, 2}, {{}, {0, 0, 1}, 9, 3, 2}};
+  cells.learn(steps, {}, [&](OutcomeCell& cell, std::span<const StepOutcome> own, std::size_t) {
+    cell.learn(own, bins);
+  });
+  const ExpectedOutcome found = OutcomeField(cells, bins, 1).at({}, {0, 0, 1});
+  CHECK(found.radiance == doctest::Approx(5));
+  CHECK(found.squared == doctest::Approx((1 + 81) / 2.0));
+  CHECK(found.variance == doctest::Approx(1));
 }
 
 TEST_CASE("outcome cells: an outcome counts for its number of steps") {
   const DirectionBins bins(1);
   OutcomeCells cells;
-  std::vector<StepOutcome> steps{{{}, {0, 0, 1}, 1, 2, 3}, {{}, {0, 0, 1}, 5, 6, 1}};
+  std::vector<StepOutcome> steps{{{}, {0, 0, 1}, 1, 1, 2, 3}, {{}, {0, 0, 1}, 5, 5, 6, 1}};
   cells.learn(steps, {}, [&](OutcomeCell& cell, std::span<const StepOutcome> own, std::size_t) {
     cell.learn(own, bins);
   });
@@ -92,7 +112,7 @@ TEST_CASE("outcome cells: an outcome counts for its number of steps") {
 TEST_CASE("outcome cells: moments that no float can hold are the largest float") {
   const DirectionBins bins(1);
   OutcomeCells cells;
-  std::vector<StepOutcome> steps(100, {{}, {0, 0, 1}, 1e30f, 2});
+  std::vector<StepOutcome> steps(100, {{}, {0, 0, 1}, 1e30f, 1e30f, 2});
   cells.learn(steps, {}, [&](OutcomeCell& cell, std::span<const StepOutcome> own, std::size_t) {
     cell.learn(own, bins);
   });
@@ -102,7 +122,7 @@ TEST_CASE("outcome cells: moments that no float can hold are the largest float")
 TEST_CASE("outcome cells: where no step was recorded, the mean of the scene counts") {
   const DirectionBins bins(2);
   OutcomeCells cells;
-  std::vector<StepOutcome> steps(100, {{}, {0.1f, 0.1f, 0.99f}, 6, 2});
+  std::vector<StepOutcome> steps(100, {{}, {0.1f, 0.1f, 0.99f}, 6, 6, 2});
   cells.learn(steps, {}, [&](OutcomeCell& cell, std::span<const StepOutcome> own, std::size_t) {
     cell.learn(own, bins);
   });

@@ -1,5 +1,7 @@
 #include "../step_outcomes.h"
 
+#include <limits>
+
 #include <doctest/doctest.h>
 
 #include "made_up_paths.h"
@@ -10,10 +12,11 @@ namespace {
 /// Everything that is read from a log.
 struct Outcomes {
   explicit Outcomes(const PathLog& log,
-                    TerminationRule::Stage stage = TerminationRule::Stage::vertex) {
+                    TerminationRule::Stage stage = TerminationRule::Stage::vertex,
+                    double limit = std::numeric_limits<double>::infinity()) {
     OutcomeReader reader;
     for (std::size_t i = 0; i < log.size(); ++i) {
-      paths.push_back(reader.read(log[i], stage, steps));
+      paths.push_back(reader.read(log[i], stage, limit, steps));
     }
   }
   std::vector<PathOutcome> paths;
@@ -87,6 +90,19 @@ TEST_CASE("outcomes: each step has found what its own light sample has found, an
   }
   CHECK(found.paths[0].cost == 1 + 3 + 3);
   CHECK(found.paths[0].radiance == doctest::Approx(0.5 * (4 + 8 + 12 + 10 + 20)));
+}
+
+TEST_CASE("outcomes: the limited estimate of a step depends on what it adds to its pixel") {
+  PathLog log;
+  test::add_path(log, 8, 3, 0.5f);
+  log.vertex(1).throughput = log.vertex(2).throughput = log.vertex(3).throughput = Rgb(0.5f);
+  const Outcomes found(log, TerminationRule::Stage::vertex, 3);
+  REQUIRE(found.steps.size() == 3);
+  for (int i = 0; i < 3; ++i) {
+    CHECK(found.steps[i].radiance == doctest::Approx(4 * (i + 1)));
+    CHECK(found.steps[i].limited == doctest::Approx(i == 0 ? 4 : 6));
+  }
+  CHECK(found.paths[0].radiance == doctest::Approx(0.5 * (4 + 8 + 12)));
 }
 
 TEST_CASE("outcomes: steps from mirrors teach nothing") {

@@ -76,7 +76,7 @@ TEST_CASE("adjoint: contributions outside the window are moved to its edge") {
 }
 
 TEST_CASE("efficiency: the factor in closed form") {
-  const ExpectedOutcome found{.radiance = 3, .squared = 25, .cost = 4};
+  const ExpectedOutcome found{.squared = 25, .variance = 16, .cost = 4};
   // q_r = T/I 5 / 2 sqrt(worth), q_s = T/I 4 / 2 sqrt(worth)
   CHECK(efficiency_factor(0.1f, found, 1) == doctest::Approx(0.25));
   CHECK(efficiency_factor(0.45f, found, 1) == 1);
@@ -136,6 +136,27 @@ TEST_CASE("efficiency: the path itself is the fixed point of a single step") {
   settings.pixel_offset = 1e-6;
   const float factor = taught(EfficiencyTermination(settings))->rule()->factor(at_wall(1));
   CHECK(factor == doctest::Approx(std::sqrt(2)).epsilon(0.05));
+}
+
+TEST_CASE("efficiency: a path that finds much more than others changes no factor") {
+  EfficiencyTermination::Settings settings;
+  settings.outliers = 0.01;
+  settings.pixel_offset = 1e-6;
+  settings.denoising.levels = 0;
+  const auto factor_with = [&](float spike) {
+    auto state = EfficiencyTermination(settings).begin(kContext);
+    for (const std::uint32_t left : {3u, 2u, 1u, 0u}) {
+      PathLog log;
+      for (int i = 0; i < 4000; ++i) {
+        const float found = i == 2008 && left == 0 ? spike : static_cast<float>(i % 4);
+        test::add_path(log, found, 1, 1, {0, 0, 1}, {static_cast<float>(i / 4 % 4) + 0.5f, 0.5f});
+      }
+      state->absorb(log);
+      state->update({.left = left});
+    }
+    return state->rule()->factor(at_wall(1));
+  };
+  CHECK(factor_with(1e4f) == doctest::Approx(factor_with(3)).epsilon(0.1));
 }
 
 TEST_CASE("learned terminations: guides of the camera do not change the factors of their paths") {

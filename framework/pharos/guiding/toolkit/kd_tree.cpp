@@ -49,6 +49,27 @@ KdTree::Halves KdTree::divide(std::uint32_t leaf, int axis, float position) {
   return {first, first + 1};
 }
 
+KdTree::UpperPart KdTree::upper_part(const std::vector<bool>& keeps) const {
+  struct Pair {
+    std::uint32_t here, there;  ///< places of the same node in both trees
+  };
+  UpperPart part{.places = {0}};
+  std::vector<Pair> undone{{0, 0}};
+  while (!undone.empty()) {
+    const auto [here, there] = undone.back();
+    undone.pop_back();
+    const Node node = nodes_[here];
+    if (node.axis() == 3 || !keeps[here]) continue;
+    const std::uint32_t low = node.index(), high = low + 1;
+    part.places[part.tree.nodes_[there].index()] = low;
+    part.places.push_back(high);
+    const Halves halves = part.tree.divide(there, static_cast<int>(node.axis()), node.position);
+    undone.push_back({high, halves.high});
+    undone.push_back({low, halves.low});
+  }
+  return part;
+}
+
 void KdTree::archive(Archive& archive) {
   archive.heading("kd_tree", 2);
   archive(nodes_);

@@ -41,6 +41,11 @@ class KdTree {
   /// has the place 0 and is its own parent.
   std::vector<std::uint32_t> parents() const;
 
+  /// Returns the tree whose planes are those of this tree at the places for which `keeps` is true.
+  /// A plane is dropped if a plane above it is. `keeps` has an entry for each place.
+  struct UpperPart;
+  UpperPart upper_part(const std::vector<bool>& keeps) const;
+
   void archive(Archive& archive);
 
   friend bool operator==(const KdTree&, const KdTree&) = default;
@@ -60,6 +65,11 @@ class KdTree {
     friend bool operator==(const Node&, const Node&) = default;
   };
   std::vector<Node> nodes_{Node::cell(0)};  ///< children follow their parents
+};
+
+struct KdTree::UpperPart {
+  KdTree tree;
+  std::vector<std::uint32_t> places;  ///< of its cells in the whole tree, ordered by cell number
 };
 
 }  // namespace pharos
