@@ -56,7 +56,9 @@ struct OutcomeSettings {
   std::size_t outliers_of_pass() const { return outliers > 0 ? 10 : 0; }
   /// Returns the number of paths among which outliers are found.
   std::uint64_t pass() const {
-    return outliers > 0 ? static_cast<std::uint64_t>(outliers_of_pass() / outliers) : 1;
+    constexpr double kMost = 1e18;
+    return outliers > 0 ? static_cast<std::uint64_t>(std::min(outliers_of_pass() / outliers, kMost))
+                        : 1;
   }
 };
 

@@ -167,7 +167,7 @@ TEST_CASE("termination: learned factors are unbiased, with and without guides") 
     CHECK(std::abs(diffuse_t(termination)) < kLimit);
     CHECK(std::abs(fog_t(termination)) < kLimit);
     CHECK(std::abs(diffuse_t(termination, pair("stub_direction", "stub_direction"))) < kLimit);
-    CHECK(std::abs(fog_t(termination, pair("stub_camera", "stub_camera"))) < kLimit);
+    CHECK(std::abs(fog_t(termination, pair("stub_camera", "stub_camera"), 48)) < kLimit);
   }
 }
 
