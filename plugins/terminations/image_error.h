@@ -14,7 +14,8 @@ namespace pharos {
 /// this path alone.
 class ImageError {
  public:
-  /// Of each `pass` paths, `outliers` are outliers; so they are of a last pass that is not full.
+  /// A pass has `pass` paths, and `outliers` of them are outliers. A last pass that is not full has
+  /// as many outliers.
   ImageError(std::size_t outliers, std::uint64_t pass) : outliers_(outliers), pass_(pass) {}
 
   /// Adds a path of squared error `squared`, relative to its pixel [1], and of `cost` steps.

@@ -47,8 +47,8 @@ OutcomeSums mean_of(const OutcomeSums& sums, OutcomeSums prior, double prior_ste
 
 /// Returns the mean of a step at each place and in each bin. Each starts from the mean of the same
 /// bin at the place above, the uppermost one from the mean of the scene, as if this were the mean
-/// of `prior_steps` further steps. Something rare that a small cell has not found yet, but a larger
-/// one has, is thus still expected.
+/// of `prior_steps` further steps. If a larger cell has found something rare, a smaller one expects
+/// it, too.
 std::vector<OutcomeSums> means_by_place(const std::vector<OutcomeSums>& sums,
                                         const std::vector<std::uint32_t>& parents, std::size_t bins,
                                         double prior_steps) {

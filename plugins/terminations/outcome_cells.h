@@ -71,8 +71,8 @@ class OutcomeField {
  public:
   /// Knows nothing; for loading.
   explicit OutcomeField(DirectionBins directions) : directions_(directions) {}
-  /// Takes the means of what `cells` have found. To each bin of a cell, the same bin of the next
-  /// larger cell contributes its mean as if it was that of `least_steps` further steps. This larger
+  /// Takes the means of what `cells` have found. The mean of the same bin of the next larger cell
+  /// is added to the steps of a bin, as if it came from `least_steps` further steps. This larger
   /// cell is made of all cells below the plane that has made the cell, and so on up to the whole
   /// scene.
   OutcomeField(const OutcomeCells& cells, DirectionBins directions, double least_steps);

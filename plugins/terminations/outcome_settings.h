@@ -99,10 +99,10 @@ void describe_outcomes(Schema<Settings>& s) {
           "Factor by which an iteration weights what was found before, by other rules")
       .at_least(0)
       .at_most(1);
-  s.field(
-       "outliers", &OutcomeSettings::outliers,
-       "Fraction of the paths, those of the largest errors, that count as if they had the smallest "
-       "of these errors. Steps with larger contributions are limited, too. 0: none")
+  s.field("outliers", &OutcomeSettings::outliers,
+          "Fraction of the paths that are outliers. These paths have the largest errors, and each "
+          "counts "
+          "as if it had the smallest of them. The variance of steps is limited alike. 0: none")
       .at_least(0)
       .at_most(0.1);
   s.field("denoising", &OutcomeSettings::denoising, "How the radiance of pixels is denoised");

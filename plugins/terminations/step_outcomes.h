@@ -49,8 +49,8 @@ class OutcomeReader {
   /// Reads a path from the sensor. Appends the outcomes of the steps after the first one to
   /// `steps`. Steps from vertices whose events are all discrete are left out, because their paths
   /// are left alone (TerminationQuery::discrete). `stage` is that of the rule by which the path has
-  /// ended or split. The limited estimate of a step adds at most `limit` to the mean of the channels
-  /// of its pixel.
+  /// ended or split. The limited estimate of a step adds at most `limit` to the mean of the
+  /// channels of its pixel.
   PathOutcome read(const PathView& path, TerminationRule::Stage stage, double limit,
                    std::vector<StepOutcome>& steps);
 

@@ -41,8 +41,8 @@ class KdTree {
   /// has the place 0 and is its own parent.
   std::vector<std::uint32_t> parents() const;
 
-  /// Returns the tree whose planes are those of this tree at the places for which `keeps` is true.
-  /// A plane is dropped if a plane above it is. `keeps` has an entry for each place.
+  /// Returns a copy of the tree that lacks the planes at the places for which `keeps` is false, and
+  /// all planes below them. `keeps` has an entry for each place.
   struct UpperPart;
   UpperPart upper_part(const std::vector<bool>& keeps) const;
 
