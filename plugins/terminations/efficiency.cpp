@@ -30,7 +30,8 @@
 // - Numbers are means over the channels of each factor, so that a bin has one number of each kind.
 // - If training ends before the first three iterations are over, the final image uses what was
 //   learned nevertheless.
-// - Training images are weighted by the time that they took (image_combiner.h). Weights by inverse
+// - Training images are weighted by the budget that they took (image_combiner.h). Weights by
+// inverse
 //   variances depend on the values that they weight, which would bias the image.
 //
 //     termination: { type: efficiency, most: 20 }

@@ -9,15 +9,15 @@ namespace pharos {
 namespace {
 
 /// Returns the number as a float, the largest one if it is larger.
-float limited(double number) {
+float as_float(double number) {
   return static_cast<float>(std::min(number, double{std::numeric_limits<float>::max()}));
 }
 
 /// Returns the expected values of a mean step.
 ExpectedOutcome expected(const OutcomeSums& mean) {
   const double variance = std::max(mean.limited_squared - mean.limited * mean.limited, 0.0);
-  return {limited(mean.radiance), limited(mean.squared), limited(variance),
-          limited(std::max(mean.cost, 1.0))};
+  return {as_float(mean.radiance), as_float(mean.squared), as_float(variance),
+          as_float(std::max(mean.cost, 1.0))};
 }
 
 /// Returns what was found below each plane and in each cell of the tree, by place and bin.
@@ -47,8 +47,8 @@ OutcomeSums mean_of(const OutcomeSums& sums, OutcomeSums prior, double prior_ste
 
 /// Returns the mean of a step at each place and in each bin. Each starts from the mean of the same
 /// bin at the place above, the uppermost one from the mean of the scene, as if this were the mean
-/// of `prior_steps` further steps. If a larger cell has found something rare, a smaller one expects
-/// it, too.
+/// of `prior_steps` further steps. So a small cell expects rare light that only a larger cell has
+/// found.
 std::vector<OutcomeSums> means_by_place(const std::vector<OutcomeSums>& sums,
                                         const std::vector<std::uint32_t>& parents, std::size_t bins,
                                         double prior_steps) {

@@ -274,7 +274,7 @@ TEST_CASE("images of guides that know little count less, and only the latest are
   CHECK(combined(1) == doctest::Approx(3));
 }
 
-TEST_CASE("images combine by the time that they took if samples become dearer and better") {
+TEST_CASE("images combine by the time that they took, whatever their number of samples") {
   // Each sample of the second image costs as much as ten samples of the first one.
   ImageCombiner combiner(2);
   combiner.add(flat(1, 40), {0, 4});

@@ -83,7 +83,7 @@ TEST_CASE("outcome cells: the same bin of the larger cell counts as a number of 
   }
 }
 
-TEST_CASE("outcome cells: the variance is that of limited estimates, the second moment is not") {
+TEST_CASE("outcome cells: limits of estimates change the variance, but not the second moment") {
   const DirectionBins bins(1);
   OutcomeCells cells;
   std::vector<StepOutcome> steps{{{}, {0, 0, 1}, 1, 1, 2}, {{}, {0, 0, 1}, 9, 3, 2}};
