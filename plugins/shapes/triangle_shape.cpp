@@ -12,7 +12,8 @@ namespace pharos {
 
 TriangleShape::TriangleShape(TriangleMesh mesh, const std::string& name)
     : mesh_(std::move(mesh)), bounds_(mesh_.bounds()) {
-  if (!std::all_of(mesh_.positions.begin(), mesh_.positions.end(), is_finite)) {
+  if (!std::all_of(mesh_.positions.begin(), mesh_.positions.end(),
+                   [](Vec3 position) { return is_finite(position); })) {
     throw InputError(name + " has a vertex that is not finite");
   }
   std::vector<std::array<std::uint32_t, 3>> kept;

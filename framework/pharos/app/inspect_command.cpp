@@ -27,10 +27,6 @@
 namespace pharos {
 namespace {
 
-std::string point_text(Point3 p) {
-  return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x, p.y, p.z);
-}
-
 /// A scene and the size of its camera's film.
 struct InspectedScene {
   Scene scene;

@@ -60,10 +60,6 @@ InspectedFile read(const std::filesystem::path& path, const Registry& registry) 
   return file;
 }
 
-std::string point_text(Point3 p) {
-  return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x, p.y, p.z);
-}
-
 std::vector<ModelFact> facts_of(const ModelHeader& header, const GuidingModel& model) {
   ModelInfo info = model.info();
   const Bounds3& bounds = info.bounds;
@@ -107,6 +103,10 @@ void print_aligned(const std::vector<ModelFact>& facts) {
 }
 
 }  // namespace
+
+std::string point_text(Point3 p) {
+  return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x, p.y, p.z);
+}
 
 InspectedFile read_inspected(const std::filesystem::path& path, const Registry& registry) {
   try {

@@ -3,6 +3,7 @@
 #include <array>
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include <pharos/config/registry.h>
@@ -25,6 +26,9 @@ struct InspectedFile {
 /// Reads everything in a model file. Throws InputError if the file is damaged or names plugins that
 /// no module has.
 InspectedFile read_inspected(const std::filesystem::path& path, const Registry& registry);
+
+/// Returns the coordinates with six digits, in brackets.
+std::string point_text(Point3 p);
 
 /// Prints the facts about all models, and the mean shares of their methods in `bounds`, if the
 /// bounds are not empty.

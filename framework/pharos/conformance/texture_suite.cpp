@@ -6,7 +6,7 @@
 namespace pharos::conformance {
 namespace {
 
-std::string text(Vec2 uv) {
+std::string shown(Vec2 uv) {
   return fmt::format("uv ({:.6g}, {:.6g})", uv.x, uv.y);
 }
 
@@ -15,7 +15,7 @@ void expect_in_range(const Texture& texture, Vec2 uv, Check& check) {
   const Rgb limit = texture.maximum();
   for (int c = 0; c < 3; ++c) {
     check.expect(value[c] <= limit[c] + 1e-5f * std::abs(limit[c]), [&] {
-      return fmt::format("{}: the value {:.6g} of channel {} exceeds maximum() {:.6g}", text(uv),
+      return fmt::format("{}: the value {:.6g} of channel {} exceeds maximum() {:.6g}", shown(uv),
                          value[c], c, limit[c]);
     });
   }
@@ -70,7 +70,7 @@ void check_finite(const Texture& texture, Suite& suite) {
   for (const float u : odd) {
     for (const float v : odd) {
       check.expect(is_finite(texture.evaluate({.uv = {u, v}})), [&] {
-        return text({u, v}) + ": the value is not finite";
+        return shown({u, v}) + ": the value is not finite";
       });
     }
   }
@@ -88,7 +88,7 @@ void check_determinism(const Texture& texture, Suite& suite) {
     const Rgb value = texture.evaluate({.uv = uv});
     if (i > 0) {
       check.expect(texture.evaluate({.uv = last_uv}) == last,
-                   [&] { return text(last_uv) + ": asked again, the value is another"; });
+                   [&] { return shown(last_uv) + ": asked again, the value is another"; });
     }
     last = value;
     last_uv = uv;

@@ -3,6 +3,13 @@
 #include <pharos/statistics/gaussian.h>
 
 namespace pharos::statistics {
+namespace {
+
+/// A symmetric matrix of at most 9 rows, on the stack.
+using AnyMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 9, 9>;
+using AnyVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 9, 1>;
+
+}  // namespace
 
 template <int D>
 Matrix<D> with_eigenvalues_above(double floor, const Matrix<D>& symmetric) {
@@ -11,10 +18,10 @@ Matrix<D> with_eigenvalues_above(double floor, const Matrix<D>& symmetric) {
   const double margin = 1e-12 * symmetric.trace();
   const Matrix<D> excess = symmetric - (floor + margin) * Matrix<D>::Identity();
   if (excess.llt().info() == Eigen::Success) return symmetric;
-  const Eigen::SelfAdjointEigenSolver<Matrix<D>> eigen(symmetric);
+  const Eigen::SelfAdjointEigenSolver<AnyMatrix> eigen(symmetric);
   if (eigen.eigenvalues()[0] >= floor) return symmetric;
-  const Vector<D> raised = eigen.eigenvalues().cwiseMax(floor);
-  const Matrix<D> result =
+  const AnyVector raised = eigen.eigenvalues().cwiseMax(floor);
+  const AnyMatrix result =
       eigen.eigenvectors() * raised.asDiagonal() * eigen.eigenvectors().transpose();
   return 0.5 * (result + result.transpose());
 }

@@ -36,7 +36,7 @@ double joint_degrees_of_freedom(const Estimate& a, const Estimate& b) {
 
 }  // namespace
 
-Moments moments(std::span<const double> values) {
+SampleMoments moments(std::span<const double> values) {
   const double n = static_cast<double>(values.size());
   const double mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
   double squares = 0;
@@ -45,7 +45,7 @@ Moments moments(std::span<const double> values) {
   return {mean, variance, n};
 }
 
-Estimate estimate(const Moments& m) {
+Estimate estimate(const SampleMoments& m) {
   return {m.mean, m.variance / m.count, std::max(1.0, m.count - 1)};
 }
 

@@ -8,13 +8,13 @@
 namespace pharos::statistics {
 
 /// The mean, the unbiased variance and the number of independent observations.
-struct Moments {
+struct SampleMoments {
   double mean = 0;
   double variance = 0;
   double count = 0;
 };
 /// Returns the moments of `values`. The variance of fewer than two values is infinite.
-Moments moments(std::span<const double> values);
+SampleMoments moments(std::span<const double> values);
 
 /// An estimated mean with its squared standard error and the degrees of freedom of this error
 /// (infinite if the error is known).
@@ -24,7 +24,7 @@ struct Estimate {
   double degrees_of_freedom = std::numeric_limits<double>::infinity();
 };
 /// Estimates the mean of independent observations.
-Estimate estimate(const Moments& moments);
+Estimate estimate(const SampleMoments& moments);
 
 struct TestResult {
   double statistic = 0;  ///< signed difference [standard errors]

@@ -167,7 +167,7 @@ void ImageSide::finish_pixels(double samples_per_pixel) {
   std::vector<double> values(observations_.size());
   for (std::size_t i = 0; i < pixels; ++i) {
     for (std::size_t r = 0; r < values.size(); ++r) values[r] = observations_[r][i];
-    const Moments m = moments(values);
+    const SampleMoments m = moments(values);
     pixel_mean_[i] = m.mean;
     pixel_second_[i] = m.variance / (halves_ ? 2 : 1) + m.mean * m.mean / samples_per_pixel;
   }

@@ -60,7 +60,7 @@ Bounded exponential_of_mean(std::span<const double> logs, double confidence) {
 Bounded arithmetic_mean(std::span<const double> values, double confidence) {
   if (values.empty()) throw InputError("expected at least one value for a mean");
   check_finite(values);
-  const Moments m = moments(values);
+  const SampleMoments m = moments(values);
   const double factor = student_factor(m.count - 1, confidence);
   const double reach = factor * std::sqrt(m.variance / m.count);
   return {m.mean, {m.mean - reach, m.mean + reach}};
@@ -80,7 +80,7 @@ Bounded mean_ratio(std::span<const double> a, std::span<const double> b, double 
 
 Bounded ratio_of_means(std::span<const double> a, std::span<const double> b, double confidence) {
   if (a.empty() || b.empty()) throw InputError("expected at least one value for a mean");
-  const Moments over = moments(logarithms(a)), under = moments(logarithms(b));
+  const SampleMoments over = moments(logarithms(a)), under = moments(logarithms(b));
   const double over_error = over.variance / over.count, under_error = under.variance / under.count;
   const double error = over_error + under_error;
   double freedom = 0;

@@ -18,12 +18,15 @@ Vector<D> normal_point(RandomStream& random) {
   return x;
 }
 
+// Decompositions of matrices of any size compile much faster than those of each fixed size.
+using Eigen::MatrixXd;
+
 /// Returns a needle or pancake at a random place. The ratio of its axes is at most `flat`.
 template <int D>
 Gaussian<D> random_gaussian(RandomStream& random, double flat) {
   Matrix<D> m;
   for (int i = 0; i < D; ++i) m.col(i) = normal_point<D>(random);
-  const Matrix<D> axes = Eigen::HouseholderQR<Matrix<D>>(m).householderQ();
+  const Matrix<D> axes = Eigen::HouseholderQR<MatrixXd>(m).householderQ();
   Vector<D> variances;
   for (double& v : variances) v = std::pow(flat, -2.0 * random.next_1d());
   const Matrix<D> covariance = axes * variances.asDiagonal() * axes.transpose();
@@ -60,9 +63,9 @@ GaussianMixture<D> random_mixture(std::size_t count, double flat, RandomStream& 
 
 template <int D>
 double normal_density(const Gaussian<D>& g, const Vector<D>& x) {
-  const Vector<D> y = x - g.mean;
-  return std::exp(-0.5 * y.dot(g.covariance.inverse() * y)) /
-         std::sqrt(std::pow(2 * EIGEN_PI, D) * g.covariance.determinant());
+  const MatrixXd covariance = g.covariance, y = x - g.mean;
+  return std::exp(-0.5 * (y.transpose() * covariance.inverse() * y)(0)) /
+         std::sqrt(std::pow(2 * EIGEN_PI, D) * covariance.determinant());
 }
 
 /// Returns random moments, as if they came from earlier points.
@@ -106,7 +109,7 @@ TEST_CASE("moments add up to means and covariances, and halves to the whole") {
     const Matrix<3> left = parts[0].covariance();
     CHECK(direction.dot(left * direction) ==
           doctest::Approx(0.75 * direction.dot(g.covariance * direction)));
-    CHECK(Eigen::SelfAdjointEigenSolver<Matrix<3>>(left).eigenvalues()[0] > 0);
+    CHECK(Eigen::SelfAdjointEigenSolver<MatrixXd>(left).eigenvalues()[0] > 0);
   }
 }
 
@@ -115,8 +118,8 @@ TEST_CASE("eigenvalues are raised to the floor and no others changed") {
   for (int i = 0; i < 50; ++i) {
     const Matrix<3> m = random_gaussian<3>(random, 100).covariance;
     const Matrix<3> raised = with_eigenvalues_above<3>(0.01, m);
-    const Vector<3> before = Eigen::SelfAdjointEigenSolver<Matrix<3>>(m).eigenvalues();
-    const Vector<3> after = Eigen::SelfAdjointEigenSolver<Matrix<3>>(raised).eigenvalues();
+    const Vector<3> before = Eigen::SelfAdjointEigenSolver<MatrixXd>(m).eigenvalues();
+    const Vector<3> after = Eigen::SelfAdjointEigenSolver<MatrixXd>(raised).eigenvalues();
     for (int k = 0; k < 3; ++k) CHECK(after[k] == doctest::Approx(std::max(before[k], 0.01)));
   }
 }

@@ -24,7 +24,7 @@ Estimate normal_estimate(RandomStream& random, int n, double mean, double sigma)
 }  // namespace
 
 TEST_CASE("moments") {
-  const Moments m = moments(std::vector<double>{1, 2, 3, 4});
+  const SampleMoments m = moments(std::vector<double>{1, 2, 3, 4});
   CHECK(m.mean == 2.5);
   CHECK(m.variance == doctest::Approx(5.0 / 3));
   CHECK(std::isinf(moments(std::vector<double>{1}).variance));

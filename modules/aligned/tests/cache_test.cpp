@@ -86,7 +86,7 @@ TEST_CASE("cache: made once, found again, and never the reason for other points"
   REQUIRE(fs::exists(folder / "sets"));
   const std::vector<fs::path> files = files_in(folder / "sets");
   REQUIRE(files.size() == 1);
-  const std::string good = test::bytes_of(files.front());
+  const std::string good = pharos::test::bytes_of(files.front());
   CHECK(library.find(kPair, 64) == made);
   // Symmetric directions share one file.
   CHECK(library.find(std::vector<double>{20, 60}, 64).size() == 64);
@@ -96,7 +96,7 @@ TEST_CASE("cache: made once, found again, and never the reason for other points"
                                  saved(two_sets()), std::string()}) {
     folder.write("sets/" + files.front().filename().string(), bad);
     CHECK(library.find(kPair, 64) == made);
-    CHECK(test::bytes_of(files.front()) == good);
+    CHECK(pharos::test::bytes_of(files.front()) == good);
   }
   fs::remove_all(folder / "sets");
   CHECK(library.find(kPair, 64) == made);
@@ -122,7 +122,7 @@ TEST_CASE("cache: a folder that cannot be written costs time only") {
   folder.write("file", "where the folder should be");
   const PointSetLibrary library({.cache_folder = folder / "file"});
   CHECK(library.find(kPair, 64).size() == 64);
-  CHECK(test::bytes_of(folder / "file") == "where the folder should be");
+  CHECK(pharos::test::bytes_of(folder / "file") == "where the folder should be");
 }
 
 }  // namespace pharos::aligned

@@ -203,7 +203,7 @@ TEST_CASE("nesting of 64 is read") {
     return text;
   };
   CHECK(child(*read_new(nested(63)).scene).type == "b");
-  CHECK(test::input_error([&] { read_new(nested(64)); }).find("more than 64 deep") !=
+  CHECK(pharos::test::input_error([&] { read_new(nested(64)); }).find("more than 64 deep") !=
         std::string::npos);
 }
 

@@ -50,7 +50,7 @@ inline std::string refusal(std::string_view text,
                            const std::map<std::string, std::string>& parameters = {}) {
   const test::TemporaryFolder folder;
   const auto file = folder.write("scene.xml", text);
-  return test::input_error_in(folder, [&] { read_document(file, parameters); });
+  return pharos::test::input_error_in(folder, [&] { read_document(file, parameters); });
 }
 
 }  // namespace pharos::mitsuba

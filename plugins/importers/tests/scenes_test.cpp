@@ -18,7 +18,7 @@ TEST_CASE("every scene file of a folder is read") {
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
     if (entry.path().extension() != ".xml") continue;
     CAPTURE(entry.path().string());
-    CHECK(test::input_error([&] { read_document(entry.path()); }) == "no error");
+    CHECK(pharos::test::input_error([&] { read_document(entry.path()); }) == "no error");
     ++count;
   }
   CHECK(count > 0);

@@ -109,13 +109,13 @@ TEST_CASE("a spectrum in a file is one in the scene") {
   const Document d = read_document(file);
   CHECK(value<Spectrum>(*d.scene, "a").value == value<Spectrum>(*d.scene, "b").value);
   folder.write("glass.spd", "400 0.2\n300 1\n");
-  CHECK(test::input_error_in(folder, [&] { read_document(file); }) ==
+  CHECK(pharos::test::input_error_in(folder, [&] { read_document(file); }) ==
         "glass.spd:2:1: error: expected rising wavelengths, found 300 after 400");
   folder.write("glass.spd", "400 0.2\n500 nan\n");
-  CHECK(test::input_error_in(folder, [&] { read_document(file); }) ==
+  CHECK(pharos::test::input_error_in(folder, [&] { read_document(file); }) ==
         "glass.spd:2:1: error: expected a wavelength and a value, found '500 nan'");
   folder.write("glass.spd", "400 0.2\n");
-  CHECK(test::input_error_in(folder, [&] { read_document(file); }) ==
+  CHECK(pharos::test::input_error_in(folder, [&] { read_document(file); }) ==
         "glass.spd: error: expected at least two pairs of wavelength and value");
 }
 

@@ -241,7 +241,7 @@ TEST_CASE("includes") {
   const auto file = folder.write("scene.xml",
                                  "<scene version=\"3.0.0\">\n"
                                  "<include filename=\"part.xml\"/></scene>");
-  const auto message = [&] { return test::input_error_in(folder, [&] { read_document(file); }); };
+  const auto message = [&] { return pharos::test::input_error_in(folder, [&] { read_document(file); }); };
   CHECK(message() == "scene.xml:2:20: error: 'part.xml' cannot be read: no such file");
   folder.write("pat.xml", "");
   CHECK(message() ==
@@ -275,7 +275,7 @@ TEST_CASE("includes that fan out") {
     }
     folder.write(std::to_string(level) + ".xml", text + "</scene>");
   }
-  CHECK(test::input_error_in(folder, [&] {
+  CHECK(pharos::test::input_error_in(folder, [&] {
           read_document(folder / "0.xml");
         }).find("a scene may read at most 4096 files") != std::string::npos);
 }
@@ -283,10 +283,10 @@ TEST_CASE("includes that fan out") {
 TEST_CASE("files that are not there") {
   const test::TemporaryFolder folder;
   const auto message = [&](const std::string& name) {
-    return test::input_error_in(folder, [&] { read_document(folder / name); });
+    return pharos::test::input_error_in(folder, [&] { read_document(folder / name); });
   };
   CHECK(message("scene.xml") == "scene.xml: error: no such file");
-  CHECK(test::input_error([] { read_document("/dev/zero"); }) ==
+  CHECK(pharos::test::input_error([] { read_document("/dev/zero"); }) ==
         "/dev/zero: error: expected a file, found a pipe or device");
   folder.write("scene.xml", "<scene version=\"3.0.0\"><path value=\"tex\"/></scene>");
   CHECK(message("scene.xml") == "scene.xml:1:37: error: there is no folder 'tex'");
@@ -296,7 +296,7 @@ TEST_CASE("files beyond 256 MiB") {
   const test::TemporaryFolder folder;
   const auto file = folder.write("scene.xml", "");
   std::filesystem::resize_file(file, (std::uintmax_t{256} << 20) + 1);
-  CHECK(test::input_error_in(folder, [&] { read_document(file); }) ==
+  CHECK(pharos::test::input_error_in(folder, [&] { read_document(file); }) ==
         "scene.xml: error: the files of a scene may have 256 MiB together");
 }
 

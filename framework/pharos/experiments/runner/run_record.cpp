@@ -14,7 +14,7 @@ namespace {
 using nlohmann::json;
 
 /// The format version of record files.
-constexpr int kFormat = 5;
+constexpr int kRecordFormat = 5;
 
 ImageErrors errors_from(const json& node) {
   ImageErrors errors;
@@ -139,7 +139,7 @@ std::string checksum_of(json node) {
 
 void save_record(const RunRecord& record, const std::filesystem::path& path) {
   json node = to_json(record);
-  node["format"] = kFormat;
+  node["format"] = kRecordFormat;
   node["checksum"] = checksum_of(node);
   write_text_atomically(path, node.dump(1) + "\n");
 }
@@ -153,7 +153,7 @@ std::optional<RunRecord> load_record(const std::filesystem::path& path) {
   std::ifstream in(path);
   try {
     const json node = json::parse(in);
-    if (node.value("format", 0) != kFormat) return std::nullopt;
+    if (node.value("format", 0) != kRecordFormat) return std::nullopt;
     if (node.at("checksum") == checksum_of(node)) return record_from(node);
   } catch (const json::exception&) {  // no JSON, or values are missing
   }

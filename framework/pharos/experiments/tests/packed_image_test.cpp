@@ -11,6 +11,7 @@
 #include <doctest/doctest.h>
 
 #include <pharos/core/error.h>
+#include <pharos/core/vec.h>
 #include <pharos/experiments/report/half.h>
 #include <pharos/experiments/report/packed_image.h>
 
@@ -18,7 +19,6 @@ namespace pharos {
 namespace {
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 std::string from_base64(const std::string& text) {
   const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";

@@ -128,12 +128,12 @@ TEST_CASE("plane guides: irradiance and variance at points of the floor") {
         values.push_back(kScene.sees_light(x, angle) ? std::cos(angle) / density.pdf(angle) : 0);
       }
       const double variance = local_variance(kScene, technique, x);
-      const statistics::Moments moments = statistics::moments(values);
+      const statistics::SampleMoments moments = statistics::moments(values);
       const double mean = kScene.irradiance(x);
       CHECK(std::abs(moments.mean - mean) < 4 * std::sqrt(variance / kSamples));
       // The error of a sampled variance follows from the spread of squared deviations.
       for (double& v : values) v = (v - mean) * (v - mean);
-      const statistics::Moments squares = statistics::moments(values);
+      const statistics::SampleMoments squares = statistics::moments(values);
       CHECK(std::abs(squares.mean - variance) < 5 * std::sqrt(squares.variance / kSamples));
     }
   }
