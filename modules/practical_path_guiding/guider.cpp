@@ -1,9 +1,16 @@
 #include "guider.h"
 
+#include <algorithm>
+
 #include <pharos/core/warp.h>
 
 namespace pharos::practical_path_guiding {
 namespace {
+
+/// Number of nodes that are fetched ahead: the upper three levels.
+constexpr std::size_t kPrefetched = 21;
+/// Number of nodes in a cache line.
+constexpr std::size_t kInLine = 64 / sizeof(QuadNode);
 
 class PracticalPathGuidingDistribution final : public GuidingDistribution {
  public:
@@ -27,6 +34,10 @@ const GuidingDistribution* PracticalPathGuidingGuider::query(const PracticalPath
                                                              const GuidingQuery& query,
                                                              Arena& arena) const {
   const std::span<const QuadNode> nodes = model.nodes(query.region);
+  // The vertex samples a light first; meanwhile the upper levels of the quadtree can arrive.
+  for (std::size_t i = 0; i < std::min<std::size_t>(nodes.size(), kPrefetched); i += kInLine) {
+    __builtin_prefetch(&nodes[i]);
+  }
   return nodes.empty() ? nullptr : arena.make<PracticalPathGuidingDistribution>(nodes);
 }
 

@@ -24,15 +24,15 @@ class CellRadiance final : public RadianceAround {
 
 PracticalPathGuidingModel::PracticalPathGuidingModel(Cells cells, const std::vector<Cell>& learned,
                                                      bool of_radiance)
-    : cells_(std::move(cells)), first_{0}, of_radiance_(of_radiance) {
-  facts_.clear();
+    : cells_(std::move(cells)), of_radiance_(of_radiance) {
+  known_.clear();
   for (const Cell& cell : learned) add(cell);
 }
 
 void PracticalPathGuidingModel::add(const Cell& cell) {
+  const auto first = static_cast<std::uint32_t>(nodes_.size());
   nodes_.insert(nodes_.end(), cell.nodes.begin(), cell.nodes.end());
-  first_.push_back(static_cast<std::uint32_t>(nodes_.size()));
-  facts_.push_back({cell.light, cell.records});
+  known_.push_back({first, static_cast<std::uint32_t>(nodes_.size()), cell.light, cell.records});
 }
 
 void PracticalPathGuidingModel::archive(Archive& archive) {
@@ -43,7 +43,7 @@ void PracticalPathGuidingModel::archive(Archive& archive) {
     Cell cell;
     if (!archive.loads()) {
       const std::span<const QuadNode> own = nodes(i);
-      cell = {{own.begin(), own.end()}, facts_[i].light, facts_[i].records};
+      cell = {{own.begin(), own.end()}, known_[i].light, known_[i].records};
     }
     archive(cell);
     expect(is_density(cell.nodes) && cell.light >= 0 && cell.records >= 0);
@@ -59,9 +59,9 @@ ModelInfo PracticalPathGuidingModel::info() const {
     most = std::max(most, count);
   }
   return {.name = std::string(kName),
-          .version = 3,
+          .version = 4,
           .bytes = cells_.space.size_bytes() + nodes_.size() * sizeof(QuadNode) +
-                   facts_.size() * (sizeof(CellFacts) + sizeof(std::uint32_t)),
+                   known_.size() * sizeof(KnownCell),
           .regions = cells_.count(),
           .facts = {{"cells", fmt::format("{}, {} levels of planes, {} know something",
                                           cells_.count(), cells_.space.depth(), known)},
@@ -73,7 +73,7 @@ double PracticalPathGuidingModel::density(Point3 point, const Vec3* direction) c
   if (direction == nullptr) {
     double light = 0;
     const std::uint32_t first = cells_.at(point, std::uint32_t{0});
-    for (std::uint32_t i = 0; i < cells_.in_each(); ++i) light += facts_[first + i].light;
+    for (std::uint32_t i = 0; i < cells_.in_each(); ++i) light += known_[first + i].light;
     return light;
   }
   // Light from a direction arrives on surfaces that face it.
@@ -85,7 +85,7 @@ double PracticalPathGuidingModel::density(Point3 point, const Vec3* direction) c
 // The cell's mean of radiance divided by density estimates the integral of radiance over all
 // directions.
 float PracticalPathGuidingModel::incident_radiance(Point3 point, Vec3 direction) const {
-  const float light = facts_[cells_.at(point, direction)].light;
+  const float light = known_[cells_.at(point, direction)].light;
   return static_cast<float>(light * density(point, &direction));
 }
 

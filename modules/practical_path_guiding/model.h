@@ -35,7 +35,7 @@ class PracticalPathGuidingModel final : public GuidingModel, public RadianceEsti
   void archive(Archive& archive) override;
   Place place(const GuidingVertex& vertex) const override {
     const std::uint32_t cell = cells_.at(vertex.position, vertex.normal);
-    return {cell, nodes(cell).empty() ? 0.0f : std::max(facts_[cell].records, 1.0f)};
+    return {cell, nodes(cell).empty() ? 0.0f : std::max(known_[cell].records, 1.0f)};
   }
   double density(Point3 point, const Vec3* direction) const override;
 
@@ -48,19 +48,21 @@ class PracticalPathGuidingModel final : public GuidingModel, public RadianceEsti
 
   /// Returns the quadtree of a cell. It is empty if nothing is known there.
   std::span<const QuadNode> nodes(std::uint32_t cell) const {
-    return {nodes_.data() + first_[cell], nodes_.data() + first_[cell + 1]};
+    const KnownCell& known = known_[cell];
+    return {nodes_.data() + known.first, nodes_.data() + known.end};
   }
 
  private:
-  struct CellFacts {
-    float light, records;
+  /// What is known of a cell, together, so that a look-up waits once for it.
+  struct KnownCell {
+    std::uint32_t first = 0, end = 0;  ///< indices of its nodes
+    float light = 0, records = 0;
   };
   void add(const Cell& cell);
 
   Cells cells_;
-  std::vector<QuadNode> nodes_;             ///< nodes of all cells, one cell after another
-  std::vector<std::uint32_t> first_{0, 0};  ///< index of each cell's first node, and the end
-  std::vector<CellFacts> facts_{{}};
+  std::vector<QuadNode> nodes_;  ///< nodes of all cells, one cell after another
+  std::vector<KnownCell> known_{{}};
   bool of_radiance_ = true;
 };
 

@@ -2,22 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-
-#include "quad_links.h"
 
 namespace pharos::practical_path_guiding {
 namespace {
 
-/// Returns whether u in [0, 1) selects the upper of two parts with weights `low` and `high`, and
-/// rescales u to its position within the selected part.
-bool descend(double& u, double low, double high) {
-  const double scaled = u * (low + high);
-  const bool is_high = scaled >= low && high > 0;
-  u = is_high ? (scaled - low) / high : scaled / low;
+/// Returns whether u in [0, 1) selects the upper of two parts, of which the lower one has the share
+/// `low`, and rescales u to its position within the selected part.
+bool descend(double& u, double low) {
+  const bool is_high = u >= low;
+  u = is_high ? (u - low) / (1 - low) : u / low;
   constexpr double kLast = 1 - 0x1p-53;
   u = std::min(u, kLast);
   return is_high;
+}
+
+bool is_share(float v) {
+  return v >= 0 && v <= 1;
 }
 
 }  // namespace
@@ -28,11 +28,12 @@ float QuadDensity::at(Vec2 p) const {
   auto x = static_cast<std::uint32_t>(p.x * (1 << kBits));
   auto y = static_cast<std::uint32_t>(p.y * (1 << kBits));
   const QuadNode* node = nodes_.data();
+  float density = 1;
   while (true) {
     const std::uint32_t quarter = (x >> (kBits - 1) & 1) | (y >> (kBits - 2) & 2);
-    const std::uint32_t child = node->child[quarter];
-    if (child == 0) return node->density[quarter];
-    node = nodes_.data() + child;
+    density *= 4 * node->share(quarter);
+    if (!node->is_divided(quarter)) return density;
+    node = nodes_.data() + node->child(quarter);
     x <<= 1;
     y <<= 1;
   }
@@ -40,17 +41,16 @@ float QuadDensity::at(Vec2 p) const {
 
 Vec2 QuadDensity::sample(Vec2 u) const {
   double x = u.x, y = u.y, x_low = 0, y_low = 0, size = 1;
-  std::uint32_t at = 0;
-  do {
-    const QuadNode& node = nodes_[at];
-    const float* d = node.density;
-    const unsigned right = descend(x, double{d[0]} + d[2], double{d[1]} + d[3]) ? 1 : 0;
-    const unsigned upper = descend(y, d[right], d[right + 2]) ? 2 : 0;
+  const QuadNode* node = nodes_.data();
+  while (true) {
+    const unsigned right = descend(x, node->left) ? 1 : 0;
+    const unsigned upper = descend(y, node->lower[right]) ? 2 : 0;
     size /= 2;
     x_low += right != 0 ? size : 0;
     y_low += upper != 0 ? size : 0;
-    at = node.child[right | upper];
-  } while (at != 0);
+    if (!node->is_divided(right | upper)) break;
+    node = nodes_.data() + node->child(right | upper);
+  }
   const auto within = [](double low, double high) {
     const auto f = static_cast<float>(low);
     return f < high ? f : std::nextafter(static_cast<float>(high), 0.0f);
@@ -60,24 +60,18 @@ Vec2 QuadDensity::sample(Vec2 u) const {
 
 bool is_density(const std::vector<QuadNode>& nodes) {
   if (nodes.empty()) return true;
-  if (nodes.size() > kMostNodes || !is_quadtree(nodes, QuadDensity::kMostLevels)) return false;
-  constexpr double kRounding = 1e-3;
-  constexpr double kSmallest = std::numeric_limits<float>::min();  // below, floats lose digits
-  const auto mean_of = [&](std::uint32_t i) {
-    double sum = 0;
-    for (const float d : nodes[i].density) sum += d;
-    return sum / 4;
-  };
-  if (!(std::abs(mean_of(0) - 1) < kRounding)) return false;
-  // The density of a quarter is the mean of the densities below it.
-  for (const QuadNode& node : nodes) {
-    for (int q = 0; q < 4; ++q) {
-      const double own = node.density[q];
-      if (own < 0) return false;
-      const bool is_divided = node.child[q] != 0;
-      if (!is_divided) continue;
-      const double difference = std::abs(mean_of(node.child[q]) - own);
-      if (!(difference <= kRounding * own + kSmallest)) return false;
+  if (nodes.size() > kMostNodes) return false;
+  std::vector<int> level(nodes.size(), 1);
+  std::uint32_t next = 1;  // index of the first child that follows
+  for (std::uint32_t i = 0; i < nodes.size(); ++i) {
+    const QuadNode& node = nodes[i];
+    if (i >= next || level[i] > QuadDensity::kMostLevels) return false;
+    if (!is_share(node.left) || !is_share(node.lower[0]) || !is_share(node.lower[1])) return false;
+    const int count = std::popcount(node.children & 15u);
+    if (node.children >> 4 != (count > 0 ? next : 0)) return false;
+    for (int k = 0; k < count; ++k) {
+      if (next >= nodes.size()) return false;
+      level[next++] = level[i] + 1;
     }
   }
   return true;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -9,14 +10,34 @@
 
 namespace pharos::practical_path_guiding {
 
-/// The quarters of a square. In the number of a quarter, bit 0 is set in the upper half of x, and
-/// bit 1 in the upper half of y.
+/// Maximum number of nodes of a tree. A file with a larger count is damaged.
+inline constexpr std::uint32_t kMostNodes = 1u << 24;
+
+/// How the mass of a square is divided among its quarters. In the number of a quarter, bit 0 is set
+/// in the upper half of x, and bit 1 in the upper half of y. Four nodes fill a cache line, because
+/// look-ups spend most of their time waiting for nodes.
 struct QuadNode {
-  float density[4];  ///< mean over the quarter, relative to a uniform density [1]
-  /// Index of the node that divides the quarter, greater than the index of this node; 0: none.
-  std::uint32_t child[4];
-  void archive(Archive& archive) { archive(density, child); }
+  float left = 0.5f;              ///< share of the lower half of x
+  float lower[2] = {0.5f, 0.5f};  ///< share of the lower half of y in both halves of x
+  /// The lowest 4 bits: the quarters that are divided by nodes of their own. The other bits: index
+  /// of the first of these nodes. The others follow in the order of the quarters.
+  std::uint32_t children = 0;
+
+  bool is_divided(unsigned quarter) const { return (children >> quarter & 1) != 0; }
+  /// Returns the index of the node that divides a quarter.
+  std::uint32_t child(unsigned quarter) const {
+    const auto before = static_cast<std::uint32_t>(std::popcount(children & ((1u << quarter) - 1)));
+    return (children >> 4) + before;
+  }
+  /// Returns the share of a quarter in the mass of the square.
+  float share(unsigned quarter) const {
+    const unsigned half = quarter & 1;
+    const float x = half == 0 ? left : 1 - left;
+    return x * (quarter < 2 ? lower[half] : 1 - lower[half]);
+  }
+  void archive(Archive& archive) { archive(left, lower, children); }
 };
+static_assert(sizeof(QuadNode) == 16);
 
 /// A density over the unit square that is constant over the leaves of a quadtree (the D-tree of
 /// Mueller et al. 2017). The caller owns the nodes; the first one is the root.
@@ -38,7 +59,7 @@ class QuadDensity {
   std::span<const QuadNode> nodes_;
 };
 
-/// Returns whether `nodes` is empty or is the tree of a density that integrates to one.
+/// Returns whether `nodes` is empty or is the tree of a density, level by level from the root.
 bool is_density(const std::vector<QuadNode>& nodes);
 
 }  // namespace pharos::practical_path_guiding

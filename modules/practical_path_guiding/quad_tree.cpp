@@ -3,13 +3,28 @@
 #include <algorithm>
 #include <cmath>
 
-#include "quad_links.h"
-
 namespace pharos::practical_path_guiding {
 namespace {
 
 double sum_of(const double (&masses)[4]) {
   return (masses[0] + masses[1]) + (masses[2] + masses[3]);
+}
+
+/// Returns whether the nodes' `child[4]` form a tree of at most `levels` levels: every node except
+/// the first is the child of exactly one earlier node. An empty vector is allowed.
+template <class Node>
+bool is_quadtree(const std::vector<Node>& nodes, int levels) {
+  std::vector<int> level(nodes.size(), 0);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (i > 0 && level[i] == 0) return false;
+    for (const auto child : nodes[i].child) {
+      if (child == 0) continue;
+      if (child <= i || child >= nodes.size() || level[child] != 0) return false;
+      level[child] = level[i] + 1;
+      if (level[child] >= levels) return false;
+    }
+  }
+  return true;
 }
 
 }  // namespace
@@ -152,16 +167,21 @@ std::vector<QuadTree::Node> QuadTree::with_masses(LeafMass kind) const {
 
 std::vector<QuadNode> QuadTree::density(LeafMass kind) const {
   const std::vector<Node> masses = with_masses(kind);
-  const double total = sum_of(masses[0].mass);
-  std::vector<double> areas(masses.size(), 1);
+  const auto share = [](double part, double whole) {
+    return whole > 0 ? static_cast<float>(part / whole) : 0.5f;
+  };
   std::vector<QuadNode> nodes(masses.size());
-  for (std::size_t i = 0; i < masses.size(); ++i) {
-    for (int q = 0; q < 4; ++q) {
-      const double area = areas[i] / 4;
-      const std::uint32_t child = masses[i].child[q];
-      if (child != 0) areas[child] = area;
-      nodes[i].child[q] = child;
-      nodes[i].density[q] = static_cast<float>(masses[i].mass[q] / (area * total));
+  std::vector<std::uint32_t> places{0};  // of the nodes in `masses`, level by level
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const Node& node = masses[places[i]];
+    const auto& m = node.mass;
+    const double left = m[0] + m[2], right = m[1] + m[3];
+    nodes[i] = {share(left, left + right), {share(m[0], left), share(m[1], right)}};
+    const auto first = static_cast<std::uint32_t>(places.size());
+    for (unsigned q = 0; q < 4; ++q) {
+      if (node.child[q] == 0) continue;
+      nodes[i].children |= first << 4 | 1u << q;
+      places.push_back(node.child[q]);
     }
   }
   return nodes;

@@ -54,7 +54,7 @@ class QuadTree {
  private:
   struct Node {
     double mass[4] = {};
-    std::uint32_t child[4] = {};  ///< as in QuadNode
+    std::uint32_t child[4] = {};  ///< node that divides the quarter, with a higher index; 0: none
     void archive(Archive& archive) { archive(mass, child); }
   };
   struct Rectangle {

@@ -78,10 +78,10 @@ GuidingFrame::Method method(const SpyGuider& guider, Place place, std::uint32_t 
           .first_region = first_region};
 }
 
-/// Returns the guidance at an ordinary vertex.
-Guidance asked(const GuidingFrame& frame, Arena& arena) {
+/// Returns the guidance at an ordinary vertex that is the vertex number `bounce` of its path.
+Guidance asked(const GuidingFrame& frame, Arena& arena, std::uint16_t bounce = 3) {
   static const Wall wall;
-  GuidingQuery query = wall.query({0.25f, 0.5f, 2}, 3);
+  GuidingQuery query = wall.query({0.25f, 0.5f, 2}, bounce);
   query.current.roughness = 0.125f;
   return frame.query(query, arena);
 }
@@ -156,6 +156,22 @@ TEST_CASE("if no guide knows anything, the vertex is unguided, whatever the poli
     CHECK(guidance.unguided_share == 1);
     CHECK(guidance.mixing_key == kNoMixing);
   }
+}
+
+TEST_CASE("vertices after the last bounce are unguided, and no plugin is asked there") {
+  Calls calls;
+  const SpyGuider a("a", calls);
+  const GuidingFrame frame({method(a, {}, 0)},
+                           std::make_shared<const SpyShares>(std::vector{0.25f, 0.75f}, calls),
+                           {.last_bounce = 2});
+  Arena arena;
+  const Guidance after = asked(frame, arena, 3);
+  CHECK_FALSE(after.is_guided());
+  CHECK(after.unguided_share == 1);
+  CHECK(calls.empty());
+  CHECK(asked(frame, arena, 2).is_guided());
+  // Paths from both ends have no numbers: a step has one density, whichever end it was made from.
+  CHECK(asked(frame, arena, 0).is_guided());
 }
 
 TEST_CASE("two methods share one model: one learner is trained, and both guiders take part") {

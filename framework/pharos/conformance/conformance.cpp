@@ -227,9 +227,9 @@ class Plan {
                  .detail = fmt::format("no {} for its model is loaded", partner)});
   }
 
-  /// Adds every case of the guider with the first case of each learner of its model, and the
-  /// guider's first case with all other cases of the learner. If only one of the two is selected,
-  /// the other takes part with its first case alone.
+  /// Adds every case of the guider with the first case of each learner of its model. The other
+  /// cases of a learner are tested with the first case of one guider. If only a guider or only a
+  /// learner is selected, the other takes part with its first case alone.
   void add_guider(const PluginInfo& plugin) {
     const std::vector<Subject>& guiders = cases_.at(&plugin).subjects;
     if (guiders.empty()) return;
@@ -238,18 +238,30 @@ class Plan {
     });
     if (all.empty() && is_selected(plugin)) add_no_partner(guiders.front(), "learner");
     for (const Cases* learners : all) {
+      const std::vector<Subject>& subjects = learners->subjects;
       const bool guider_selected = is_selected(plugin),
-                 learner_selected = is_selected(*learners->subjects.front().plugin);
-      if (guider_selected || learner_selected) {
-        add_pair(guiders.front(), learners->subjects.front());
-      }
+                 learner_selected = is_selected(*subjects.front().plugin),
+                 in_full = learner_selected && guider_of(subjects.front()) == &guiders.front();
+      if (guider_selected || learner_selected) add_pair(guiders.front(), subjects.front());
       for (std::size_t i = 1; guider_selected && i < guiders.size(); ++i) {
-        add_pair(guiders[i], learners->subjects.front());
+        add_pair(guiders[i], subjects.front());
       }
-      for (std::size_t i = 1; learner_selected && i < learners->subjects.size(); ++i) {
-        add_pair(guiders.front(), learners->subjects[i]);
+      for (std::size_t i = 1; in_full && i < subjects.size(); ++i) {
+        add_pair(guiders.front(), subjects[i]);
       }
     }
+  }
+
+  /// Returns the first case of the guider with which a learner is tested in all its cases: the
+  /// first one of its module, or else of any module. Null: no guider knows its model.
+  const Subject* guider_of(const Subject& learner) const {
+    const auto guiders = partners(Guider::contract_name,
+                                  [&](const Subject& guider) { return suit(guider, learner); });
+    for (const Cases* cases : guiders) {
+      const Subject& first = cases->subjects.front();
+      if (first.plugin->module == learner.plugin->module) return &first;
+    }
+    return guiders.empty() ? nullptr : &guiders.front()->subjects.front();
   }
 
   void add_pair(const Subject& guider, const Subject& learner) {
@@ -262,14 +274,12 @@ class Plan {
   void add_learner(const PluginInfo& plugin) {
     const std::vector<Subject>& learners = cases_.at(&plugin).subjects;
     if (learners.empty()) return;
-    const auto guiders = partners(Guider::contract_name, [&](const Subject& guider) {
-      return suit(guider, learners.front());
-    });
-    if (guiders.empty()) return add_no_partner(learners.front(), "guider");
+    const Subject* guider = guider_of(learners.front());
+    if (guider == nullptr) return add_no_partner(learners.front(), "guider");
     for (const Subject& learner : learners) {
-      const Subject& guider = guiders.front()->subjects.front();
-      jobs.push_back({&plugin, learner.settings,
-                      [&](Suite& suite) { check_learner(registry_, learner, guider, suite); }});
+      jobs.push_back({&plugin, learner.settings, [&, guider](Suite& suite) {
+                        check_learner(registry_, learner, *guider, suite);
+                      }});
     }
   }
 

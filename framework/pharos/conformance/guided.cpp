@@ -18,7 +18,7 @@ class EqualShares final : public MixingShares {
 GuidingFrame frame_of(const Guider& guider, const std::shared_ptr<const GuidingModel>& model,
                       std::uint32_t candidates) {
   return GuidingFrame({{.guider = BoundGuider(guider, model), .traits = guider.traits()}},
-                      std::make_shared<const EqualShares>(), candidates);
+                      std::make_shared<const EqualShares>(), {.candidates = candidates});
 }
 
 std::optional<Proposal> Guided::propose(std::uint64_t path) const {

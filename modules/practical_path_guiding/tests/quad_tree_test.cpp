@@ -129,11 +129,15 @@ TEST_CASE("quarters are divided exactly where they have more than their share") 
   }
   const std::vector<QuadNode> nodes = refined.density(LeafMass::sum);
   std::vector<int> level(nodes.size(), 1);
+  std::vector<double> mass(nodes.size(), 1);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    for (int q = 0; q < 4; ++q) {
-      const double share = nodes[i].density[q] * std::pow(0.25, level[i]);
-      const bool is_divided = nodes[i].child[q] != 0;
-      if (is_divided) level[nodes[i].child[q]] = level[i] + 1;
+    for (unsigned q = 0; q < 4; ++q) {
+      const double share = mass[i] * nodes[i].share(q);
+      const bool is_divided = nodes[i].is_divided(q);
+      if (is_divided) {
+        level[nodes[i].child(q)] = level[i] + 1;
+        mass[nodes[i].child(q)] = share;
+      }
       if (std::abs(share - rule.threshold) < 1e-6) continue;
       CHECK(is_divided == (share > rule.threshold && level[i] < rule.max_depth));
     }
@@ -151,8 +155,8 @@ TEST_CASE("a refined tree keeps the given part of all values") {
       const std::vector<QuadNode> before = tree.density(LeafMass::sum);
       const std::vector<QuadNode> after = half.density(LeafMass::sum);
       double least = 1, most = 1;
-      for (int q = 0; q < 4; ++q) {
-        const auto mass = [&](const std::vector<QuadNode>& nodes) { return nodes[0].density[q]; };
+      for (unsigned q = 0; q < 4; ++q) {
+        const auto mass = [&](const std::vector<QuadNode>& nodes) { return nodes[0].share(q); };
         least = std::min(least, double{mass(after) / mass(before)});
         most = std::max(most, double{mass(after) / mass(before)});
       }
@@ -276,14 +280,22 @@ TreeAndDensity loaded(const std::string& text) {
   return both;
 }
 
-TEST_CASE("a density is one even where it is so small that floats lose digits") {
-  // The densities of the child have the mean 2.25 `tiny`, and its quarter has 2 `tiny`.
-  const float tiny = std::numeric_limits<float>::denorm_min();
-  std::vector<QuadNode> nodes{{{4, 0, 0, 2 * tiny}, {0, 0, 0, 1}},
-                              {{4 * tiny, 3 * tiny, tiny, tiny}, {0, 0, 0, 0}}};
-  CHECK(is_density(nodes));
-  nodes[1].density[0] = 1e-3f;
-  CHECK_FALSE(is_density(nodes));
+TEST_CASE("only trees in their order, with shares, are densities") {
+  const std::vector<QuadNode> good{{.children = 1 << 4 | 0b1001}, {.left = 0}, {.left = 1}};
+  CHECK(is_density(good));
+  CHECK(integral(QuadDensity(good), 64) == doctest::Approx(1));
+  const auto changed = [&](std::size_t i, QuadNode node) {
+    std::vector<QuadNode> nodes = good;
+    nodes[i] = node;
+    return nodes;
+  };
+  CHECK_FALSE(is_density(changed(1, {.left = -0.1f})));
+  CHECK_FALSE(is_density(changed(1, {.left = std::numeric_limits<float>::quiet_NaN()})));
+  CHECK_FALSE(is_density(changed(2, {.lower = {0, 1.5f}})));
+  CHECK_FALSE(is_density(changed(0, {.children = 1 << 4 | 0b0001})));  // nothing leads to the last
+  CHECK_FALSE(is_density(changed(0, {.children = 2 << 4 | 0b1001})));
+  CHECK_FALSE(is_density(changed(0, {.children = 1 << 4 | 0b1011})));  // there is no third child
+  CHECK_FALSE(is_density(changed(2, {.children = 1 << 4 | 0b0001})));  // a loop
 }
 
 TEST_CASE("trees and densities survive being saved; damage is found") {

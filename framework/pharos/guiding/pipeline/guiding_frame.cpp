@@ -73,12 +73,12 @@ std::span<const Technique> Guidance::techniques(float unguided, const PartDensit
 }
 
 GuidingFrame::GuidingFrame(std::vector<Method> methods, std::shared_ptr<const MixingShares> shares,
-                           std::uint32_t candidates)
+                           const GuidingRules& rules)
     : methods_(std::move(methods)),
       radiances_(methods_.size(), nullptr),
       shares_(std::move(shares)),
-      candidates_(candidates) {
-  for (std::size_t i = 0; candidates_ > 1 && i < methods_.size(); ++i) {
+      rules_(rules) {
+  for (std::size_t i = 0; rules_.candidates > 1 && i < methods_.size(); ++i) {
     if (methods_[i].guider) radiances_[i] = find_radiance_around(methods_[i].guider->model());
   }
   guides_camera_ = std::any_of(methods_.begin(), methods_.end(), [](const Method& method) {
@@ -97,6 +97,8 @@ bool GuidingFrame::can_ask(const Method& method, const GuidingQuery& query) cons
 
 Guidance GuidingFrame::query(GuidingQuery& query, Arena& arena, PathMemories* memories,
                              Arena* path_arena) const {
+  Guidance guidance;
+  if (query.bounce > rules_.last_bounce) return guidance;
   const std::size_t count = methods_.size();
   std::array<Place, kMostMethods> places;
   bool is_known = false;
@@ -106,7 +108,6 @@ Guidance GuidingFrame::query(GuidingQuery& query, Arena& arena, PathMemories* me
     places[i].region += methods_[i].first_region;
     is_known |= places[i].evidence > 0;
   }
-  Guidance guidance;
   if (!is_known) return guidance;
   std::array<float, kMostMethods + 1> shares{};
   const std::uint32_t key =
@@ -127,7 +128,7 @@ Guidance GuidingFrame::query(GuidingQuery& query, Arena& arena, PathMemories* me
                         method.traits.steers_events};
     if (radiances_[i] == nullptr) continue;
     parts[answers - 1].radiance = radiances_[i]->radiance_around(query, arena);
-    if (parts[answers - 1].radiance != nullptr) guidance.candidates = candidates_;
+    if (parts[answers - 1].radiance != nullptr) guidance.candidates = rules_.candidates;
   }
   query.memory = nullptr;
   if (answers == 0) return guidance;

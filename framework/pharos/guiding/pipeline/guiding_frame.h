@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -73,6 +74,15 @@ struct Guidance {
       std::span<Technique, GuidingSettings::kMostMethods + 1> out) const;
 };
 
+/// Where guides may steer, and how.
+struct GuidingRules {
+  /// Number of candidates among which steps are chosen where a model knows the incident radiance.
+  std::uint32_t candidates = 1;
+  /// Vertices of a path after the one of this number are not guided. Vertices have no number if
+  /// paths are made from both ends, so they are all guided then.
+  std::uint32_t last_bounce = std::numeric_limits<std::uint32_t>::max();
+};
+
 /// All methods of a render with their models, frozen for one iteration: constant and thread-safe.
 class GuidingFrame {
  public:
@@ -83,10 +93,8 @@ class GuidingFrame {
     std::uint32_t first_region = 0;
   };
 
-  /// `candidates` is the number of candidates among which steps are chosen where a model knows the
-  /// incident radiance.
   GuidingFrame(std::vector<Method> methods, std::shared_ptr<const MixingShares> shares,
-               std::uint32_t candidates = 1);
+               const GuidingRules& rules = {});
 
   /// Returns the guidance at a vertex. Sets `query.region` and `query.memory` for each guide. The
   /// parts are made in `arena` and live until the next vertex is known. `memories` refers to
@@ -103,7 +111,7 @@ class GuidingFrame {
   /// For each method the radiance that its model knows; null: none, or it is not needed.
   std::vector<const RadianceEstimate*> radiances_;
   std::shared_ptr<const MixingShares> shares_;
-  std::uint32_t candidates_;
+  GuidingRules rules_;
   bool guides_camera_ = false;
 };
 

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -52,6 +53,8 @@ struct GuidingSettings {
   std::string mixing_state;
   /// Number of candidates for each step of the final image; see sample_resampled_step().
   std::uint32_t candidates = 1;
+  /// Number of the last vertex of a path that is guided; none: all vertices are. See GuidingFrame.
+  std::optional<std::uint32_t> last_bounce;
   TrainingSettings training;
 
   static void describe(Schema<GuidingSettings>& schema);

@@ -72,8 +72,9 @@ GuidingState::GuidingState(const GuidingSettings& settings, const LearningContex
     : policy_(settings.mixing),
       policy_config_(settings.mixing_config.empty() ? settings.mixing->plugin_name()
                                                     : settings.mixing_config),
-      candidates_(settings.candidates),
+      rules_{.candidates = settings.candidates},
       is_final_(!settings.learns()) {
+  if (settings.last_bounce) rules_.last_bounce = *settings.last_bounce;
   const TrainingSettings& training = settings.training;
   if (training.puts_guides_on_trial()) trial_.emplace(training, context.window);
   std::vector<float> weights;
@@ -184,9 +185,10 @@ void GuidingState::rebuild_frame() {
     method.first_region = first_regions[user.source];
     is_any_asked |= is_asked;
   }
+  GuidingRules rules = rules_;
+  if (!is_final_) rules.candidates = 1;
   frame_ = is_any_asked && !is_off_
-               ? std::make_shared<const GuidingFrame>(std::move(methods), std::move(shares),
-                                                      is_final_ ? candidates_ : 1)
+               ? std::make_shared<const GuidingFrame>(std::move(methods), std::move(shares), rules)
                : nullptr;
 }
 

@@ -72,7 +72,7 @@ class GuidingState {
   std::string policy_config_;
   std::unique_ptr<MixingState> mixing_;
   std::optional<GuideTrial> trial_;  ///< none if its outcome has no consequences
-  std::uint32_t candidates_ = 1;     ///< in the final image
+  GuidingRules rules_;               ///< of the final image
   bool is_final_ = false;            ///< the next iteration is the final image
   bool is_off_ = false;              ///< guiding does not pay
   std::uint64_t samples_ = 0;        ///< training samples of the current iteration
