@@ -167,7 +167,7 @@ std::shared_ptr<const GuidingModel> PracticalPathGuidingLearningState::model() c
 }
 
 void PracticalPathGuidingLearningState::archive(Archive& archive) {
-  archive.heading("practical_path_guiding_learning", 5);
+  archive.heading("practical_path_guiding_learning", 6);
   archive(division_, origins_, pixels_, batches_, paths_, records_);
   archive.list(cells_, [&] { return Cell{.box = {}, .learning = QuadTree(refinement())}; });
   if (!archive.loads()) return;
