@@ -18,15 +18,29 @@ Vector<D> normal_point(RandomStream& random) {
   return x;
 }
 
-// Decompositions of matrices of any size compile much faster than those of each fixed size.
 using Eigen::MatrixXd;
+
+// Decompositions take long to compile, so they are compiled once, for matrices of any size.
+
+/// Returns an orthogonal matrix.
+MatrixXd orthogonal(const MatrixXd& m) {
+  return Eigen::HouseholderQR<MatrixXd>(m).householderQ();
+}
+
+/// Returns the normal density at a point with the difference `y` to the mean.
+double normal_density(const MatrixXd& covariance, const MatrixXd& y) {
+  const MatrixXd inverse = covariance.inverse();
+  const double squared = (inverse * y).cwiseProduct(y).sum();
+  return std::exp(-0.5 * squared) /
+         std::sqrt(std::pow(2 * EIGEN_PI, y.rows()) * covariance.determinant());
+}
 
 /// Returns a needle or pancake at a random place. The ratio of its axes is at most `flat`.
 template <int D>
 Gaussian<D> random_gaussian(RandomStream& random, double flat) {
   Matrix<D> m;
   for (int i = 0; i < D; ++i) m.col(i) = normal_point<D>(random);
-  const Matrix<D> axes = Eigen::HouseholderQR<MatrixXd>(m).householderQ();
+  const Matrix<D> axes = orthogonal(m);
   Vector<D> variances;
   for (double& v : variances) v = std::pow(flat, -2.0 * random.next_1d());
   const Matrix<D> covariance = axes * variances.asDiagonal() * axes.transpose();
@@ -61,13 +75,6 @@ GaussianMixture<D> random_mixture(std::size_t count, double flat, RandomStream& 
   return mixture;
 }
 
-template <int D>
-double normal_density(const Gaussian<D>& g, const Vector<D>& x) {
-  const MatrixXd covariance = g.covariance, y = x - g.mean;
-  return std::exp(-0.5 * (y.transpose() * covariance.inverse() * y)(0)) /
-         std::sqrt(std::pow(2 * EIGEN_PI, D) * covariance.determinant());
-}
-
 /// Returns random moments, as if they came from earlier points.
 template <int D>
 std::vector<Moments<D>> random_moments(std::size_t count, RandomStream& random) {
@@ -89,7 +96,7 @@ TEST_CASE_TEMPLATE("log densities are those of the formula", T, std::integral_co
     std::array<double, D> coordinates;
     for (int axis = 0; axis < D; ++axis) coordinates[axis] = x[axis];
     CHECK(std::exp(LogDensity<D>(g)(coordinates)) ==
-          doctest::Approx(normal_density(g, x)).epsilon(1e-8).scale(0));
+          doctest::Approx(normal_density(g.covariance, x - g.mean)).epsilon(1e-8).scale(0));
   }
 }
 
@@ -166,7 +173,7 @@ TEST_CASE("a fit of some components takes the same steps at once as one by one")
 }
 
 TEST_CASE_TEMPLATE("a fit never lowers its objective", T, std::integral_constant<int, 2>,
-                   std::integral_constant<int, 3>, std::integral_constant<int, 9>) {
+                   std::integral_constant<int, 3>) {
   constexpr int D = T::value;
   RandomStream random(4);
   for (int round = 0; round < 12; ++round) {
