@@ -53,7 +53,7 @@ class PracticalPathGuidingModel final : public GuidingModel, public RadianceEsti
   }
 
  private:
-  /// What is known of a cell, together, so that a look-up waits once for it.
+  /// The data of a cell. They share a cache line, so that a look-up waits for memory only once.
   struct KnownCell {
     std::uint32_t first = 0, end = 0;  ///< indices of its nodes
     float light = 0, records = 0;

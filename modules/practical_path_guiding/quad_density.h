@@ -19,8 +19,9 @@ inline constexpr std::uint32_t kMostNodes = 1u << 24;
 struct QuadNode {
   float left = 0.5f;              ///< share of the lower half of x
   float lower[2] = {0.5f, 0.5f};  ///< share of the lower half of y in both halves of x
-  /// The lowest 4 bits: the quarters that are divided by nodes of their own. The other bits: index
-  /// of the first of these nodes. The others follow in the order of the quarters.
+  /// The lowest 4 bits state which quarters are divided. Each divided quarter has a child node. The
+  /// other bits are the index of the first child; the next children follow it in the order of the
+  /// quarters.
   std::uint32_t children = 0;
 
   bool is_divided(unsigned quarter) const { return (children >> quarter & 1) != 0; }

@@ -241,7 +241,9 @@ TEST_CASE("includes") {
   const auto file = folder.write("scene.xml",
                                  "<scene version=\"3.0.0\">\n"
                                  "<include filename=\"part.xml\"/></scene>");
-  const auto message = [&] { return pharos::test::input_error_in(folder, [&] { read_document(file); }); };
+  const auto message = [&] {
+    return pharos::test::input_error_in(folder, [&] { read_document(file); });
+  };
   CHECK(message() == "scene.xml:2:20: error: 'part.xml' cannot be read: no such file");
   folder.write("pat.xml", "");
   CHECK(message() ==

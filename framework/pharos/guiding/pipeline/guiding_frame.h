@@ -74,7 +74,7 @@ struct Guidance {
       std::span<Technique, GuidingSettings::kMostMethods + 1> out) const;
 };
 
-/// Where guides may steer, and how.
+/// Rules for all guides of a GuidingFrame.
 struct GuidingRules {
   /// Number of candidates among which steps are chosen where a model knows the incident radiance.
   std::uint32_t candidates = 1;
