@@ -78,8 +78,8 @@ struct Guidance {
 struct GuidingRules {
   /// Number of candidates among which steps are chosen where a model knows the incident radiance.
   std::uint32_t candidates = 1;
-  /// Vertices of a path after the one of this number are not guided. Vertices have no number if
-  /// paths are made from both ends, so they are all guided then.
+  /// Vertices of a path after the one of this number are not guided. Vertices have no number on
+  /// paths from lights and on paths made from both ends, so all of them are guided there.
   std::uint32_t last_bounce = std::numeric_limits<std::uint32_t>::max();
 };
 

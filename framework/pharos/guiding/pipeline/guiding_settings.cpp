@@ -132,10 +132,11 @@ void GuidingSettings::describe(Schema<GuidingSettings>& s) {
        "that the models expect")
       .at_least(1)
       .at_most(VertexStream::kMostCandidates);
-  s.field("last_bounce", &GuidingSettings::last_bounce,
-          "Number of the last vertex of a path that is guided (the first after the lens or the "
-          "light is 1); all are guided if it is absent. Paths made from both ends are guided "
-          "everywhere")
+  s.field(
+       "last_bounce", &GuidingSettings::last_bounce,
+       "Number of the last vertex of a path that is guided (the first after the lens is 1); all "
+       "are guided if it is absent. Paths from lights, and paths made from both ends, are always "
+       "guided everywhere")
       .at_least(1);
   s.field("training", &GuidingSettings::training,
           "How the budget is divided between training and the final image");
