@@ -44,6 +44,16 @@ void PracticalPathGuidingSettings::describe(Schema<PracticalPathGuidingSettings>
           "begins anew, 1: all samples count alike")
       .at_least(0)
       .at_most(1);
+  s.field("spatial_prior", &S::spatial_prior,
+          "Number of records for which the light of the next larger cell counts. 0: every cell "
+          "knows its own light only")
+      .at_least(0)
+      .at_most(1e6);
+  s.field("directional_prior", &S::directional_prior,
+          "Number of records that are spread evenly over the quarters of every square of the "
+          "quadtree, besides those that it received")
+      .at_least(0)
+      .at_most(1e6);
   s.field(
        "pixel_radius", &S::pixel_radius,
        "For `relative`: pixel values are averaged over pixels up to this far away along both axes")

@@ -33,6 +33,8 @@ struct PracticalPathGuidingSettings {
   GuidingTarget target = GuidingTarget::radiance;
   LightHits light_hits = LightHits::weighted;
   double memory = 0;
+  double spatial_prior = 0;
+  double directional_prior = 0;
   int pixel_radius = 2;
   double least_pixel = 0.01;
   std::uint32_t batch_records = 1u << 20;

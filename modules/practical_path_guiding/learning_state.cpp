@@ -44,9 +44,9 @@ PracticalPathGuidingLearningState::PracticalPathGuidingLearningState(
     : settings_(settings),
       seed_(context.seed),
       film_pixels_(static_cast<double>(context.window.area())),
+      cube_(cube_around(context.region)),
       division_{.space = {}, .by_facing = settings.by_facing},
-      cells_(division_.count(),
-             {.box = cube_around(context.region), .learning = QuadTree(refinement())}),
+      cells_(division_.count(), {.box = cube_, .sums = {.tree = QuadTree(refinement())}}),
       origins_(division_.count(), 0),
       pixels_(settings.target == GuidingTarget::relative ? context.window : PixelRect{}) {}
 
@@ -84,14 +84,15 @@ void PracticalPathGuidingLearningState::flush() {
     for (std::size_t k = first[i]; k < first[i + 1]; ++k) {
       const Record& record = records_[k];
       ++cell.records;
-      ++cell.weight;
-      cell.steps += record.steps;
+      ++cell.sums.weight;
+      cell.sums.steps += record.steps;
       if (record.value == 0) continue;
-      cell.light += record.value;
+      cell.sums.light += record.value;
+      cell.sums.squares += double{record.value} * record.value;
       if (settings_.directional_filter == DirectionalFilter::box) {
-        cell.learning.spread(record.direction, record.value);
+        cell.sums.tree.spread(record.direction, record.value);
       } else {
-        cell.learning.add(record.direction, record.value);
+        cell.sums.tree.add(record.direction, record.value);
       }
     }
   });
@@ -104,11 +105,12 @@ Learned PracticalPathGuidingLearningState::update(const TrainingStage&) {
   const double samples = paths_ / film_pixels_;  // per pixel
   // c sqrt(2^k) of the paper for iterations of 4 * 2^k samples per pixel, as in the published code.
   const double threshold = settings_.spatial_threshold * std::sqrt(samples / 4);
-  parallel_for(cells_.size(), [&](std::size_t i) { conclude(cells_[i]); });
+  conclude();
   const std::vector<std::uint32_t> leaves = division_.space.leaves();
   for (std::uint32_t cell = 0; cell < leaves.size(); ++cell) {
     halve(leaves[cell], cell, threshold);
   }
+  division_.space.index(cube_);
   const bool knows_something = std::any_of(cells_.begin(), cells_.end(),
                                            [](const Cell& cell) { return !cell.known.empty(); });
   Learned learned;
@@ -122,17 +124,36 @@ Learned PracticalPathGuidingLearningState::update(const TrainingStage&) {
   return learned;
 }
 
-void PracticalPathGuidingLearningState::conclude(Cell& cell) const {
-  // A cell that found no light keeps its density.
-  if (cell.learning.total() > 0) {
-    cell.known = cell.learning.density(leaf_mass());
-    cell.known_light = static_cast<float>(cell.light / cell.steps);
-    cell.known_records = static_cast<float>(cell.weight);
-    cell.learning = cell.learning.refined(leaf_mass(), refinement(), settings_.memory);
+void PracticalPathGuidingLearningState::conclude() {
+  if (settings_.spatial_prior == 0) {
+    parallel_for(cells_.size(), [&](std::size_t i) { conclude(cells_[i], cells_[i].sums); });
+    return;
   }
-  cell.light *= settings_.memory;
-  cell.weight *= settings_.memory;
-  cell.steps *= settings_.memory;
+  std::vector<const Sums*> own;
+  for (const Cell& cell : cells_) own.push_back(&cell.sums);
+  const std::vector<Sums> seen =
+      with_larger_cells(own, division_, settings_.spatial_prior, refinement());
+  parallel_for(cells_.size(), [&](std::size_t i) { conclude(cells_[i], seen[i]); });
+}
+
+void PracticalPathGuidingLearningState::conclude(Cell& cell, const Sums& seen) const {
+  // A cell that found no light keeps its density.
+  if (seen.tree.total() > 0) {
+    QuadTree tree = seen.tree;
+    if (settings_.directional_prior > 0) {
+      tree = tree.smoothed(settings_.directional_prior * seen.light / seen.effective());
+    }
+    cell.known = tree.density(leaf_mass());
+    cell.known_light = static_cast<float>(seen.mean());
+    cell.known_records = static_cast<float>(seen.weight);
+    QuadTree refined = tree.refined(leaf_mass(), refinement());
+    if (settings_.memory > 0) refined.add(cell.sums.tree, settings_.memory, false);
+    cell.sums.tree = std::move(refined);
+  }
+  cell.sums.light *= settings_.memory;
+  cell.sums.squares *= settings_.memory;
+  cell.sums.weight *= settings_.memory;
+  cell.sums.steps *= settings_.memory;
 }
 
 void PracticalPathGuidingLearningState::halve(std::uint32_t leaf, std::uint32_t cell,
@@ -167,9 +188,9 @@ std::shared_ptr<const GuidingModel> PracticalPathGuidingLearningState::model() c
 }
 
 void PracticalPathGuidingLearningState::archive(Archive& archive) {
-  archive.heading("practical_path_guiding_learning", 6);
+  archive.heading("practical_path_guiding_learning", 7);
   archive(division_, origins_, pixels_, batches_, paths_, records_);
-  archive.list(cells_, [&] { return Cell{.box = {}, .learning = QuadTree(refinement())}; });
+  archive.list(cells_, [&] { return Cell{.box = {}, .sums = {.tree = QuadTree(refinement())}}; });
   if (!archive.loads()) return;
   const auto expect = [&](bool holds) { archive.expect(holds, "the learning of the SD-tree"); };
   expect(cells_.size() == division_.count() && origins_.size() == cells_.size());
@@ -178,8 +199,9 @@ void PracticalPathGuidingLearningState::archive(Archive& archive) {
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     const Cell& cell = cells_[i];
     expect(origins_[i] <= i && cell.level == levels[leaves[i / division_.in_each()]] &&
-           !cell.box.empty() && is_density(cell.known) && cell.records >= 0 && cell.light >= 0 &&
-           cell.weight >= 0 && cell.steps >= 0 && cell.known_light >= 0 && cell.known_records >= 0);
+           !cell.box.empty() && is_density(cell.known) && cell.records >= 0 &&
+           cell.sums.light >= 0 && cell.sums.squares >= 0 && cell.sums.weight >= 0 &&
+           cell.sums.steps >= 0 && cell.known_light >= 0 && cell.known_records >= 0);
   }
 }
 

@@ -10,8 +10,8 @@
 #include <pharos/guiding/toolkit/pixel_estimates.h>
 
 #include "cells.h"
+#include "larger_cells.h"
 #include "learner.h"
-#include "quad_tree.h"
 
 namespace pharos::practical_path_guiding {
 
@@ -33,10 +33,7 @@ class PracticalPathGuidingLearningState final : public LearningState {
     Bounds3 box;
     int level = 0;       ///< number of planes above the cell
     double records = 0;  ///< number of records in this iteration
-    QuadTree learning;   ///< tree that accumulates this iteration and what is kept of earlier ones
-    double light = 0;    ///< sum of the values in `learning`
-    double weight = 0;   ///< number of the records behind `light`
-    double steps = 0;    ///< number of steps for which these records stand
+    Sums sums;           ///< of this iteration, and what is kept of earlier ones
     /// Density of the last iteration that found light in the cell; empty: nothing known.
     std::vector<QuadNode> known;
     float known_light = 0;    ///< mean value of the steps behind `known`
@@ -45,15 +42,11 @@ class PracticalPathGuidingLearningState final : public LearningState {
     /// Halves what the cell has accumulated, and counts a plane above it.
     void halve() {
       records /= 2;
-      light /= 2;
-      weight /= 2;
-      steps /= 2;
-      learning.scale(0.5);
+      sums.scale(0.5);
       ++level;
     }
     void archive(Archive& archive) {
-      archive(box, level, records, learning, light, weight, steps, known, known_light,
-              known_records);
+      archive(box, level, records, sums, known, known_light, known_records);
     }
   };
 
@@ -67,9 +60,12 @@ class PracticalPathGuidingLearningState final : public LearningState {
   void flush();
   /// Returns the cell that receives a record, by the spatial filter.
   std::uint32_t cell_for(const Record& record, RandomStream random) const;
-  /// Replaces a cell's known density by what it accumulated, and refines its tree for the next
-  /// iteration. Keeps the known density if the cell found no light.
-  void conclude(Cell& cell) const;
+  /// Replaces the cells' known densities by what they accumulated, and refines their trees for the
+  /// next iteration.
+  void conclude();
+  /// Does so for one cell, whose sums may be mixed with those of larger cells (`seen`). Keeps the
+  /// known density if there is no light in them.
+  void conclude(Cell& cell, const Sums& seen) const;
   /// Halves a cell of the tree over space, and then its halves, as long as a cell's share of the
   /// records is above `threshold`.
   void halve(std::uint32_t leaf, std::uint32_t cell, double threshold);
@@ -82,6 +78,7 @@ class PracticalPathGuidingLearningState final : public LearningState {
   PracticalPathGuidingSettings settings_;
   std::uint64_t seed_;
   double film_pixels_;
+  Bounds3 cube_;  ///< contains the scene
   Cells division_;
   std::vector<Cell> cells_;             ///< by the numbers of `division_`
   std::vector<std::uint32_t> origins_;  ///< cell of the last model that contained each cell

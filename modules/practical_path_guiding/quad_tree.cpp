@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace pharos::practical_path_guiding {
 namespace {
@@ -130,6 +131,70 @@ void QuadTree::add_to(std::uint32_t node, Rectangle square, const Rectangle& par
       add_to(child, quarter, part, density);
     }
   }
+}
+
+void QuadTree::add_evenly(std::uint32_t node, double mass) {
+  for (unsigned q = 0; q < 4; ++q) {
+    const std::uint32_t child = nodes_[node].child[q];
+    if (child == 0) {
+      nodes_[node].mass[q] += mass / 4;
+    } else {
+      add_evenly(child, mass / 4);
+    }
+  }
+}
+
+void QuadTree::divide(std::uint32_t node, unsigned quarter) {
+  const double part = std::exchange(nodes_[node].mass[quarter], 0) / 4;
+  nodes_[node].child[quarter] = static_cast<std::uint32_t>(nodes_.size());
+  nodes_.push_back({.mass = {part, part, part, part}});
+}
+
+void QuadTree::add(const QuadTree& other, double factor, bool is_finer) {
+  const std::vector<Node> masses = other.with_masses(LeafMass::sum);
+  struct Pair {
+    std::uint32_t here, there;  // nodes of the same square
+  };
+  std::vector<Pair> undone{{0, 0}};
+  while (!undone.empty()) {
+    const auto [here, there] = undone.back();
+    undone.pop_back();
+    for (unsigned q = 0; q < 4; ++q) {
+      const std::uint32_t child = masses[there].child[q];
+      const double mass = factor * masses[there].mass[q];
+      if (is_finer && child != 0 && nodes_[here].child[q] == 0) divide(here, q);
+      const std::uint32_t own = nodes_[here].child[q];
+      if (own == 0) {
+        nodes_[here].mass[q] += mass;
+      } else if (child == 0) {
+        add_evenly(own, mass);
+      } else {
+        undone.push_back({own, child});
+      }
+    }
+  }
+}
+
+QuadTree QuadTree::smoothed(double prior) const {
+  QuadTree tree;
+  tree.nodes_ = with_masses(LeafMass::sum);
+  std::vector<double> received(nodes_.size());
+  received[0] = sum_of(tree.nodes_[0].mass);
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    Node& node = tree.nodes_[i];
+    const double sum = sum_of(node.mass) + prior;
+    for (unsigned q = 0; q < 4; ++q) {
+      const double share = sum > 0 ? (node.mass[q] + prior / 4) / sum : 0;
+      const double mass = received[i] * share;
+      if (node.child[q] == 0) {
+        node.mass[q] = mass;
+      } else {
+        received[node.child[q]] = mass;
+        node.mass[q] = 0;
+      }
+    }
+  }
+  return tree;
 }
 
 double QuadTree::total() const {

@@ -44,6 +44,14 @@ class QuadTree {
   /// divided, others are collapsed. It keeps the part `kept` of all added values. If a leaf is
   /// divided, its value is spread evenly over its square.
   QuadTree refined(LeafMass kind, const QuadRefinement& rule, double kept = 0) const;
+  /// Adds the values of another tree, times a factor, which are spread evenly over its leaves.
+  /// `is_finer` states whether leaves that are divided there are divided here, too.
+  void add(const QuadTree& other, double factor, bool is_finer);
+  /// Returns a tree with the same leaves and the same total, whose shares are smoother. The share
+  /// of a quarter in its square is the one that it would have if `prior` were spread evenly over
+  /// the quarters in addition. A value much smaller than `prior` thus leaves mass at all scales
+  /// around it.
+  QuadTree smoothed(double prior) const;
   /// Multiplies all added values by a factor.
   void scale(double factor);
 
@@ -69,6 +77,10 @@ class QuadTree {
   QuadTree() = default;
   Leaf leaf_at(Vec2 p) const;
   void add_to(std::uint32_t node, Rectangle square, const Rectangle& part, double density);
+  /// Divides a leaf, and spreads its mass evenly.
+  void divide(std::uint32_t node, unsigned quarter);
+  /// Adds a mass to the leaves below a node, in proportion to their areas.
+  void add_evenly(std::uint32_t node, double mass);
   /// Returns the nodes with the masses of all quarters, including divided ones.
   std::vector<Node> with_masses(LeafMass kind) const;
 

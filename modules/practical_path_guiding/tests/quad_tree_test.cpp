@@ -175,6 +175,59 @@ TEST_CASE("a refined tree keeps the given part of all values") {
   }
 }
 
+TEST_CASE("added trees give the mixture of both densities, and finer leaves where one has them") {
+  const QuadTree a = peaked({0.3f, 0.7f}), b = peaked({0.6f, 0.2f});
+  const std::vector<QuadNode> of_a = a.density(LeafMass::sum), of_b = b.density(LeafMass::sum);
+  QuadTree both = a;
+  both.add(b, 2, true);
+  CHECK(both.node_count() > std::max(a.node_count(), b.node_count()));
+  CHECK(both.total() == doctest::Approx(a.total() + 2 * b.total()));
+  const std::vector<QuadNode> mixture = both.density(LeafMass::sum);
+  const double share = a.total() / both.total();
+  RandomStream random(4);
+  for (int i = 0; i < 1000; ++i) {
+    const Vec2 p = i % 2 == 0 ? random.next_2d() : Vec2{0.6f, 0.2f} + 0.02f * random.next_2d();
+    CHECK(QuadDensity(mixture).at(p) ==
+          doctest::Approx(share * QuadDensity(of_a).at(p) + (1 - share) * QuadDensity(of_b).at(p))
+              .epsilon(1e-3));
+  }
+
+  QuadTree same_leaves = a;
+  same_leaves.add(b, 2, false);
+  CHECK(same_leaves.node_count() == a.node_count());
+  CHECK(same_leaves.total() == doctest::Approx(both.total()));
+  // A square that both divide keeps its mass.
+  const std::vector<QuadNode> coarse = same_leaves.density(LeafMass::sum);
+  for (unsigned q = 0; q < 4; ++q)
+    CHECK(coarse[0].share(q) == doctest::Approx(mixture[0].share(q)));
+}
+
+TEST_CASE("smoothed trees have the shares of values that are spread in every square") {
+  QuadTree tree({.threshold = 0.2});  // 4 x 4 leaves
+  tree.add({0.1f, 0.1f}, 3);
+  const QuadTree smooth = tree.smoothed(1);
+  CHECK(smooth.total() == doctest::Approx(3));
+  const std::vector<QuadNode> nodes = smooth.density(LeafMass::sum);
+  // Of every square with the value 3: (3 + 1/4) / 4 for the quarter with it, 1/16 for the others.
+  // Squares without values are even.
+  const QuadDensity density(nodes);
+  CHECK(density.at({0.1f, 0.1f}) == doctest::Approx(16 * 0.8125 * 0.8125));
+  CHECK(density.at({0.3f, 0.1f}) == doctest::Approx(16 * 0.8125 * 0.0625));
+  CHECK(density.at({0.9f, 0.6f}) == doctest::Approx(4 * 0.0625));
+  CHECK(integral(density) == doctest::Approx(1));
+
+  const QuadTree two_peaks = peaked({0.3f, 0.7f});
+  const std::vector<QuadNode> before = two_peaks.density(LeafMass::sum),
+                              after = two_peaks.smoothed(0).density(LeafMass::sum),
+                              even = two_peaks.smoothed(1e12).density(LeafMass::sum);
+  RandomStream random(8);
+  for (int i = 0; i < 1000; ++i) {
+    const Vec2 p = random.next_2d();
+    CHECK(QuadDensity(after).at(p) == doctest::Approx(QuadDensity(before).at(p)));
+    CHECK(QuadDensity(even).at(p) == doctest::Approx(1));
+  }
+}
+
 TEST_CASE("scaling a tree keeps its density") {
   QuadTree tree = peaked({0.3f, 0.7f});
   const std::vector<QuadNode> before = tree.density(LeafMass::sum);

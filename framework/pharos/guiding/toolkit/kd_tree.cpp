@@ -1,4 +1,5 @@
-#include <algorithm>
+#include <bit>
+#include <cmath>
 
 #include <pharos/guiding/toolkit/kd_tree.h>
 
@@ -6,6 +7,36 @@ namespace pharos {
 namespace {
 
 constexpr std::size_t kMostNodes = 1u << 25;
+/// The grid of a smaller tree would skip few planes.
+constexpr std::uint32_t kFewCells = 64;
+/// Largest number of intervals of a grid along an axis.
+constexpr int kMostIntervals = 32;
+
+/// Returns the number of intervals along an axis: a grid has about as many cells as the tree.
+int intervals_for(std::uint32_t cells) {
+  const int levels = static_cast<int>(std::bit_width(cells));
+  return std::min(1 << (levels + 2) / 3, kMostIntervals);
+}
+
+/// Returns whether the edges of a grid over the box are well apart from each other in floats.
+bool can_have_grid(const Bounds3& box) {
+  constexpr float kLeast = 1e-4f;  // extent relative to the coordinates
+  for (int axis = 0; axis < 3; ++axis) {
+    const float extent = box.high[axis] - box.low[axis];
+    const float size = std::max(std::abs(box.low[axis]), std::abs(box.high[axis]));
+    if (!(extent > kLeast * size) || !std::isfinite(extent)) return false;
+  }
+  return true;
+}
+
+/// Halves the interval between two edges, and then its halves.
+void halve(std::vector<float>& edges, std::size_t low, std::size_t high) {
+  if (high - low < 2) return;
+  const std::size_t middle = (low + high) / 2;
+  edges[middle] = 0.5f * (edges[low] + edges[high]);
+  halve(edges, low, middle);
+  halve(edges, middle, high);
+}
 
 }  // namespace
 
@@ -46,7 +77,59 @@ KdTree::Halves KdTree::divide(std::uint32_t leaf, int axis, float position) {
   nodes_[leaf] = {first << 2 | static_cast<std::uint32_t>(axis), position};
   nodes_.push_back(Node::cell(number));
   nodes_.push_back(Node::cell(added));
+  grid_ = {};
   return {first, first + 1};
+}
+
+void KdTree::index(const Bounds3& box) {
+  grid_ = {};
+  if (cell_count() < kFewCells || !can_have_grid(box)) return;
+  const Vec3 extent = box.extent();
+  grid_.box = box;
+  const int n = grid_.size = intervals_for(cell_count());
+  for (int axis = 0; axis < 3; ++axis) {
+    grid_.scale[axis] = static_cast<float>(n) / extent[axis];
+    std::vector<float>& edges = grid_.edges[axis];
+    edges.resize(static_cast<std::size_t>(n) + 1);
+    edges.front() = box.low[axis];
+    edges.back() = box.high[axis];
+    halve(edges, 0, edges.size() - 1);
+    edges.front() = -kInfinity;
+    edges.back() = kInfinity;
+  }
+  grid_.entrances.resize(static_cast<std::size_t>(n) * n * n);
+  enter(0, {{0, 0, 0}, {n, n, n}});
+}
+
+void KdTree::enter(std::uint32_t node, const Block& block) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (block.low[axis] >= block.high[axis]) return;
+  }
+  const auto fill = [&](const Block& part) {
+    for (int z = part.low[2]; z < part.high[2]; ++z) {
+      for (int y = part.low[1]; y < part.high[1]; ++y) {
+        for (int x = part.low[0]; x < part.high[0]; ++x) {
+          grid_.entrances[static_cast<std::size_t>((z * grid_.size + y) * grid_.size + x)] =
+              nodes_[node];
+        }
+      }
+    }
+  };
+  if (nodes_[node].axis() == 3) return fill(block);
+  const auto axis = nodes_[node].axis();
+  const std::vector<float>& edges = grid_.edges[axis];
+  const float plane = nodes_[node].position;
+  // Intervals that end at the plane or below it are below it, and those from `above` on are above.
+  const auto first_above = std::lower_bound(edges.begin(), edges.end(), plane);
+  const auto last_below = std::upper_bound(edges.begin(), edges.end(), plane);
+  Block below = block, cut = block, above = block;
+  below.high[axis] = std::min(block.high[axis], static_cast<int>(last_below - edges.begin()) - 1);
+  above.low[axis] = std::max(block.low[axis], static_cast<int>(first_above - edges.begin()));
+  cut.low[axis] = std::max(block.low[axis], below.high[axis]);
+  cut.high[axis] = std::min(block.high[axis], above.low[axis]);
+  fill(cut);
+  enter(nodes_[node].index(), below);
+  enter(nodes_[node].index() + 1, above);
 }
 
 KdTree::UpperPart KdTree::upper_part(const std::vector<bool>& keeps) const {
@@ -67,12 +150,14 @@ KdTree::UpperPart KdTree::upper_part(const std::vector<bool>& keeps) const {
     undone.push_back({high, halves.high});
     undone.push_back({low, halves.low});
   }
+  part.tree.index(grid_.box);
   return part;
 }
 
 void KdTree::archive(Archive& archive) {
-  archive.heading("kd_tree", 2);
-  archive(nodes_);
+  archive.heading("kd_tree", 3);
+  Bounds3 box = grid_.box;
+  archive(nodes_, box);
   if (!archive.loads()) return;
   const auto expect = [&](bool holds) { archive.expect(holds, "the kd-tree"); };
   const std::size_t count = nodes_.size();
@@ -93,6 +178,7 @@ void KdTree::archive(Archive& archive) {
       levels[child] = levels[i] + 1;
     }
   }
+  index(box);
 }
 
 }  // namespace pharos

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <vector>
 
 #include <pharos/core/archive.h>
-#include <pharos/core/vec.h>
+#include <pharos/core/bounds.h>
 
 namespace pharos {
 
@@ -15,16 +17,23 @@ class KdTree {
 
   /// Returns the number of the cell that contains a point. It is below cell_count().
   std::uint32_t cell_at(Point3 p) const {
-    Node node = nodes_[0];
+    Node node = grid_.entrances.empty() ? nodes_[0] : grid_.entrance(p);
+    const float coordinates[] = {p.x, p.y, p.z};  // Vec3 would select a component by branches
     while (node.axis() < 3) {
-      node = nodes_[node.index() + (p[static_cast<int>(node.axis())] >= node.position ? 1 : 0)];
+      node = nodes_[node.index() + (coordinates[node.axis()] >= node.position ? 1 : 0)];
     }
     return node.index();
   }
   std::uint32_t cell_count() const { return static_cast<std::uint32_t>(nodes_.size() + 1) / 2; }
   /// Returns the number of planes above the deepest cell.
   int depth() const;
-  std::size_t size_bytes() const { return nodes_.size() * sizeof(Node); }
+  std::size_t size_bytes() const { return (nodes_.size() + grid_.entrances.size()) * sizeof(Node); }
+
+  /// Makes cell_at() faster until the next division: a regular grid over `box` lets it skip the
+  /// upper planes. The result stays the same, also outside of the box. Planes that halve the box,
+  /// halve its halves and so on are skipped best. Trees
+  /// of few cells and boxes without a volume get no grid.
+  void index(const Bounds3& box);
 
   /// Divides a cell by a plane across `axis` at `position`. The part below the plane keeps the
   /// cell's number, and the other part becomes the cell with the next free number. `leaf` is the
@@ -48,7 +57,7 @@ class KdTree {
 
   void archive(Archive& archive);
 
-  friend bool operator==(const KdTree&, const KdTree&) = default;
+  friend bool operator==(const KdTree& a, const KdTree& b) { return a.nodes_ == b.nodes_; }
 
  private:
   /// A plane across an axis with two child nodes, or a cell (axis 3).
@@ -64,7 +73,37 @@ class KdTree {
     void archive(Archive& archive) { archive(word, position); }
     friend bool operator==(const Node&, const Node&) = default;
   };
+  /// Where look-ups begin.
+  struct Grid {
+    Bounds3 box;
+    int size = 0;  ///< number of intervals along each axis
+    Vec3 scale;    ///< intervals per scene unit
+    /// Ends of the intervals along each axis. The first and the last one are infinite.
+    std::array<std::vector<float>, 3> edges;
+    std::vector<Node> entrances;  ///< by interval: the lowest node that contains it wholly
+
+    Node entrance(Point3 p) const {
+      int place = 0;
+      for (int axis = 2; axis >= 0; --axis) {
+        const float guess = (p[axis] - box.low[axis]) * scale[axis];
+        int i = static_cast<int>(std::min(std::max(0.0f, guess), static_cast<float>(size - 1)));
+        // The guess may be rounded to a neighbour.
+        const float* const ends = &edges[axis][static_cast<std::size_t>(i)];
+        i += (p[axis] >= ends[1] ? 1 : 0) - (p[axis] < ends[0] ? 1 : 0);
+        place =
+            place * size + std::min(i, size - 1);  // an infinite coordinate is not below any end
+      }
+      return entrances[static_cast<std::size_t>(place)];
+    }
+  };
+  /// Intervals of the grid: from low, up to high, which is excluded.
+  struct Block {
+    std::array<int, 3> low, high;
+  };
+  void enter(std::uint32_t node, const Block& block);
+
   std::vector<Node> nodes_{Node::cell(0)};  ///< children follow their parents
+  Grid grid_;
 };
 
 struct KdTree::UpperPart {

@@ -49,6 +49,7 @@ class KdTreeCells {
     teach_cells(samples, first, true, teach);
     const std::size_t undivided = cells_.size();
     divide_cells(samples, first, rule);
+    if (cells_.size() > undivided) tree_.index(box_of(samples));
     if (rule.splats) {
       first = splat(samples, rule.seed);
     } else if (cells_.size() > undivided) {
@@ -110,6 +111,12 @@ class KdTreeCells {
     std::uint32_t leaf, cell;
     int level;
   };
+
+  static Bounds3 box_of(const std::vector<Sample>& samples) {
+    Bounds3 box;
+    for (const Sample& sample : samples) box.add(sample.origin);
+    return box;
+  }
 
   std::vector<std::size_t> sort_by_cell(std::vector<Sample>& samples) const {
     return sort_by_key(samples, cells_.size(),
