@@ -51,7 +51,8 @@ void PracticalPathGuidingSettings::describe(Schema<PracticalPathGuidingSettings>
       .at_most(1e6);
   s.field("directional_prior", &S::directional_prior,
           "Number of records that are spread evenly over the quarters of every square of the "
-          "quadtree, besides those that it received")
+          "quadtree, besides those that it received. They have the value of the cell's light "
+          "divided by its effective number of records")
       .at_least(0)
       .at_most(1e6);
   s.field(

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include <pharos/core/counting_sort.h>
 
@@ -132,17 +133,18 @@ void PracticalPathGuidingLearningState::conclude() {
   std::vector<const Sums*> own;
   for (const Cell& cell : cells_) own.push_back(&cell.sums);
   const std::vector<Sums> seen =
-      with_larger_cells(own, division_, settings_.spatial_prior, refinement());
+      with_larger_cells(own, division_, settings_.spatial_prior, leaf_mass(), refinement());
   parallel_for(cells_.size(), [&](std::size_t i) { conclude(cells_[i], seen[i]); });
 }
 
 void PracticalPathGuidingLearningState::conclude(Cell& cell, const Sums& seen) const {
-  // A cell that found no light keeps its density.
-  if (seen.tree.total() > 0) {
-    QuadTree tree = seen.tree;
-    if (settings_.directional_prior > 0) {
-      tree = tree.smoothed(settings_.directional_prior * seen.light / seen.effective());
+  if (seen.light > 0) {
+    std::optional<QuadTree> smoothed;
+    if (settings_.directional_prior > 0 && seen.effective() > 0) {
+      const double value = seen.light / seen.effective();  // of an effective record
+      smoothed = seen.tree.smoothed(settings_.directional_prior * value);
     }
+    const QuadTree& tree = smoothed ? *smoothed : seen.tree;
     cell.known = tree.density(leaf_mass());
     cell.known_light = static_cast<float>(seen.mean());
     cell.known_records = static_cast<float>(seen.weight);
@@ -200,8 +202,7 @@ void PracticalPathGuidingLearningState::archive(Archive& archive) {
     const Cell& cell = cells_[i];
     expect(origins_[i] <= i && cell.level == levels[leaves[i / division_.in_each()]] &&
            !cell.box.empty() && is_density(cell.known) && cell.records >= 0 &&
-           cell.sums.light >= 0 && cell.sums.squares >= 0 && cell.sums.weight >= 0 &&
-           cell.sums.steps >= 0 && cell.known_light >= 0 && cell.known_records >= 0);
+           cell.known_light >= 0 && cell.known_records >= 0);
   }
 }
 

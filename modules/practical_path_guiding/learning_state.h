@@ -63,8 +63,8 @@ class PracticalPathGuidingLearningState final : public LearningState {
   /// Replaces the cells' known densities by what they accumulated, and refines their trees for the
   /// next iteration.
   void conclude();
-  /// Does so for one cell, whose sums may be mixed with those of larger cells (`seen`). Keeps the
-  /// known density if there is no light in them.
+  /// Does so for one cell. `seen` are its sums, which may be mixed with the sums of larger cells.
+  /// The known density stays if there is no light in them.
   void conclude(Cell& cell, const Sums& seen) const;
   /// Halves a cell of the tree over space, and then its halves, as long as a cell's share of the
   /// records is above `threshold`.

@@ -35,22 +35,20 @@ struct QuadTree::Growth {
   /// A square of the old tree, or a part of one of its leaves.
   struct Square {
     std::uint32_t node = 0;  ///< index of the old node; 0 below the root: within an old leaf
-    double mass = 0;         ///< decides about divisions
-    double sum = 0;          ///< of the added values that are kept
+    double mass = 0;
   };
 
   const QuadRefinement& rule;
   double total;
-  std::vector<Node> masses = {}, sums = {};  ///< of the old tree; empty: there is none
-  double kept = 0;
+  std::vector<Node> masses = {};  ///< of the old tree; empty: there is none
   std::vector<Node> nodes = {};
 
   /// Returns a quarter of a square at a depth (1 for the root).
   Square quarter_of(const Square& square, int depth, int q) const {
     const bool in_leaf = masses.empty() || (square.node == 0 && depth > 1);
-    if (in_leaf) return {0, square.mass / 4, square.sum / 4};
+    if (in_leaf) return {0, square.mass / 4};
     const Node& old = masses[square.node];
-    return {old.child[q], old.mass[q], kept * sums[square.node].mass[q]};
+    return {old.child[q], old.mass[q]};
   }
 
   /// Adds a node for a square at a depth (1 for the root), and its descendants. Returns its index.
@@ -59,12 +57,9 @@ struct QuadTree::Growth {
     nodes.emplace_back();
     for (int q = 0; q < 4; ++q) {
       const Square quarter = quarter_of(square, depth, q);
-      if (depth < rule.max_depth && quarter.mass > rule.threshold * total) {
-        const std::uint32_t child = grow(depth + 1, quarter);
-        nodes[index].child[q] = child;
-      } else {
-        nodes[index].mass[q] = quarter.sum;
-      }
+      if (depth >= rule.max_depth || quarter.mass <= rule.threshold * total) continue;
+      const std::uint32_t child = grow(depth + 1, quarter);
+      nodes[index].child[q] = child;
     }
     return index;
   }
@@ -252,11 +247,11 @@ std::vector<QuadNode> QuadTree::density(LeafMass kind) const {
   return nodes;
 }
 
-QuadTree QuadTree::refined(LeafMass kind, const QuadRefinement& rule, double kept) const {
+QuadTree QuadTree::refined(LeafMass kind, const QuadRefinement& rule) const {
   std::vector<Node> masses = with_masses(kind);
   const double total = sum_of(masses[0].mass);
   if (!(total > 0)) return QuadTree(rule);
-  Growth growth{rule, total, std::move(masses), with_masses(LeafMass::sum), kept};
+  Growth growth{rule, total, std::move(masses)};
   growth.grow(1, {});
   QuadTree tree;
   tree.nodes_ = std::move(growth.nodes);

@@ -40,10 +40,9 @@ class QuadTree {
 
   /// Returns the density for the masses of the leaves, which must not all be zero.
   std::vector<QuadNode> density(LeafMass kind) const;
-  /// Returns a tree refined for these masses: quarters with more than the threshold's share are
-  /// divided, others are collapsed. It keeps the part `kept` of all added values. If a leaf is
-  /// divided, its value is spread evenly over its square.
-  QuadTree refined(LeafMass kind, const QuadRefinement& rule, double kept = 0) const;
+  /// Returns an empty tree refined for these masses: quarters with more than the threshold's share
+  /// are divided, others are collapsed.
+  QuadTree refined(LeafMass kind, const QuadRefinement& rule) const;
   /// Adds the values of another tree, times a factor, which are spread evenly over its leaves.
   /// `is_finer` states whether leaves that are divided there are divided here, too.
   void add(const QuadTree& other, double factor, bool is_finer);

@@ -47,7 +47,8 @@ Cells row_of_cells() {
 /// quarter 0, its neighbor, number 2, has none, and the other two have 20 of value 1 in quarter 3.
 std::vector<Sums> mixed_row(double prior) {
   const Sums first = sums_of(10, 3, 0), empty = sums_of(0, 0, 0), other = sums_of(20, 1, 3);
-  return with_larger_cells({&first, &other, &empty, &other}, row_of_cells(), prior, kRule);
+  return with_larger_cells({&first, &other, &empty, &other}, row_of_cells(), prior, LeafMass::sum,
+                           kRule);
 }
 
 TEST_CASE("effective numbers of records are Kish's") {
@@ -79,19 +80,54 @@ TEST_CASE("larger cells have the share that their number of records says") {
   }
 }
 
-TEST_CASE("the light of larger cells has the same share in the mean") {
+TEST_CASE("records without light count for the mean") {
+  const auto mixed = [](double own, double records, double larger) {
+    return (own * records + larger * 5) / (records + 5);
+  };
   const std::vector<Sums> row = mixed_row(5);
-  const double root = 70.0 / 400, half = 10.0 / 15 * 30.0 / 200 + 5.0 / 15 * root;
-  CHECK(row[0].mean() == doctest::Approx(10.0 / 15 * 30.0 / 100 + 5.0 / 15 * half));
-  CHECK(row[2].mean() == doctest::Approx(half));
+  const double half = mixed(30.0 / 200, 200, 70.0 / 400);
+  CHECK(row[0].mean() == doctest::Approx(mixed(30.0 / 100, 100, half)));
+  CHECK(row[2].mean() == doctest::Approx(mixed(0, 100, half)));
+
+  Sums unvisited = sums_of(0, 0, 0);
+  unvisited.weight = unvisited.steps = 0;
+  const Sums lit = sums_of(10, 3, 0);
+  const std::vector<Sums> cells =
+      with_larger_cells({&lit, &lit, &unvisited, &lit}, row_of_cells(), 5, LeafMass::sum, kRule);
+  CHECK(cells[2].mean() == doctest::Approx(0.3));
 }
 
-TEST_CASE("no prior, no other cell's light; a large one, the same density everywhere") {
+TEST_CASE(
+    "a prior counts as its number of records, or as those of the larger cell if it has fewer") {
+  const std::vector<Sums> row = mixed_row(5);
+  CHECK(row[0].effective() == doctest::Approx(10 + 5));
+  CHECK(row[2].effective() == doctest::Approx(5));
+  const double root = 70.0 * 70.0 / (10 * 9 + 40);  // fewer than the prior
+  CHECK(mixed_row(1000)[0].effective() == doctest::Approx(10 + 10 + root));
+}
+
+TEST_CASE("without a prior, cells know their own light; with a large one, all know the same") {
   const std::vector<Sums> apart = mixed_row(1e-9), alike = mixed_row(1e9);
   CHECK(share(apart[0], 0) == doctest::Approx(1));
   CHECK(share(apart[1], 0) == doctest::Approx(0));
-  CHECK(apart[0].effective() == doctest::Approx(10));
   for (const Sums& sums : alike) CHECK(share(sums, 0) == doctest::Approx(30.0 / 70));
+}
+
+TEST_CASE("larger cells are refined for what their densities follow from") {
+  // One leaf has 95 % of the second moments, but a fifth of the density.
+  const QuadRefinement fine{.max_depth = 4};
+  Sums spiky{.tree = QuadTree(fine), .light = 100, .squares = 1, .weight = 100, .steps = 100};
+  for (int i = 0; i < 256; ++i) {
+    spiky.tree.add(
+        {(static_cast<float>(i % 16) + 0.5f) / 16, (static_cast<float>(i / 16) + 0.5f) / 16},
+        i == 0 ? 95 : 5.0 / 255);
+  }
+  const Sums dark{.tree = QuadTree({.threshold = 1})};
+  const auto nodes = [&](LeafMass kind) {
+    return with_larger_cells({&spiky, &dark, &dark, &dark}, row_of_cells(), 1, kind, fine)[1]
+        .tree.node_count();
+  };
+  CHECK(nodes(LeafMass::root) > 2 * nodes(LeafMass::sum));
 }
 
 TEST_CASE("facings do not mix") {
@@ -100,7 +136,7 @@ TEST_CASE("facings do not mix") {
   const Sums lit = sums_of(10, 1, 2), dark = sums_of(0, 0, 0);
   std::vector<const Sums*> own(cells.count(), &dark);
   own[kFacings + 4] = &lit;  // cell 1, which faces up
-  const std::vector<Sums> all = with_larger_cells(own, cells, 3, kRule);
+  const std::vector<Sums> all = with_larger_cells(own, cells, 3, LeafMass::sum, kRule);
   for (std::uint32_t i = 0; i < cells.count(); ++i) {
     CHECK((all[i].light > 0) == (i % kFacings == 4));
     if (i % kFacings == 4) CHECK(share(all[i], 2) == doctest::Approx(1));
@@ -110,7 +146,7 @@ TEST_CASE("facings do not mix") {
 TEST_CASE("a dark scene stays dark") {
   const Sums dark = sums_of(0, 0, 0);
   for (const Sums& sums :
-       with_larger_cells({&dark, &dark, &dark, &dark}, row_of_cells(), 3, kRule)) {
+       with_larger_cells({&dark, &dark, &dark, &dark}, row_of_cells(), 3, LeafMass::sum, kRule)) {
     CHECK(sums.light == 0);
     CHECK(sums.tree.total() == 0);
   }
@@ -169,6 +205,47 @@ int known_places(const PracticalPathGuidingSettings& settings) {
 TEST_CASE("with larger cells, rare light is known everywhere") {
   CHECK(known_places({.spatial_threshold = 20}) < 200);
   CHECK(known_places({.spatial_threshold = 20, .spatial_prior = 2}) == 400);
+}
+
+/// Returns the density of the guide in a direction, after iterations of ten paths with light each.
+double density_towards(Vec3 direction, PracticalPathGuidingSettings settings, int iterations) {
+  settings.spatial_depth = 1;
+  settings.directional_filter = DirectionalFilter::nearest;
+  const auto state = begin(settings);
+  Learned learned;
+  for (int i = 0; i < iterations; ++i) {
+    state->absorb(rarely_lit_paths(1000, 100, 3));
+    learned = state->update({static_cast<std::uint32_t>(i), 1});
+  }
+  return learned.model->density({0.5f, 0.5f, 0}, &direction);
+}
+
+TEST_CASE("a prior of directions leaves density where no record is") {
+  const Vec3 down{0, 0, -1}, near_up = normalize(Vec3{0.3f, 0.3f, 1}), up{0, 0, 1};
+  CHECK(density_towards(down, {}, 1) == 0);
+  const double even = 1 / (4 * 3.14159265);
+  for (const double prior : {0.1, 1.0}) {
+    const PracticalPathGuidingSettings settings{.directional_prior = prior};
+    CHECK(density_towards(down, settings, 1) > 0);
+    CHECK(density_towards(down, settings, 1) < even);
+    CHECK(density_towards(near_up, settings, 1) > density_towards(down, settings, 1));
+    CHECK(density_towards(up, settings, 1) < density_towards(up, {}, 1));
+  }
+  // Ten records of equal value: the prior has the share prior / 4 / (10 + prior) of each quarter.
+  const PracticalPathGuidingSettings one_square{.directional_depth = 1, .directional_prior = 2};
+  CHECK(density_towards(down, one_square, 1) == doctest::Approx(4 * even * 0.5 / 12));
+}
+
+TEST_CASE("priors are not remembered as records") {
+  // With all iterations remembered, ten times as many records leave a tenth of the prior's share.
+  const PracticalPathGuidingSettings settings{
+      .directional_depth = 1, .memory = 1, .spatial_prior = 3, .directional_prior = 2};
+  const Vec3 down{0, 0, -1};
+  const double even = 1 / (4 * 3.14159265);
+  // Both halves of the scene have all records in common with the whole, so only their number
+  // counts.
+  CHECK(density_towards(down, settings, 10) < 4 * even * 0.5 / (10 * 5 + 3));
+  CHECK(density_towards(down, settings, 10) > 4 * even * 0.5 / (10 * 10 + 10));
 }
 
 TEST_CASE("learning with priors goes on from a file, with a memory and by facing, too") {

@@ -144,11 +144,20 @@ TEST_CASE("quarters are divided exactly where they have more than their share") 
   }
 }
 
-TEST_CASE("a refined tree keeps the given part of all values") {
+/// Returns a tree that is refined for another one and has a part of its values.
+QuadTree refined_part(const QuadTree& tree, LeafMass kind, const QuadRefinement& rule,
+                      double part) {
+  QuadTree refined = tree.refined(kind, rule);
+  CHECK(refined.total() == 0);
+  refined.add(tree, part, false);
+  return refined;
+}
+
+TEST_CASE("a refined tree can take over a part of all values") {
   const QuadTree tree = peaked({0.3f, 0.7f});
   for (const LeafMass kind : {LeafMass::sum, LeafMass::root}) {
     for (const double threshold : {0.3, 0.01, 0.001}) {
-      const QuadTree half = tree.refined(kind, {.threshold = threshold}, 0.5);
+      const QuadTree half = refined_part(tree, kind, {.threshold = threshold}, 0.5);
       CHECK(half.node_count() == tree.refined(kind, {.threshold = threshold}).node_count());
       CHECK(half.total() == doctest::Approx(0.5 * tree.total()).epsilon(1e-12));
       // Both densities have the same integral over a square that no leaf of either tree exceeds.
@@ -167,7 +176,7 @@ TEST_CASE("a refined tree keeps the given part of all values") {
   // Finer leaves share what a leaf had.
   const std::vector<QuadNode> coarse = tree.density(LeafMass::sum);
   const std::vector<QuadNode> fine =
-      tree.refined(LeafMass::sum, {.threshold = 1e-3}, 1).density(LeafMass::sum);
+      refined_part(tree, LeafMass::sum, {.threshold = 1e-3}, 1).density(LeafMass::sum);
   RandomStream random(8);
   for (int i = 0; i < 1000; ++i) {
     const Vec2 p = random.next_2d();

@@ -1,5 +1,6 @@
 #include <bit>
 #include <cmath>
+#include <span>
 
 #include <pharos/guiding/toolkit/kd_tree.h>
 
@@ -9,13 +10,11 @@ namespace {
 constexpr std::size_t kMostNodes = 1u << 25;
 /// The grid of a smaller tree would skip few planes.
 constexpr std::uint32_t kFewCells = 64;
-/// Largest number of intervals of a grid along an axis.
-constexpr int kMostIntervals = 32;
-
-/// Returns the number of intervals along an axis: a grid has about as many cells as the tree.
-int intervals_for(std::uint32_t cells) {
+/// Returns the number of intervals along an axis: a grid has up to eight times as many boxes as the
+/// tree has cells.
+int intervals_for(std::uint32_t cells, int most) {
   const int levels = static_cast<int>(std::bit_width(cells));
-  return std::min(1 << (levels + 2) / 3, kMostIntervals);
+  return std::min(1 << (levels + 2) / 3, most);
 }
 
 /// Returns whether the edges of a grid over the box are well apart from each other in floats.
@@ -24,13 +23,14 @@ bool can_have_grid(const Bounds3& box) {
   for (int axis = 0; axis < 3; ++axis) {
     const float extent = box.high[axis] - box.low[axis];
     const float size = std::max(std::abs(box.low[axis]), std::abs(box.high[axis]));
-    if (!(extent > kLeast * size) || !std::isfinite(extent)) return false;
+    if (!(extent > kLeast * size) || !(size < 1e30f) || !(extent > 1e-30f)) return false;
   }
   return true;
 }
 
-/// Halves the interval between two edges, and then its halves.
-void halve(std::vector<float>& edges, std::size_t low, std::size_t high) {
+/// Sets edges[low + 1] to edges[high - 1] by halving the interval between edges[low] and
+/// edges[high], and then its halves.
+void halve(std::span<float> edges, std::size_t low, std::size_t high) {
   if (high - low < 2) return;
   const std::size_t middle = (low + high) / 2;
   edges[middle] = 0.5f * (edges[low] + edges[high]);
@@ -86,11 +86,11 @@ void KdTree::index(const Bounds3& box) {
   if (cell_count() < kFewCells || !can_have_grid(box)) return;
   const Vec3 extent = box.extent();
   grid_.box = box;
-  const int n = grid_.size = intervals_for(cell_count());
+  const int n = grid_.size = intervals_for(cell_count(), Grid::kMostIntervals);
   for (int axis = 0; axis < 3; ++axis) {
     grid_.scale[axis] = static_cast<float>(n) / extent[axis];
-    std::vector<float>& edges = grid_.edges[axis];
-    edges.resize(static_cast<std::size_t>(n) + 1);
+    const std::span<float> edges(grid_.edges[static_cast<std::size_t>(axis)].data(),
+                                 static_cast<std::size_t>(n) + 1);
     edges.front() = box.low[axis];
     edges.back() = box.high[axis];
     halve(edges, 0, edges.size() - 1);
@@ -101,35 +101,34 @@ void KdTree::index(const Bounds3& box) {
   enter(0, {{0, 0, 0}, {n, n, n}});
 }
 
-void KdTree::enter(std::uint32_t node, const Block& block) {
-  for (int axis = 0; axis < 3; ++axis) {
+void KdTree::enter(std::uint32_t place, const Block& block) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
     if (block.low[axis] >= block.high[axis]) return;
   }
+  const Node node = nodes_[place];
   const auto fill = [&](const Block& part) {
     for (int z = part.low[2]; z < part.high[2]; ++z) {
       for (int y = part.low[1]; y < part.high[1]; ++y) {
-        for (int x = part.low[0]; x < part.high[0]; ++x) {
-          grid_.entrances[static_cast<std::size_t>((z * grid_.size + y) * grid_.size + x)] =
-              nodes_[node];
-        }
+        const auto row = grid_.entrances.begin() + (z * grid_.size + y) * grid_.size;
+        if (part.low[0] < part.high[0]) std::fill(row + part.low[0], row + part.high[0], node);
       }
     }
   };
-  if (nodes_[node].axis() == 3) return fill(block);
-  const auto axis = nodes_[node].axis();
-  const std::vector<float>& edges = grid_.edges[axis];
-  const float plane = nodes_[node].position;
-  // Intervals that end at the plane or below it are below it, and those from `above` on are above.
-  const auto first_above = std::lower_bound(edges.begin(), edges.end(), plane);
-  const auto last_below = std::upper_bound(edges.begin(), edges.end(), plane);
+  const std::uint32_t axis = node.axis();
+  if (axis == 3) return fill(block);
+  const auto begin = grid_.edges[axis].begin(), end = begin + grid_.size + 1;
+  // Intervals before `below.high` end at the plane or below it, and those from `above.low` on begin
+  // at the plane or above it. `cut` has the interval between them.
   Block below = block, cut = block, above = block;
-  below.high[axis] = std::min(block.high[axis], static_cast<int>(last_below - edges.begin()) - 1);
-  above.low[axis] = std::max(block.low[axis], static_cast<int>(first_above - edges.begin()));
+  const auto upper = static_cast<int>(std::upper_bound(begin, end, node.position) - begin) - 1;
+  const auto lower = static_cast<int>(std::lower_bound(begin, end, node.position) - begin);
+  below.high[axis] = std::min(block.high[axis], upper);
+  above.low[axis] = std::max(block.low[axis], lower);
   cut.low[axis] = std::max(block.low[axis], below.high[axis]);
   cut.high[axis] = std::min(block.high[axis], above.low[axis]);
   fill(cut);
-  enter(nodes_[node].index(), below);
-  enter(nodes_[node].index() + 1, above);
+  enter(node.index(), below);
+  enter(node.index() + 1, above);
 }
 
 KdTree::UpperPart KdTree::upper_part(const std::vector<bool>& keeps) const {

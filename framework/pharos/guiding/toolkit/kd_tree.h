@@ -30,9 +30,9 @@ class KdTree {
   std::size_t size_bytes() const { return (nodes_.size() + grid_.entrances.size()) * sizeof(Node); }
 
   /// Makes cell_at() faster until the next division: a regular grid over `box` lets it skip the
-  /// upper planes. The result stays the same, also outside of the box. Planes that halve the box,
-  /// halve its halves and so on are skipped best. Trees
-  /// of few cells and boxes without a volume get no grid.
+  /// upper planes. All points keep their cells, also outside of the box. Planes that halve the box,
+  /// its halves and so on are skipped best. Trees of few cells and boxes without a volume get no
+  /// grid.
   void index(const Bounds3& box);
 
   /// Divides a cell by a plane across `axis` at `position`. The part below the plane keeps the
@@ -73,34 +73,39 @@ class KdTree {
     void archive(Archive& archive) { archive(word, position); }
     friend bool operator==(const Node&, const Node&) = default;
   };
-  /// Where look-ups begin.
+  /// Where look-ups begin. Its boxes are products of intervals.
   struct Grid {
+    static constexpr int kMostIntervals = 32;
+
     Bounds3 box;
     int size = 0;  ///< number of intervals along each axis
     Vec3 scale;    ///< intervals per scene unit
     /// Ends of the intervals along each axis. The first and the last one are infinite.
-    std::array<std::vector<float>, 3> edges;
-    std::vector<Node> entrances;  ///< by interval: the lowest node that contains it wholly
+    std::array<std::array<float, kMostIntervals + 1>, 3> edges;
+    /// For each box, x fastest: the deepest node whose region contains it.
+    std::vector<Node> entrances;
 
     Node entrance(Point3 p) const {
       int place = 0;
       for (int axis = 2; axis >= 0; --axis) {
         const float guess = (p[axis] - box.low[axis]) * scale[axis];
         int i = static_cast<int>(std::min(std::max(0.0f, guess), static_cast<float>(size - 1)));
-        // The guess may be rounded to a neighbour.
-        const float* const ends = &edges[axis][static_cast<std::size_t>(i)];
+        // The guess may be rounded to a neighbor.
+        const float* const ends =
+            &edges[static_cast<std::size_t>(axis)][static_cast<std::size_t>(i)];
         i += (p[axis] >= ends[1] ? 1 : 0) - (p[axis] < ends[0] ? 1 : 0);
-        place =
-            place * size + std::min(i, size - 1);  // an infinite coordinate is not below any end
+        // Plus infinity is not below the last end.
+        place = place * size + std::min(i, size - 1);
       }
       return entrances[static_cast<std::size_t>(place)];
     }
   };
-  /// Intervals of the grid: from low, up to high, which is excluded.
+  /// Boxes of the grid: from the interval `low` up to `high`, which is excluded, along each axis.
   struct Block {
     std::array<int, 3> low, high;
   };
-  void enter(std::uint32_t node, const Block& block);
+  /// Sets the entrances of the boxes of a block, which lies in the region of the node at a place.
+  void enter(std::uint32_t place, const Block& block);
 
   std::vector<Node> nodes_{Node::cell(0)};  ///< children follow their parents
   Grid grid_;
