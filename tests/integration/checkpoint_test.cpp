@@ -95,6 +95,7 @@ TEST_CASE("checkpoints: every preset") {
                              "pavmm-robust",
                              "ppg-improved",
                              "ppg-paper",
+                             "ppg-rare-light",
                              "ppg-robust",
                              "robust",
                              "robust-adrrs",
