@@ -7,7 +7,7 @@
 
 namespace pharos::practical_path_guiding {
 
-/// What the records of a cell add up to.
+/// Sums over the records of a cell.
 struct Sums {
   QuadTree tree;       ///< values by direction
   double light = 0;    ///< sum of the values

@@ -98,7 +98,7 @@ TEST_CASE("records without light count for the mean") {
 }
 
 TEST_CASE(
-    "a prior counts as its number of records, or as those of the larger cell if it has fewer") {
+    "a larger cell counts as many records as the prior, or as many as it has if these are fewer") {
   const std::vector<Sums> row = mixed_row(5);
   CHECK(row[0].effective() == doctest::Approx(10 + 5));
   CHECK(row[2].effective() == doctest::Approx(5));

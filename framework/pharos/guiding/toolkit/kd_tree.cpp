@@ -10,11 +10,11 @@ namespace {
 constexpr std::size_t kMostNodes = 1u << 25;
 /// The grid of a smaller tree would skip few planes.
 constexpr std::uint32_t kFewCells = 64;
-/// Returns the number of intervals along an axis: a grid has up to eight times as many boxes as the
+/// Returns the number of intervals along an axis: a grid has up to 64 times as many boxes as the
 /// tree has cells.
 int intervals_for(std::uint32_t cells, int most) {
   const int levels = static_cast<int>(std::bit_width(cells));
-  return std::min(1 << (levels + 2) / 3, most);
+  return std::min(1 << (levels + 5) / 3, most);
 }
 
 /// Returns whether the edges of a grid over the box are well apart from each other in floats.

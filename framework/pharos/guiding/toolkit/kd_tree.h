@@ -73,7 +73,7 @@ class KdTree {
     void archive(Archive& archive) { archive(word, position); }
     friend bool operator==(const Node&, const Node&) = default;
   };
-  /// Where look-ups begin. Its boxes are products of intervals.
+  /// A regular grid. A look-up begins at the entrance of the box that contains the point.
   struct Grid {
     static constexpr int kMostIntervals = 32;
 
