@@ -8,6 +8,7 @@
 
 #include "../learner.h"
 #include "../model.h"
+#include "guided_paths.h"
 
 namespace pharos::practical_path_guiding {
 namespace {
@@ -25,20 +26,12 @@ PathLog board_paths(int count, std::uint64_t seed) {
     const bool above = random.next_1d() < 0.5f;
     Vec3 direction = warp::sphere_from_square(random.next_2d());
     direction.z = above ? std::abs(direction.z) : -std::abs(direction.z);
-    log.begin_path({0.5f, 0.5f}, Transport::radiance);
-    log.add(RecordedVertex{.throughput = Rgb(1), .local_weight = Rgb(1)});
-    log.add(RecordedVertex{.position = {u.x, u.y, 0.5f},
-                           .normal = above ? kUp : kDown,
-                           .event = Event::smooth_reflect,
-                           .guidable = true,
-                           .parent = 0,
-                           .throughput = Rgb(1),
-                           .local_weight = Rgb(0.5f),
-                           .direction = direction,
-                           .pdf = 2 * warp::sphere_pdf()});
-    log.add(RecordedVertex{.position = Point3{u.x, u.y, 0.5f} + direction,
-                           .parent = 1,
-                           .emission = Rgb(above ? 1.0f : 3.0f)});
+    add_step(log,
+             {.position = {u.x, u.y, 0.5f},
+              .normal = above ? kUp : kDown,
+              .direction = direction,
+              .pdf = 2 * warp::sphere_pdf()},
+             Rgb(above ? 1.0f : 3.0f));
   }
   return log;
 }

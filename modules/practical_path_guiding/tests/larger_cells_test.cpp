@@ -10,6 +10,7 @@
 
 #include "../learner.h"
 #include "../model.h"
+#include "guided_paths.h"
 
 namespace pharos::practical_path_guiding {
 namespace {
@@ -161,17 +162,8 @@ PathLog rarely_lit_paths(int count, int every, std::uint64_t seed) {
     const Vec2 u = random.next_2d();
     const bool is_lit = every > 0 && i % every == 0;
     const Vec3 direction = is_lit ? Vec3{0, 0, 1} : warp::sphere_from_square(random.next_2d());
-    log.begin_path({0.5f, 0.5f}, Transport::radiance);
-    log.add(RecordedVertex{.throughput = Rgb(1), .local_weight = Rgb(1)});
-    log.add(RecordedVertex{.position = {u.x, u.y, 0},
-                           .event = Event::smooth_reflect,
-                           .guidable = true,
-                           .parent = 0,
-                           .throughput = Rgb(1),
-                           .local_weight = Rgb(0.5f),
-                           .direction = direction,
-                           .pdf = 0.1f});
-    log.add(RecordedVertex{.parent = 1, .emission = Rgb(is_lit ? 1.0f : 0.0f)});
+    add_step(log, {.position = {u.x, u.y, 0}, .direction = direction, .pdf = 0.1f},
+             Rgb(is_lit ? 1.0f : 0.0f));
   }
   return log;
 }

@@ -12,6 +12,7 @@
 #include <pharos/tests/fixtures.h>
 
 #include "../model.h"
+#include "guided_paths.h"
 
 namespace pharos::practical_path_guiding {
 namespace {
@@ -33,18 +34,8 @@ PathLog lamp_paths(int count, std::uint64_t seed) {
     direction.z = std::abs(direction.z);
     const bool hits = i % 2 == 0;
     if (hits) direction = normalize(kLamp + 0.05f * direction - from);
-    log.begin_path({0.5f, 0.5f}, Transport::radiance);
-    log.add(RecordedVertex{.throughput = Rgb(1), .local_weight = Rgb(1)});
-    log.add(RecordedVertex{.position = from,
-                           .event = Event::smooth_reflect,
-                           .guidable = true,
-                           .parent = 0,
-                           .throughput = Rgb(1),
-                           .local_weight = Rgb(0.5f),
-                           .direction = direction,
-                           .pdf = hits ? 5.0f : 0.16f});
-    log.add(RecordedVertex{
-        .position = from + direction, .parent = 1, .emission = Rgb(hits ? 20.0f : 0.1f)});
+    add_step(log, {.position = from, .direction = direction, .pdf = hits ? 5.0f : 0.16f},
+             Rgb(hits ? 20.0f : 0.1f));
   }
   return log;
 }
@@ -232,18 +223,12 @@ PathLog cone_paths(int count, std::uint64_t seed, float steps = 1) {
         i % 2 == 0 ? warp::cone_from_square(v, kVersine) : warp::sphere_from_square(v);
     const bool is_lit = direction.z > 1 - kVersine;
     const float cone_pdf = is_lit ? warp::cone_pdf(kVersine) : 0;
-    log.begin_path({0.5f, 0.5f}, Transport::radiance);
-    log.add(RecordedVertex{.throughput = Rgb(1), .local_weight = Rgb(1)});
-    log.add(RecordedVertex{.position = {2 * u.x - 1, 2 * u.y - 1, 0},
-                           .event = Event::smooth_reflect,
-                           .guidable = true,
-                           .parent = 0,
-                           .throughput = Rgb(1),
-                           .local_weight = Rgb(0.5f * steps),
-                           .direction = direction,
-                           .pdf = 0.5f * (cone_pdf + warp::sphere_pdf()),
-                           .continuation = steps});
-    log.add(RecordedVertex{.parent = 1, .emission = is_lit ? Rgb(1, 2, 6) : Rgb()});
+    add_step(log,
+             {.position = {2 * u.x - 1, 2 * u.y - 1, 0},
+              .direction = direction,
+              .pdf = 0.5f * (cone_pdf + warp::sphere_pdf()),
+              .continuation = steps},
+             is_lit ? Rgb(1, 2, 6) : Rgb());
   }
   return log;
 }
