@@ -55,6 +55,21 @@ TEST_CASE("an experiment leaves tables, images, records and a report") {
     CHECK(test::bytes_of(folder.path() / "test/report.html").find("0.05 s in flat") !=
           std::string::npos);
   }
+  SUBCASE("a method may have a budget, which replaces the budgets of scenes") {
+    const Outcome more = run_pharos(
+        "experiment test.yaml --set 'scenes.1.budget={ spp: 8 }' --set 'methods.1.budget={ spp: 20 "
+        "}'",
+        folder.path());
+    REQUIRE_MESSAGE(more.exit_code == 0, more.err);
+    CHECK(rendered_runs(more) == 6);  // all but the first method in the first scene
+    CHECK(test::bytes_of(folder.path() / "test/report.html")
+              .find("16 samples a pixel, training included; 8 samples a pixel in flat; 20 samples "
+                    "a pixel for sobol") != std::string::npos);
+    const Outcome both = run_pharos(
+        "experiment test.yaml --set 'methods.1.budget={ spp: 4, seconds: 1 }'", folder.path());
+    CHECK(both.exit_code == 2);
+    CHECK(both.err.find("expected either 'spp' or 'seconds'") != std::string::npos);
+  }
   SUBCASE("a message names an optional scene that is left out") {
     const std::string absent = "'scenes.1={ name: far, config: far/away.yaml, optional: true }'";
     const Outcome rest = run_pharos("experiment test.yaml --set " + absent, folder.path());

@@ -47,6 +47,10 @@ void check_together(const ExperimentConfig& config, const ConfigNode& root) {
   check_budget(config.budget, *root.find("budget"));
   if (!config.baseline.empty()) check_baseline(config.baseline, methods, "method", root);
   check_reference(config.reference, root.find("reference"));
+  for (std::size_t i = 0; i < config.methods.size(); ++i) {
+    const ConfigNode& node = root.find("methods")->items()[i];
+    if (config.methods[i].budget) check_budget(*config.methods[i].budget, *node.find("budget"));
+  }
   for (std::size_t i = 0; i < config.scenes.size(); ++i) {
     const ConfigNode& node = root.find("scenes")->items()[i];
     check_reference(config.scenes[i].reference, node.find("reference"));
@@ -107,6 +111,8 @@ void ExperimentMethod::describe(Schema<ExperimentMethod>& s) {
   s.field("seeds", &ExperimentMethod::seeds,
           "Runs on each scene, if there shall be fewer than of other methods")
       .at_least(1);
+  s.field("budget", &ExperimentMethod::budget,
+          "Replaces the budgets of the experiment and of its scenes");
 }
 
 void ExperimentConfig::describe(Schema<ExperimentConfig>& s) {

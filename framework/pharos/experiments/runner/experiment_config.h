@@ -14,7 +14,8 @@
 #include <pharos/rendering/budget.h>
 #include <pharos/rendering/render_config.h>
 
-/// The config of an experiment: scenes x methods x seeds, with one budget per scene.
+/// The config of an experiment: scenes x methods x seeds. Scenes and methods may have budgets of
+/// their own.
 namespace pharos {
 
 /// The source of the reference image: an image file, or a render of `spp` samples per pixel with
@@ -47,6 +48,7 @@ struct ExperimentMethod {
   std::filesystem::path config;  ///< such as a preset; `settings` override it; empty: none
   ConfigNode settings = ConfigNode::mapping();
   std::optional<std::uint32_t> seeds;  ///< runs on each scene, if fewer than of other methods
+  std::optional<Budget> budget;        ///< replaces the budgets of the experiment and its scenes
 
   static void describe(Schema<ExperimentMethod>& schema);
 };
@@ -83,9 +85,9 @@ struct ExperimentConfig {
   ChildLimits limits() const;
   /// Returns the folder of references.
   std::filesystem::path reference_cache() const;
-  /// Returns the budget of every run of a scene.
-  const Budget& budget_of(const ExperimentScene& scene) const {
-    return scene.budget ? *scene.budget : budget;
+  /// Returns the budget of every run of a method on a scene.
+  const Budget& budget_of(const ExperimentScene& scene, const ExperimentMethod& method) const {
+    return method.budget ? *method.budget : scene.budget ? *scene.budget : budget;
   }
 
   /// Returns the number of runs of a method on each scene.

@@ -53,7 +53,8 @@ PlannedCell plan_cell(const ExperimentConfig& experiment, const ConfigNode& scen
   const ExperimentMethod& method = experiment.methods[method_index];
   cell.config = method.config.empty() ? scene : merged(scene, read_config(method.config));
   cell.config = merged(std::move(cell.config), method.settings);
-  cell.config.set("budget", budget_node(experiment.budget_of(experiment.scenes[scene_index])));
+  cell.config.set("budget",
+                  budget_node(experiment.budget_of(experiment.scenes[scene_index], method)));
   LoadedConfig loaded = build_run(cell.config, experiment.first_seed, registry);
   check_film(loaded.config.film, reference, cell.config);
   loaded.resolved.take("seed");

@@ -47,7 +47,7 @@ std::vector<PlannedRun> planned_runs(const ExperimentConfig& config, const Exper
       if (seed >= first + config.seeds_of(method)) continue;
       PlannedRun& run = runs.emplace_back(
           PlannedRun{.cell = &cell, .seed = seed, .scene = scene.name, .method = method.name});
-      run.is_timed = config.budget_of(scene).seconds.has_value();
+      run.is_timed = config.budget_of(scene, method).seconds.has_value();
       run.keeps_image = seed == first || config.images == KeptImages::all;
       run.key = key_of(run, plan.references[cell.scene].key);
     }
@@ -61,7 +61,8 @@ std::string plan_key(const ExperimentConfig& config, const ExperimentPlan& plan)
   for (const PlannedReference& reference : plan.references) all += reference.key + " ";
   for (const PlannedCell& cell : plan.cells) {
     all += cell.key + " ";
-    is_timed |= config.budget_of(config.scenes[cell.scene]).seconds.has_value();
+    is_timed |= config.budget_of(config.scenes[cell.scene], config.methods[cell.method])
+                    .seconds.has_value();
   }
   return content_key(all + (is_timed ? machine_type() : ""));
 }

@@ -20,18 +20,27 @@ std::string budget_text(const Budget& budget) {
                     : fmt::format("{:g} s", *budget.seconds);
 }
 
-/// Returns the experiment's budget, followed by the scenes that have a budget of their own, grouped
-/// by budget.
-std::string budgets_text(const ExperimentConfig& config) {
-  std::map<std::string, std::string> others;
-  for (const ExperimentScene& scene : config.scenes) {
-    if (!scene.budget) continue;
-    std::string& names = others[budget_text(*scene.budget)];
-    names += (names.empty() ? "" : ", ") + scene.name;
+/// Returns text such as "; 60 s in hall, pool" for those of `entries` (scenes or methods) that have
+/// a budget of their own.
+template <class Entry>
+std::string own_budgets_text(const std::vector<Entry>& entries, std::string_view relation) {
+  std::map<std::string, std::string> by_budget;
+  for (const Entry& entry : entries) {
+    if (!entry.budget) continue;
+    std::string& names = by_budget[budget_text(*entry.budget)];
+    names += (names.empty() ? "" : ", ") + entry.name;
   }
-  std::string text = budget_text(config.budget) + ", training included";
-  for (const auto& [budget, names] : others) text += fmt::format("; {} in {}", budget, names);
+  std::string text;
+  for (const auto& [budget, names] : by_budget) {
+    text += fmt::format("; {} {} {}", budget, relation, names);
+  }
   return text;
+}
+
+/// Returns the experiment's budget, followed by the budgets of scenes and methods.
+std::string budgets_text(const ExperimentConfig& config) {
+  return budget_text(config.budget) + ", training included" +
+         own_budgets_text(config.scenes, "in") + own_budgets_text(config.methods, "for");
 }
 
 /// Returns text such as "8; 4 of slow, old".
