@@ -25,6 +25,7 @@ struct FocalDensity {
   /// Returns nothing if the sampled point is `from` itself.
   std::optional<Vec3> sample_direction(Point3 from, float sign, const Double3& u) const;
 
+  void archive(Archive& archive) { archive(converging, diverging); }
   std::size_t size_bytes() const { return converging.size_bytes() + diverging.size_bytes(); }
 };
 

@@ -41,7 +41,8 @@ class FocalDistribution final : public GuidingDistribution {
 
 const GuidingDistribution* FocalGuider::query(const FocalModel& model, const GuidingQuery& query,
                                               Arena& arena) const {
-  return arena.make<FocalDistribution>(model.focal_density(), query.current.position);
+  return arena.make<FocalDistribution>(model.focal_density(query.current.position),
+                                       query.current.position);
 }
 
 }  // namespace pharos::focal

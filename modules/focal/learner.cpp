@@ -81,6 +81,17 @@ void FocalSettings::describe(Schema<FocalSettings>& s) {
           "After training, a node becomes a leaf if none of its leaves is denser than this many "
           "times their mean; 0 keeps all nodes")
       .at_least(0);
+  s.field("local_cells", &S::local_cells,
+          "Number of cells of space along each axis of the region. In each cell, the parts of the "
+          "region have weights of their own, so that points behind a wall lose their mass there "
+          "(paper: 1, the same density everywhere)")
+      .at_least(1)
+      .at_most(8);
+  s.field("local_prior", &S::local_prior,
+          "Effective number of segments for which the density of the whole scene counts in a cell "
+          "of space")
+      .above(0);
+  s.example("{ burn_in: 1, local_cells: 2 }");
 }
 
 FocalLearner::FocalLearner(const Settings& settings) : settings_(settings) {

@@ -48,6 +48,8 @@ struct FocalSettings {
   float decay = 0, narrowing_decay = 0;
   bool mis_compensation = true;
   float prune_ratio = 2;
+  int local_cells = 1;
+  double local_prior = 30;
 
   static void describe(Schema<FocalSettings>& schema);
 };

@@ -107,8 +107,32 @@ void FocalLearningState::splat_in_groups(std::span<const Segment> segments, Spla
   }
 }
 
+void FocalLearningState::splat_by_cell(std::span<const Segment> segments) {
+  std::vector<std::vector<Segment>> by_cell(grid_.count());
+  for (const Segment& segment : segments) by_cell[grid_.at(segment.origin)].push_back(segment);
+  new_uses_.resize(by_cell.size());
+  // Each group has every kGroups-th cell, so the sums do not depend on the number of threads.
+  groups_.assign(std::min(kGroups, by_cell.size()), FocalSums(density_));
+  tbb::this_task_arena::isolate([&] {
+    tbb::parallel_for(std::size_t{0}, groups_.size(), [&](std::size_t g) {
+      for (std::size_t cell = g; cell < by_cell.size(); cell += kGroups) {
+        if (by_cell[cell].empty()) continue;
+        FocalSums sums(density_);
+        splat_narrowed(by_cell[cell], density_in(cell), settings_.mis_compensation, sums);
+        new_uses_[cell].add(by_cell[cell], density_, sums);
+        groups_[g].add(sums);
+      }
+    });
+  });
+  for (const FocalSums& group : groups_) sums_.add(group);
+}
+
 void FocalLearningState::splat_waiting() {
-  splat_in_groups(waiting_, &FocalLearningState::splat_new);
+  if (narrowing_ && settings_.local_cells > 1) {
+    splat_by_cell(waiting_);
+  } else {
+    splat_in_groups(waiting_, &FocalLearningState::splat_new);
+  }
   splatted_ += waiting_.size();
   if (settings_.catch_up > 0) {
     RandomStream random(seed_, batches_++);
@@ -151,6 +175,7 @@ Learned FocalLearningState::update(const TrainingStage& stage) {
   paths_ = splatted_ = 0;
   kept_ = statistics::VarOptReservoir<Segment>(kept_.capacity());
   squares_ = 0;
+  learn_uses();
   return {knows_something_ ? model(stage.is_last()) : nullptr};
 }
 
@@ -195,6 +220,25 @@ void FocalLearningState::refine() {
 void FocalLearningState::use_octrees() {
   density_ = {converging_.octree, diverging_.octree};
   sums_ = FocalSums(density_);
+  grid_ = CellGrid(density_.converging.box(), settings_.local_cells);
+  local_.clear();
+}
+
+void FocalLearningState::learn_uses() {
+  uses_.resize(std::max(uses_.size(), new_uses_.size()));
+  for (std::size_t cell = 0; cell < new_uses_.size(); ++cell) uses_[cell] += new_uses_[cell];
+  new_uses_.clear();
+  use_local_densities();
+}
+
+void FocalLearningState::use_local_densities() {
+  if (uses_.empty()) return;
+  local_.resize(uses_.size());
+  tbb::this_task_arena::isolate([&] {
+    tbb::parallel_for(std::size_t{0}, uses_.size(), [&](std::size_t cell) {
+      local_[cell] = local_density(density_, uses_[cell], settings_.local_prior);
+    });
+  });
 }
 
 void FocalLearningState::grow_region() {
@@ -209,25 +253,35 @@ void FocalLearningState::grow_region() {
 }
 
 std::shared_ptr<const GuidingModel> FocalLearningState::model(bool last) const {
-  const auto segments = static_cast<float>(segments_);
-  if (!last || settings_.prune_ratio == 0) return std::make_shared<FocalModel>(density_, segments);
-  return std::make_shared<FocalModel>(
-      FocalDensity{pruned(density_.converging, settings_.prune_ratio),
-                   pruned(density_.diverging, settings_.prune_ratio)},
-      segments);
+  const auto finished = [&](const FocalDensity& density) {
+    if (!last || settings_.prune_ratio == 0) return density;
+    return FocalDensity{pruned(density.converging, settings_.prune_ratio),
+                        pruned(density.diverging, settings_.prune_ratio)};
+  };
+  std::vector<FocalDensity> local;
+  local.reserve(local_.size());
+  for (const FocalDensity& density : local_) local.push_back(finished(density));
+  return std::make_shared<FocalModel>(finished(density_), static_cast<float>(segments_),
+                                      std::move(local), settings_.local_cells);
 }
 
 void FocalLearningState::archive(Archive& archive) {
   const auto expect = [&](bool holds) {
     archive.expect(holds, "what was learned of focal points");
   };
-  archive.heading("focal_learning", 4);
+  archive.heading("focal_learning", 5);
   archive(converging_, diverging_, knows_something_, narrowing_, max_depth_, growths_left_, paths_,
-          segments_, splatted_, missed_, batches_, kept_, squares_);
+          segments_, splatted_, missed_, batches_, kept_, squares_, uses_, new_uses_);
   expect(converging_.octree.box() == diverging_.octree.box() && max_depth_ >= 0 &&
          max_depth_ < Octree::kMostLevels && segments_ >= 0 && squares_ >= 0 && missed_ >= 0 &&
          missed_ <= settings_.catch_up);
-  if (archive.loads()) use_octrees();
+  if (archive.loads()) {
+    use_octrees();
+    for (const auto* uses : {&uses_, &new_uses_}) {
+      expect(uses->empty() || uses->size() == grid_.count());
+    }
+    use_local_densities();
+  }
   archive(sums_.converging, sums_.diverging, waiting_);
   expect(sums_.converging.size() == converging_.masses.size() &&
          sums_.diverging.size() == diverging_.masses.size());

@@ -7,6 +7,7 @@
 #include <pharos/statistics/varopt.h>
 
 #include "learner.h"
+#include "local_density.h"
 #include "octree_refinement.h"
 #include "splat.h"
 
@@ -31,6 +32,8 @@ class FocalLearningState final : public LearningState {
   void splat_waiting();
   void splat_new(std::span<const Segment> segments, FocalSums& sums) const;
   void splat_kept(std::span<const Segment> segments, FocalSums& sums) const;
+  /// Narrows the density by segments of each cell of space, with the density of this cell.
+  void splat_by_cell(std::span<const Segment> segments);
   /// Sets the masses to `decay` times themselves plus the sums, and refines the octrees.
   void learn_sums(double decay);
   bool has_enough_light() const;
@@ -41,6 +44,13 @@ class FocalLearningState final : public LearningState {
   void grow_region();
   /// Makes the refined octrees the current density and clears the sums.
   void use_octrees();
+  /// Ends an iteration in the cells of space.
+  void learn_uses();
+  /// Computes the densities of the cells of space.
+  void use_local_densities();
+  const FocalDensity& density_in(std::size_t cell) const {
+    return local_.empty() ? density_ : local_[cell];
+  }
   std::shared_ptr<const GuidingModel> model(bool last) const;
 
   FocalSettings settings_;
@@ -48,9 +58,12 @@ class FocalLearningState final : public LearningState {
   int max_depth_;
   int growths_left_;  ///< how often the region may still double
   LearningOctree converging_, diverging_;
-  FocalDensity density_;  ///< density of the current iteration
-  double segments_ = 0;   ///< number of segments that the masses come from; `decay` lowers the
-                          ///< numbers of earlier iterations
+  FocalDensity density_;             ///< density of the current iteration
+  CellGrid grid_;                    ///< cells of space
+  std::vector<LocalUse> uses_;       ///< by cell of space, of all iterations that have narrowed
+  std::vector<FocalDensity> local_;  ///< densities in the cells; empty: `density_` in all of them
+  double segments_ = 0;  ///< number of segments that the masses come from; `decay` lowers the
+                         ///< numbers of earlier iterations
   bool knows_something_ = false;
   bool narrowing_ = false;
   std::uint64_t seed_;
@@ -61,6 +74,7 @@ class FocalLearningState final : public LearningState {
   FocalSums sums_;
   std::uint64_t paths_ = 0;
   std::uint64_t splatted_ = 0;                 ///< number of segments in the sums
+  std::vector<LocalUse> new_uses_;             ///< by cell of space
   std::vector<Segment> waiting_;               ///< segments that wait to be splatted
   statistics::VarOptReservoir<Segment> kept_;  ///< to catch up
   double squares_ = 0;  ///< sum of squared contributions of all segments that `kept_` was given

@@ -39,11 +39,14 @@ class AdjointRule final : public TerminationRule {
  public:
   AdjointRule(const AdjointTermination::Settings& settings,
               std::shared_ptr<const LearnedOutcomes> known)
-      : settings_(settings), known_(std::move(known)) {}
+      : settings_(settings),
+        known_(std::move(known)),
+        radiance_(known_->steps.table().mapped(
+            [](const ExpectedOutcome& expected) { return expected.radiance; })) {}
 
   float factor(const TerminationQuery& query) const override {
     if (settings_.spares(query)) return 1;
-    const float radiance = known_->at(query).radiance;
+    const float radiance = radiance_.at(query.position, query.towards_previous);
     if (!(radiance > 0)) return 1;
     const float throughput = mean(query.throughput) / query.film_weight;
     const float contribution = throughput * radiance / known_->scale_at(query.film);
@@ -55,6 +58,7 @@ class AdjointRule final : public TerminationRule {
  private:
   AdjointTermination::Settings settings_;
   std::shared_ptr<const LearnedOutcomes> known_;
+  BinTable<float> radiance_;
 };
 
 }  // namespace

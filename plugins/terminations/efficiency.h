@@ -22,8 +22,14 @@ class EfficiencyTermination final : public Termination {
   Settings settings_;
 };
 
-/// Returns the factor [1] of a path of throughput `relative` over the radiance of its pixel.
+/// The best factors [1] of roulette and of splitting at a vertex, for paths whose throughput equals
+/// the radiance of their pixel.
+struct BestFactors {
+  float roulette = 0, splitting = 0;
+};
 /// `worth` is the mean cost of paths over their relative squared error [steps].
-float efficiency_factor(float relative, const ExpectedOutcome& expected, float worth);
+BestFactors best_factors(const ExpectedOutcome& expected, float worth);
+/// Returns the factor [1] of a path of throughput `relative` over the radiance of its pixel.
+float efficiency_factor(float relative, const BestFactors& best);
 
 }  // namespace pharos

@@ -133,8 +133,8 @@ TEST_CASE("same bits: practical path guiding, with the SD-tree") {
 
 TEST_CASE("same bits: focal guiding, with the learned model") {
   check_same_bits(
-      cornell("sampler: sobol\nintegrator: { type: path, guiding: { learner: focal, guider: focal, "
-              "training: { iterations: 4 } } }\n"));
+      cornell("sampler: sobol\nintegrator: { type: path, guiding: { learner: { type: focal, "
+              "local_cells: 2 }, guider: focal, training: { iterations: 4 } } }\n"));
 }
 
 TEST_CASE("same bits: a mixture of methods on trial, of which some are left out") {

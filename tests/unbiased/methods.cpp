@@ -7,8 +7,10 @@
 namespace pharos::testing {
 namespace {
 
+/// Densities by part of space, with learned shares.
 Method focal_learned() {
-  return {"focal learned", {"learner=focal", "guider=focal", "mixing=learned"}};
+  return {"focal local learned",
+          {"learner={ type: focal, local_cells: 3 }", "guider=focal", "mixing=learned"}};
 }
 
 Method gaussians(const char* guider, float unguided_fraction, const char* spatial,

@@ -23,15 +23,23 @@ using test::saved;
 constexpr float kHole = 0.01f;
 constexpr Point3 kCenter{0.1f, 1.1f, 3.9f};
 
+/// Returns a random point on the canvas of the camera obscura.
+Point3 point_on_canvas(RandomStream& random) {
+  Point3 p = point_in_box(random, test_box());
+  p.z = 2;
+  return p;
+}
+
 /// Adds paths of one guidable step each, from random points through the hole, as a camera obscura
-/// has them; every coordinate times `scale`.
+/// has them; every coordinate times `scale`. `side` limits them to points whose x has its sign.
 void add_hole_paths(PathLog& log, int count, std::uint64_t seed, float scale = 1,
-                    Point3 center = kCenter, float unguided_share = 0.5f, float light = 1) {
+                    Point3 center = kCenter, float unguided_share = 0.5f, float light = 1,
+                    float side = 0) {
   const std::array techniques{Technique{unguided_share, 0.3f}, Technique{1 - unguided_share, 0.3f}};
   RandomStream random(seed);
   for (int i = 0; i < count; ++i) {
-    Point3 from = point_in_box(random, test_box());
-    from.z = 2;
+    const Point3 from = point_on_canvas(random);
+    if (from.x * side < 0) continue;
     const Vec3 direction = normalize(point_near(random, center, kHole) - from);
     log.begin_path({}, Transport::radiance);
     log.add(RecordedVertex{.throughput = Rgb(1)});
@@ -90,8 +98,7 @@ double hits(const FocalModel& model, Point3 center = kCenter) {
   constexpr int kDraws = 10'000;
   int through = 0;
   for (int i = 0; i < kDraws; ++i) {
-    Point3 from = point_in_box(random, test_box());
-    from.z = 2;
+    const Point3 from = point_on_canvas(random);
     const float sign = random.next_1d();
     const Vec2 u = random.next_2d();
     const auto w = model.focal_density().sample_direction(from, sign, {u.x, u.y, random.next_1d()});
@@ -128,16 +135,52 @@ TEST_CASE("focal learner: the region grows to a focal point outside of the scene
   CHECK(inside->info().bounds.diagonal() <= 2.001f * fixed->info().bounds.diagonal());
 }
 
+TEST_CASE("focal learner: each part of space learns which focal points it sees") {
+  // A wall parts the scene at x = 0, with a hole in each half.
+  constexpr Point3 kHoles[] = {{-0.7f, 1.1f, 3.9f}, {0.8f, 0.9f, 4.1f}};
+  const auto trained_behind_wall = [&](int local_cells) {
+    const auto state = FocalLearner({.burn_in = 1, .local_cells = local_cells}).begin(context());
+    Learned learned;
+    for (std::uint32_t i = 0; i < 6; ++i) {
+      PathLog log;
+      for (const Point3 hole : kHoles) add_hole_paths(log, 3000, 7 + i, 1, hole, 0.5f, 1, hole.x);
+      state->absorb(log);
+      learned = state->update({i, 5 - i});
+    }
+    return std::dynamic_pointer_cast<const FocalModel>(learned.model);
+  };
+  const auto everywhere = trained_behind_wall(1), local = trained_behind_wall(2);
+  // The share of a hole in the density of the whole scene, if its part of space has no other.
+  double shares = 0;
+  for (const Point3 from : {Point3{-1, 1, 2}, Point3{0.5f, 1.5f, 2}}) {
+    for (const Point3 hole : kHoles) {
+      const Vec3 direction = normalize(hole - from);
+      const double gain = local->density(from, &direction) / everywhere->density(from, &direction);
+      if (from.x * hole.x > 0) {
+        CHECK(gain > 1.1);
+        shares += 1 / gain;
+      } else {
+        CHECK(gain < 0.1);
+      }
+    }
+  }
+  CHECK(shares == doctest::Approx(1).epsilon(0.1));
+}
+
 TEST_CASE("focal learner: the same model for any number of threads") {
-  for (const int catch_up : {0, 8}) {
+  for (const auto& [catch_up, local_cells] : {std::pair{0, 1}, {8, 1}, {0, 3}}) {
     std::string first;
     for (const std::size_t threads : {1u, 2u, 3u, 7u}) {
       const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-      const auto state = FocalLearner({.burn_in = 1, .catch_up = catch_up}).begin(context());
+      const auto state =
+          FocalLearner({.burn_in = 1, .catch_up = catch_up, .local_cells = local_cells})
+              .begin(context());
       state->absorb(hole_paths(catch_up > 0 ? 20 : 150'000, 1));
       state->update({0, 1});
       state->absorb(hole_paths(150'000, 2));
-      const std::string bits = saved(*state->update({1, 0}).model);
+      state->update({1, 1});
+      state->absorb(hole_paths(1000, 3));
+      const std::string bits = saved(*state->update({2, 0}).model);
       if (first.empty()) first = bits;
       CHECK(bits == first);
     }
@@ -319,9 +362,10 @@ TEST_CASE("focal learner: the behavior of the authors' code learns too") {
 }
 
 TEST_CASE("focal learner: saved learning goes on where it stopped") {
-  for (const int catch_up : {0, 8}) {
+  for (const auto& [catch_up, local_cells] : {std::pair{0, 1}, {8, 1}, {0, 2}}) {
     // More segments than fit into a batch, and more than are kept.
-    const FocalLearner learner({.burn_in = 1, .catch_up = catch_up, .kept_segments = 1000});
+    const FocalLearner learner(
+        {.burn_in = 1, .catch_up = catch_up, .kept_segments = 1000, .local_cells = local_cells});
     const auto state = learner.begin(context());
     state->absorb(hole_paths(20, 1));
     state->update({0, 1});
