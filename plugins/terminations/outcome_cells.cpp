@@ -35,13 +35,6 @@ std::vector<OutcomeSums> sums_by_place(const OutcomeCells& cells, std::size_t bi
   return sums;
 }
 
-/// Returns for how many steps the mean of a larger cell counts in a smaller one.
-double steps_of_prior(const OutcomeSums& mean, const OutcomePrior& prior) {
-  if (!(mean.radiance > 0)) return prior.steps;
-  const double steps_per_find = mean.squared / (mean.radiance * mean.radiance);
-  return std::max(prior.steps, prior.finds * steps_per_find);
-}
-
 /// Returns the mean of a step. `prior` is the mean without the steps of `sums`, and counts as
 /// `prior_steps` steps.
 OutcomeSums mean_of(const OutcomeSums& sums, OutcomeSums prior, double prior_steps) {
@@ -54,10 +47,11 @@ OutcomeSums mean_of(const OutcomeSums& sums, OutcomeSums prior, double prior_ste
 
 /// Returns the mean of a step at each place and in each bin. Each starts from the mean of the same
 /// bin at the place above, the uppermost one from the mean of the scene, as if this were the mean
-/// of further steps. So a small cell expects rare light that only a larger cell has found.
+/// of `prior_steps` further steps. So a small cell expects rare light that only a larger cell has
+/// found.
 std::vector<OutcomeSums> means_by_place(const std::vector<OutcomeSums>& sums,
                                         const std::vector<std::uint32_t>& parents, std::size_t bins,
-                                        const OutcomePrior& prior) {
+                                        double prior_steps) {
   OutcomeSums all;
   for (std::size_t bin = 0; bin < bins; ++bin) all += sums[bin];
   all.scale(1 / all.steps);
@@ -65,7 +59,7 @@ std::vector<OutcomeSums> means_by_place(const std::vector<OutcomeSums>& sums,
   for (std::size_t i = 0; i < sums.size(); ++i) {
     const std::size_t place = i / bins, bin = i % bins;
     const OutcomeSums& above = place > 0 ? means[parents[place] * bins + bin] : all;
-    means[i] = mean_of(sums[i], above, steps_of_prior(above, prior));
+    means[i] = mean_of(sums[i], above, prior_steps);
   }
   return means;
 }
@@ -121,8 +115,7 @@ void OutcomeCell::learn(std::span<const StepOutcome> outcomes, const DirectionBi
     bins[directions.at(outcome.towards_viewer)].add(outcome);
 }
 
-OutcomeField::OutcomeField(const OutcomeCells& cells, DirectionBins directions,
-                           const OutcomePrior& prior)
+OutcomeField::OutcomeField(const OutcomeCells& cells, DirectionBins directions, double least_steps)
     : OutcomeField(directions) {
   const std::size_t bins = directions.count();
   const std::vector<OutcomeSums> sums = sums_by_place(cells, bins);
@@ -131,10 +124,10 @@ OutcomeField::OutcomeField(const OutcomeCells& cells, DirectionBins directions,
   // look-ups take less time.
   std::vector<bool> matters(parents.size(), false);
   for (std::size_t i = bins; i < sums.size(); ++i) {
-    if (sums[i].steps >= prior.steps) matters[parents[i / bins]] = true;
+    if (sums[i].steps >= least_steps) matters[parents[i / bins]] = true;
   }
   KdTree::UpperPart used = cells.tree().upper_part(matters);
-  const std::vector<OutcomeSums> means = means_by_place(sums, parents, bins, prior);
+  const std::vector<OutcomeSums> means = means_by_place(sums, parents, bins, least_steps);
   std::vector<ExpectedOutcome> all;
   all.reserve(used.places.size() * bins);
   for (const std::uint32_t place : used.places) {

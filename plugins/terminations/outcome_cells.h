@@ -100,13 +100,6 @@ struct OutcomeCell {
 
 using OutcomeCells = KdTreeCells<StepOutcome, OutcomeCell>;
 
-/// How much the mean of a larger cell counts in the cells that it is made of: at least as `steps`
-/// steps, and as so many that they would find light `finds` times. The number of finds is the
-/// effective one, (sum X)^2 / sum X^2 (Kish 1965) for the radiances X that steps have found.
-struct OutcomePrior {
-  double steps = 0, finds = 0;
-};
-
 /// What steps are expected to find, by position and direction: constant and thread-safe.
 class OutcomeField {
  public:
@@ -114,9 +107,10 @@ class OutcomeField {
   explicit OutcomeField(DirectionBins directions)
       : table_(std::make_shared<const KdTree>(), directions, {}) {}
   /// Takes the means of what `cells` have found. The mean of the same bin of the next larger cell
-  /// is added to the steps of a bin, as if it came from further steps. This larger cell is made of
-  /// all cells below the plane that has made the cell, and so on up to the whole scene.
-  OutcomeField(const OutcomeCells& cells, DirectionBins directions, const OutcomePrior& prior);
+  /// is added to the steps of a bin, as if it came from `least_steps` further steps. This larger
+  /// cell is made of all cells below the plane that has made the cell, and so on up to the whole
+  /// scene.
+  OutcomeField(const OutcomeCells& cells, DirectionBins directions, double least_steps);
 
   /// Returns what steps from a point find if the viewer is in this unit direction.
   const ExpectedOutcome& at(Point3 p, Vec3 towards_viewer) const {

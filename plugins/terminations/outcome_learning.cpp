@@ -54,7 +54,7 @@ OutcomeLearning::Known OutcomeLearning::summary() const {
   const double mean = film_.mean();
   if (!(mean > 0) || !cells_.know_something()) return nullptr;
   return std::make_shared<const LearnedOutcomes>(LearnedOutcomes{
-      OutcomeField(cells_, directions(), {settings_.least_steps, settings_.least_finds}),
+      OutcomeField(cells_, directions(), settings_.least_steps),
       film_.denoised(settings_.denoising), static_cast<float>(settings_.pixel_offset * mean),
       error_.squared(), error_.cost()});
 }

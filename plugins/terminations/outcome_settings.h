@@ -33,7 +33,6 @@ struct OutcomeSettings {
   /// The cells of EARS take 24 MiB at most, these 36 MiB with 16 bins each.
   std::uint32_t most_cells = 49'152;
   double least_steps = 2000;
-  double least_finds = 4;
   double decay = 1;
   /// EARS takes 10 for each image that is as large as the film, which is a fraction of 1e-5 of its
   /// paths, and for the error of the image alone. A short render has too few paths to learn from
@@ -95,11 +94,6 @@ void describe_outcomes(Schema<Settings>& s) {
        "least_steps", &OutcomeSettings::least_steps,
        "The same bin of the next larger cell counts as much as this number of steps; cells whose "
        "bins have fewer are not used")
-      .at_least(0);
-  s.field("least_finds", &OutcomeSettings::least_finds,
-          "The same bin of the next larger cell also counts as so many steps that they would find "
-          "light "
-          "this number of times, so that paths do not end where light is rare")
       .at_least(0);
   s.field("decay", &OutcomeSettings::decay,
           "Factor by which an iteration weights what was found before, by other rules")

@@ -54,7 +54,7 @@ TEST_CASE("outcome cells: expected values by position and direction") {
   const DirectionBins bins(2);
   const OutcomeCells cells = two_sides(bins, 4000);
   CHECK(cells.size() == 2);
-  const OutcomeField field(cells, bins, {.steps = 1});
+  const OutcomeField field(cells, bins, 1);
   const ExpectedOutcome left = field.at({-0.9f, 0, 0}, {0.1f, 0.1f, 0.99f});
   const ExpectedOutcome right = field.at({0.9f, 0, 0}, {0.1f, 0.1f, 0.99f});
   CHECK(left.radiance == doctest::Approx(1).epsilon(0.03));
@@ -71,43 +71,16 @@ TEST_CASE("outcome cells: the same bin of the larger cell counts as a number of 
   // Each bin has about 1000 steps, half of them on each side. The mean of the scene is 1.
   const OutcomeCells cells = two_sides(bins, 4000);
   const double upper = (1000 * 2 + 400 * 1) / 1400.0, left = (500 * 1 + 400 * upper) / 900;
-  const OutcomeField field(cells, bins, {.steps = 400});
+  const OutcomeField field(cells, bins, 400);
   CHECK(field.at({-0.9f, 0, 0}, {0.1f, 0.1f, 0.99f}).radiance ==
         doctest::Approx(left).epsilon(0.05));
   CHECK(field.at({-0.9f, 0, 0}, {0.1f, 0.1f, -0.99f}).radiance > 0.1f);
   // No cell below the whole scene has enough steps.
-  const OutcomeField coarse(cells, bins, {.steps = 800});
+  const OutcomeField coarse(cells, bins, 800);
   for (const float x : {-0.9f, 0.9f}) {
     CHECK(coarse.at({x, 0, 0}, {0.1f, 0.1f, 0.99f}).radiance ==
           doctest::Approx((1000 * 2 + 800) / 1800.0).epsilon(0.05));
   }
-}
-
-TEST_CASE("outcome cells: where light is rare, the larger cell counts for more steps") {
-  const DirectionBins bins(1);
-  // One step in 2500 finds light, and all of these steps lie on the right.
-  constexpr int kSteps = 20'000;
-  OutcomeCells cells;
-  std::vector<StepOutcome> steps;
-  for (int i = 0; i < kSteps; ++i) {
-    const float x = i % 2 == 0 ? -0.9f : 0.9f, found = i % 2500 == 1 ? 50.0f : 0.0f;
-    steps.push_back({{x, 0, 0}, {0, 0, 1}, found, found, 2});
-  }
-  cells.learn(steps, {.cell_samples = kSteps - 1, .max_depth = 1},
-              [&](OutcomeCell& cell, std::span<const StepOutcome> own, std::size_t) {
-                cell.learn(own, bins);
-              });
-  REQUIRE(cells.size() == 2);
-  const double scene = 50.0 / 2500;
-  // `prior` steps of the scene beside the steps on each side; the scene has its own mean as prior.
-  const auto left = [&](double prior) { return prior * scene / (prior + kSteps / 2.0); };
-  const auto found = [&](const OutcomePrior& prior, float x) {
-    return OutcomeField(cells, bins, prior).at({x, 0, 0}, {0, 0, 1}).radiance;
-  };
-  CHECK(found({.steps = 100}, -0.9f) == doctest::Approx(left(100)));
-  CHECK(found({.steps = 100, .finds = 0.01}, -0.9f) == doctest::Approx(left(100)));
-  CHECK(found({.steps = 100, .finds = 4}, -0.9f) == doctest::Approx(left(4 * 2500)));
-  CHECK(found({.steps = 100, .finds = 4}, 0.9f) > scene);
 }
 
 TEST_CASE("outcome cells: limits of estimates change the variance, but not the second moment") {
@@ -117,7 +90,7 @@ TEST_CASE("outcome cells: limits of estimates change the variance, but not the s
   cells.learn(steps, {}, [&](OutcomeCell& cell, std::span<const StepOutcome> own, std::size_t) {
     cell.learn(own, bins);
   });
-  const ExpectedOutcome found = OutcomeField(cells, bins, {.steps = 1}).at({}, {0, 0, 1});
+  const ExpectedOutcome found = OutcomeField(cells, bins, 1).at({}, {0, 0, 1});
   CHECK(found.radiance == doctest::Approx(5));
   CHECK(found.squared == doctest::Approx((1 + 81) / 2.0));
   CHECK(found.variance == doctest::Approx(1));
@@ -130,7 +103,7 @@ TEST_CASE("outcome cells: an outcome counts for its number of steps") {
   cells.learn(steps, {}, [&](OutcomeCell& cell, std::span<const StepOutcome> own, std::size_t) {
     cell.learn(own, bins);
   });
-  const ExpectedOutcome found = OutcomeField(cells, bins, {.steps = 4}).at({}, {0, 0, 1});
+  const ExpectedOutcome found = OutcomeField(cells, bins, 4).at({}, {0, 0, 1});
   CHECK(found.radiance == doctest::Approx((3 * 1 + 5) / 4.0));
   CHECK(found.squared == doctest::Approx((3 * 1 + 25) / 4.0));
   CHECK(found.cost == doctest::Approx((3 * 2 + 6) / 4.0));
@@ -143,7 +116,7 @@ TEST_CASE("outcome cells: moments that no float can hold are the largest float")
   cells.learn(steps, {}, [&](OutcomeCell& cell, std::span<const StepOutcome> own, std::size_t) {
     cell.learn(own, bins);
   });
-  CHECK(std::isfinite(OutcomeField(cells, bins, {.steps = 10}).at({}, {0, 0, 1}).squared));
+  CHECK(std::isfinite(OutcomeField(cells, bins, 10).at({}, {0, 0, 1}).squared));
 }
 
 TEST_CASE("outcome cells: where no step was recorded, the mean of the scene counts") {
@@ -153,7 +126,7 @@ TEST_CASE("outcome cells: where no step was recorded, the mean of the scene coun
   cells.learn(steps, {}, [&](OutcomeCell& cell, std::span<const StepOutcome> own, std::size_t) {
     cell.learn(own, bins);
   });
-  CHECK(OutcomeField(cells, bins, {.steps = 10}).at({}, {0.1f, 0.1f, -0.99f}).radiance == 6);
+  CHECK(OutcomeField(cells, bins, 10).at({}, {0.1f, 0.1f, -0.99f}).radiance == 6);
 }
 
 }  // namespace pharos
