@@ -142,18 +142,19 @@ FocalDensity local_density(const FocalDensity& density, const LocalUse& use, dou
   const double certainty = use.segments() / (use.segments() + prior);
   double total = 0;
   const auto weights = [&](const Octree& octree, const VoxelMasses& uses) {
-    VoxelMasses masses = density_in_voxels(octree);
+    std::vector<double> voxels = density_in_voxels(octree);
     for (std::size_t v = 0; v < kVoxels; ++v) {
-      const double mass = masses[v];
-      masses[v] = 1 - certainty + (mass > 0 ? certainty * uses[v] / used / mass : 0);
-      total += mass * masses[v];
+      const double mass = voxels[v];
+      const double weight = 1 - certainty + (mass > 0 ? certainty * uses[v] / used / mass : 0);
+      total += weight * mass;
+      voxels[v] = weight;
     }
-    return masses;
+    return voxels;
   };
-  VoxelMasses converging = weights(density.converging, use.converging);
-  VoxelMasses diverging = weights(density.diverging, use.diverging);
+  std::vector<double> converging = weights(density.converging, use.converging);
+  std::vector<double> diverging = weights(density.diverging, use.diverging);
   // Mass of `use` where the density has none cannot be kept.
-  for (VoxelMasses* each : {&converging, &diverging}) {
+  for (std::vector<double>* each : {&converging, &diverging}) {
     for (double& weight : *each) weight /= total;
   }
   return {reweighted(density.converging, converging), reweighted(density.diverging, diverging)};

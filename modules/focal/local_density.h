@@ -43,7 +43,7 @@ void add_to_voxels(const Octree& octree, std::span<const double> masses, VoxelMa
 /// leaf that covers several voxels takes their mean weight.
 Octree reweighted(const Octree& octree, std::span<const double> weights);
 
-/// What the segments that begin in one cell of space use of the focal density.
+/// The part of the focal density that segments use if they begin in one cell of space.
 struct LocalUse {
   VoxelMasses converging, diverging;      ///< masses that the segments have added by narrowing
   double contributions = 0, squares = 0;  ///< sums over the segments
@@ -56,9 +56,8 @@ struct LocalUse {
   void archive(Archive& archive);
 };
 
-/// Returns the density for segments that begin in one cell: `density` with other weights of the
-/// voxels, so that the masses of voxels are a mean of those of `use` and those of `density`. The
-/// latter count as much as `prior` segments.
+/// Returns the density for segments that begin in one cell. The mass of each voxel is a mean of its
+/// masses in `use` and in `density`, which counts for `prior` segments.
 FocalDensity local_density(const FocalDensity& density, const LocalUse& use, double prior);
 
 }  // namespace pharos::focal

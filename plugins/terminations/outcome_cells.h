@@ -68,8 +68,8 @@ class BinTable {
   const Value& at(Point3 p, Vec3 direction) const {
     return values_[tree_->cell_at(p) * directions_.count() + directions_.at(direction)];
   }
-  /// Returns the table of `make(value)`. A rule that needs few numbers gets them in a small table,
-  /// whose look-ups wait less for memory.
+  /// Returns the table of `make(value)`. The table of a rule that needs few numbers is small, so
+  /// that look-ups wait less for memory.
   template <class Make>
   auto mapped(Make&& make) const {
     std::vector<decltype(make(values_.front()))> made;

@@ -4,6 +4,8 @@
 
 #include <doctest/doctest.h>
 
+#include <pharos/conformance/stage.h>
+
 namespace pharos {
 namespace {
 
@@ -35,6 +37,24 @@ TEST_CASE("fixed mixing: the same share in every region and iteration") {
 TEST_CASE("fixed mixing: one half by default") {
   const std::array weights{1.0f, 1.0f};
   CHECK(shares_of(*FixedMixing(FixedMixing::Settings{}).begin(weights), 1, 1)[0] == 0.5f);
+}
+
+TEST_CASE("fixed mixing: the lens has a share of its own, if one is given") {
+  const std::array weights{1.0f, 1.0f};
+  const std::array places{Place{.evidence = 1}, Place{.evidence = 1}};
+  const Ref<Bsdf> bsdf = conformance::black_bsdf();
+  const SurfacePoint point;
+  const LocalScattering scattering(point, *bsdf, {0, 0, 1}, Transport::radiance);
+  const auto unguided = [&](const FixedMixing::Settings& settings, const LocalScattering* at) {
+    const GuidingQuery vertex{.scattering = at};
+    std::array<float, 3> shares{};
+    FixedMixing(settings).begin(weights)->shares()->at({vertex, places}, shares);
+    return shares[0];
+  };
+  CHECK(unguided({.unguided_fraction = 0.25f}, nullptr) == 0.25f);
+  CHECK(unguided({.unguided_fraction = 0.25f}, &scattering) == 0.25f);
+  CHECK(unguided({.unguided_fraction = 0.25f, .unguided_camera = 0.75f}, nullptr) == 0.75f);
+  CHECK(unguided({.unguided_fraction = 0.25f, .unguided_camera = 0.75f}, &scattering) == 0.25f);
 }
 
 TEST_CASE("fixed mixing: methods that know something share the rest by their weights") {

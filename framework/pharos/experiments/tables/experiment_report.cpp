@@ -20,8 +20,8 @@ std::string budget_text(const Budget& budget) {
                     : fmt::format("{:g} s", *budget.seconds);
 }
 
-/// Returns text such as "; 60 s in hall, pool" for those of `entries` (scenes or methods) that have
-/// a budget of their own.
+/// Returns text such as "; 60 s in hall, pool", which names the entries (scenes or methods) with a
+/// budget of their own.
 template <class Entry>
 std::string own_budgets_text(const std::vector<Entry>& entries, std::string_view relation) {
   std::map<std::string, std::string> by_budget;
