@@ -69,7 +69,7 @@ class BinTable {
     return values_[tree_->cell_at(p) * directions_.count() + directions_.at(direction)];
   }
   /// Returns the table of `make(value)`. The table of a rule that needs few numbers is small, so
-  /// that look-ups wait less for memory.
+  /// that look-ups read less memory.
   template <class Make>
   auto mapped(Make&& make) const {
     std::vector<decltype(make(values_.front()))> made;
