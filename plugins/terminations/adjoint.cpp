@@ -39,14 +39,11 @@ class AdjointRule final : public TerminationRule {
  public:
   AdjointRule(const AdjointTermination::Settings& settings,
               std::shared_ptr<const LearnedOutcomes> known)
-      : settings_(settings),
-        known_(std::move(known)),
-        radiance_(known_->steps.table().mapped(
-            [](const ExpectedOutcome& expected) { return expected.radiance; })) {}
+      : settings_(settings), known_(std::move(known)) {}
 
   float factor(const TerminationQuery& query) const override {
     if (settings_.spares(query)) return 1;
-    const float radiance = radiance_.at(query.position, query.towards_previous);
+    const float radiance = known_->at(query).radiance;
     if (!(radiance > 0)) return 1;
     const float throughput = mean(query.throughput) / query.film_weight;
     const float contribution = throughput * radiance / known_->scale_at(query.film);
@@ -58,7 +55,6 @@ class AdjointRule final : public TerminationRule {
  private:
   AdjointTermination::Settings settings_;
   std::shared_ptr<const LearnedOutcomes> known_;
-  BinTable<float> radiance_;
 };
 
 }  // namespace

@@ -49,16 +49,12 @@ class EfficiencyRule final : public TerminationRule {
   EfficiencyRule(const OutcomeSettings& settings, std::shared_ptr<const LearnedOutcomes> known)
       : settings_(settings),
         known_(std::move(known)),
-        best_(known_->steps.table().mapped([&](const ExpectedOutcome& expected) {
-          return best_factors(expected,
-                              static_cast<float>(known_->path_cost / known_->squared_error));
-        })) {}
+        worth_(static_cast<float>(known_->path_cost / known_->squared_error)) {}
 
   float factor(const TerminationQuery& query) const override {
     if (settings_.spares(query)) return 1;
     const float relative = mean(query.throughput) / known_->scale_at(query.film);
-    return settings_.clamped(
-        efficiency_factor(relative, best_.at(query.position, query.towards_previous)));
+    return settings_.clamped(efficiency_factor(relative, known_->at(query), worth_));
   }
   /// Each step has a light sample of its own, as in what was learned.
   float light_factor(const TerminationQuery&, float factor) const override { return factor; }
@@ -66,19 +62,18 @@ class EfficiencyRule final : public TerminationRule {
  private:
   OutcomeSettings settings_;
   std::shared_ptr<const LearnedOutcomes> known_;
-  BinTable<BestFactors> best_;
+  float worth_;
 };
 
 }  // namespace
 
-BestFactors best_factors(const ExpectedOutcome& expected, float worth) {
-  const auto best = [&](float spread) { return std::sqrt(spread / expected.cost * worth); };
-  return {best(expected.squared), best(expected.variance)};
-}
-
-float efficiency_factor(float relative, const BestFactors& best) {
-  const float roulette = relative * best.roulette;
-  return roulette < 1 ? roulette : std::max(relative * best.splitting, 1.0f);
+float efficiency_factor(float relative, const ExpectedOutcome& expected, float worth) {
+  const auto best = [&](float spread) {
+    return relative * std::sqrt(spread / expected.cost * worth);
+  };
+  const float roulette = best(expected.squared);
+  if (roulette < 1) return roulette;
+  return std::max(best(expected.variance), 1.0f);
 }
 
 void EfficiencyTermination::Settings::describe(Schema<Settings>& s) {

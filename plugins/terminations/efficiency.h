@@ -22,14 +22,8 @@ class EfficiencyTermination final : public Termination {
   Settings settings_;
 };
 
-/// The best factors [1] of roulette and of splitting at a vertex, for paths whose throughput equals
-/// the radiance of their pixel.
-struct BestFactors {
-  float roulette = 0, splitting = 0;
-};
-/// `worth` is the mean cost of paths over their relative squared error [steps].
-BestFactors best_factors(const ExpectedOutcome& expected, float worth);
 /// Returns the factor [1] of a path of throughput `relative` over the radiance of its pixel.
-float efficiency_factor(float relative, const BestFactors& best);
+/// `worth` is the mean cost of paths over their relative squared error [steps].
+float efficiency_factor(float relative, const ExpectedOutcome& expected, float worth);
 
 }  // namespace pharos

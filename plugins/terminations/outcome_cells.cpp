@@ -116,7 +116,7 @@ void OutcomeCell::learn(std::span<const StepOutcome> outcomes, const DirectionBi
 }
 
 OutcomeField::OutcomeField(const OutcomeCells& cells, DirectionBins directions, double least_steps)
-    : OutcomeField(directions) {
+    : directions_(directions) {
   const std::size_t bins = directions.count();
   const std::vector<OutcomeSums> sums = sums_by_place(cells, bins);
   const std::vector<std::uint32_t> parents = cells.tree().parents();
@@ -128,27 +128,22 @@ OutcomeField::OutcomeField(const OutcomeCells& cells, DirectionBins directions, 
   }
   KdTree::UpperPart used = cells.tree().upper_part(matters);
   const std::vector<OutcomeSums> means = means_by_place(sums, parents, bins, least_steps);
-  std::vector<ExpectedOutcome> all;
-  all.reserve(used.places.size() * bins);
+  expected_.reserve(used.places.size() * bins);
   for (const std::uint32_t place : used.places) {
     for (std::size_t bin = 0; bin < bins; ++bin) {
-      all.push_back(expected(means[place * bins + bin]));
+      expected_.push_back(expected(means[place * bins + bin]));
     }
   }
-  table_ = {std::make_shared<const KdTree>(std::move(used.tree)), directions, std::move(all)};
+  tree_ = std::move(used.tree);
 }
 
 void OutcomeField::archive(Archive& archive) {
-  KdTree tree = table_.tree();
-  std::vector<ExpectedOutcome> all = table_.values();
-  archive(tree, all);
-  bool is_sound = all.size() == tree.cell_count() * table_.directions().count();
-  for (const ExpectedOutcome& e : all) {
+  archive(tree_, expected_);
+  bool is_sound = expected_.size() == tree_.cell_count() * directions_.count();
+  for (const ExpectedOutcome& e : expected_) {
     is_sound &= e.radiance >= 0 && e.squared >= 0 && e.variance >= 0 && e.cost >= 1;
   }
   archive.expect(is_sound, "what was learned of steps");
-  if (!archive.loads()) return;
-  table_ = {std::make_shared<const KdTree>(std::move(tree)), table_.directions(), std::move(all)};
 }
 
 }  // namespace pharos

@@ -2,9 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include <pharos/core/archive.h>
@@ -56,38 +54,6 @@ class DirectionBins {
   std::uint32_t rows_;
 };
 
-/// A value for each bin of directions in each cell of space: constant and thread-safe.
-template <class Value>
-class BinTable {
- public:
-  /// `values` has the bins of each cell of `tree` one after the other.
-  BinTable(std::shared_ptr<const KdTree> tree, DirectionBins directions, std::vector<Value> values)
-      : tree_(std::move(tree)), directions_(directions), values_(std::move(values)) {}
-
-  /// Returns the value at a point for a unit direction.
-  const Value& at(Point3 p, Vec3 direction) const {
-    return values_[tree_->cell_at(p) * directions_.count() + directions_.at(direction)];
-  }
-  /// Returns the table of `make(value)`. The table of a rule that needs few numbers is small, so
-  /// that look-ups read less memory.
-  template <class Make>
-  auto mapped(Make&& make) const {
-    std::vector<decltype(make(values_.front()))> made;
-    made.reserve(values_.size());
-    for (const Value& value : values_) made.push_back(make(value));
-    return BinTable<typename decltype(made)::value_type>(tree_, directions_, std::move(made));
-  }
-
-  const KdTree& tree() const { return *tree_; }
-  DirectionBins directions() const { return directions_; }
-  const std::vector<Value>& values() const { return values_; }
-
- private:
-  std::shared_ptr<const KdTree> tree_;
-  DirectionBins directions_;
-  std::vector<Value> values_;
-};
-
 /// What was found in a cell of space, by direction towards the viewer. A cell of KdTreeCells.
 struct OutcomeCell {
   std::vector<OutcomeSums> bins;  ///< empty: nothing was found yet
@@ -104,8 +70,7 @@ using OutcomeCells = KdTreeCells<StepOutcome, OutcomeCell>;
 class OutcomeField {
  public:
   /// Knows nothing; for loading.
-  explicit OutcomeField(DirectionBins directions)
-      : table_(std::make_shared<const KdTree>(), directions, {}) {}
+  explicit OutcomeField(DirectionBins directions) : directions_(directions) {}
   /// Takes the means of what `cells` have found. The mean of the same bin of the next larger cell
   /// is added to the steps of a bin, as if it came from `least_steps` further steps. This larger
   /// cell is made of all cells below the plane that has made the cell, and so on up to the whole
@@ -114,13 +79,14 @@ class OutcomeField {
 
   /// Returns what steps from a point find if the viewer is in this unit direction.
   const ExpectedOutcome& at(Point3 p, Vec3 towards_viewer) const {
-    return table_.at(p, towards_viewer);
+    return expected_[tree_.cell_at(p) * directions_.count() + directions_.at(towards_viewer)];
   }
-  const BinTable<ExpectedOutcome>& table() const { return table_; }
   void archive(Archive& archive);
 
  private:
-  BinTable<ExpectedOutcome> table_;
+  KdTree tree_;
+  DirectionBins directions_;
+  std::vector<ExpectedOutcome> expected_;
 };
 
 }  // namespace pharos

@@ -23,6 +23,10 @@ struct LearnedOutcomes {
 
   /// Returns the radiance to which contributions to a film position [pixels] are compared.
   float scale_at(Vec2 film) const { return pixels.at(film) + pixel_offset; }
+  /// What was learned of a vertex.
+  const ExpectedOutcome& at(const TerminationQuery& query) const {
+    return steps.at(query.position, query.towards_previous);
+  }
 };
 
 /// Learns what steps and paths find, and makes a rule of it. In the first iterations, and until

@@ -1,6 +1,5 @@
 #include "../learner.h"
 
-#include <array>
 #include <sstream>
 
 #include <doctest/doctest.h>
@@ -11,103 +10,13 @@
 #include <pharos/tests/fixtures.h>
 
 #include "../model.h"
-#include "test_trees.h"
+#include "hole_paths.h"
 
 namespace pharos::focal {
 namespace {
 
 using namespace testing;
 using test::saved;
-
-/// Half of the width of the hole through which all light passes, and the hole's center.
-constexpr float kHole = 0.01f;
-constexpr Point3 kCenter{0.1f, 1.1f, 3.9f};
-
-/// Returns a random point on the canvas of the camera obscura.
-Point3 point_on_canvas(RandomStream& random) {
-  Point3 p = point_in_box(random, test_box());
-  p.z = 2;
-  return p;
-}
-
-/// Adds paths of one guidable step each, from random points through the hole, as a camera obscura
-/// has them; every coordinate times `scale`. `side` limits them to points whose x has its sign.
-void add_hole_paths(PathLog& log, int count, std::uint64_t seed, float scale = 1,
-                    Point3 center = kCenter, float unguided_share = 0.5f, float light = 1,
-                    float side = 0) {
-  const std::array techniques{Technique{unguided_share, 0.3f}, Technique{1 - unguided_share, 0.3f}};
-  RandomStream random(seed);
-  for (int i = 0; i < count; ++i) {
-    const Point3 from = point_on_canvas(random);
-    if (from.x * side < 0) continue;
-    const Vec3 direction = normalize(point_near(random, center, kHole) - from);
-    log.begin_path({}, Transport::radiance);
-    log.add(RecordedVertex{.throughput = Rgb(1)});
-    log.add(RecordedVertex{.position = scale * from,
-                           .event = Event::smooth_reflect,
-                           .guidable = true,
-                           .parent = 0,
-                           .throughput = Rgb(1),
-                           .local_weight = Rgb(1),
-                           .direction = direction,
-                           .pdf = 0.3f});
-    log.set_techniques(1, std::span(techniques).first(unguided_share < 1 ? 2 : 1));
-    log.add(RecordedVertex{
-        .position = scale * (from + 4.0f * direction), .parent = 1, .emission = Rgb(light)});
-  }
-}
-
-PathLog hole_paths(int count, std::uint64_t seed, float scale = 1, Point3 center = kCenter,
-                   float unguided_share = 0.5f) {
-  PathLog log;
-  add_hole_paths(log, count, seed, scale, center, unguided_share);
-  return log;
-}
-
-LearningContext context(float scale = 1) {
-  const Box box = test_box();
-  Bounds3 region;
-  for (const unsigned corner : {0u, 7u}) {
-    Point3 p;
-    for (unsigned axis = 0; axis < 3; ++axis) {
-      const double far = (corner >> axis & 1) != 0 ? box.size[axis] : 0;
-      p[static_cast<int>(axis)] = scale * static_cast<float>(box.low[axis] + far);
-    }
-    region.add(p);
-  }
-  return {region, 1};
-}
-
-/// Trains on `hole_paths` for all iterations.
-std::shared_ptr<const FocalModel> trained(const FocalSettings& settings, float scale = 1,
-                                          Point3 center = kCenter, std::uint32_t iterations = 10) {
-  const auto state = FocalLearner(settings).begin(context(scale));
-  std::shared_ptr<const GuidingModel> model;
-  for (std::uint32_t i = 0; i < iterations; ++i) {
-    for (std::uint64_t unit = 0; unit < 3; ++unit) {
-      state->absorb(hole_paths(1000, 10 * i + unit, scale, center));
-    }
-    model = state->update({i, iterations - 1 - i}).model;
-  }
-  return std::dynamic_pointer_cast<const FocalModel>(model);
-}
-
-/// Returns the share of sampled directions from the canvas that pass through the hole.
-double hits(const FocalModel& model, Point3 center = kCenter) {
-  RandomStream random(99);
-  constexpr int kDraws = 10'000;
-  int through = 0;
-  for (int i = 0; i < kDraws; ++i) {
-    const Point3 from = point_on_canvas(random);
-    const float sign = random.next_1d();
-    const Vec2 u = random.next_2d();
-    const auto w = model.focal_density().sample_direction(from, sign, {u.x, u.y, random.next_1d()});
-    if (!w || w->z <= 0) continue;
-    const Point3 p = from + (center.z - from.z) / w->z * *w;
-    through += max_component(abs(p - center)) < kHole ? 1 : 0;
-  }
-  return static_cast<double>(through) / kDraws;
-}
 
 }  // namespace
 
@@ -249,83 +158,6 @@ TEST_CASE("focal learner: narrowing after a burn-in, whenever training ends") {
   // A burn-in longer than training narrows nothing.
   const double never = hits(*trained({.burn_in = 1000}));
   CHECK(never == doctest::Approx(hits(*trained({.narrowing_iterations = 0}))));
-}
-
-/// Returns the model after iterations with 3 paths each and a last one with 3000.
-std::shared_ptr<const FocalModel> found_late(std::uint32_t early, int catch_up,
-                                             double least_segments = 50) {
-  const FocalSettings settings{
-      .burn_in = 1, .catch_up = catch_up, .least_segments = least_segments};
-  const auto state = FocalLearner(settings).begin(context());
-  for (std::uint32_t i = 0; i < early; ++i) {
-    state->absorb(hole_paths(3, i));
-    state->update({i, early - i});
-  }
-  state->absorb(hole_paths(3000, 100));
-  return std::dynamic_pointer_cast<const FocalModel>(state->update({early, 0}).model);
-}
-
-TEST_CASE("focal learner: iterations with too little light are caught up with") {
-  const auto late = found_late(3, 0), caught_up = found_late(3, 8);
-  MESSAGE("share of directions through the hole: " << hits(*late) << ", caught up "
-                                                   << hits(*caught_up));
-  CHECK(hits(*caught_up) > 0.3);
-  // Every missed iteration counts, up to the number that is set.
-  const double one = hits(*found_late(3, 1)), two = hits(*found_late(3, 2));
-  CHECK(one > 1.05 * hits(*late));
-  CHECK(two > 1.02 * one);
-  CHECK(hits(*caught_up) > two);
-  CHECK(saved(*found_late(3, 3)) == saved(*caught_up));
-  CHECK(saved(*found_late(3, 2)) != saved(*caught_up));
-  // Nothing was missed, or the last iteration misses something, too.
-  CHECK(saved(*found_late(3, 8, 3)) == saved(*late));
-  CHECK(saved(*found_late(3, 8, 3000)) == saved(*caught_up));
-  CHECK(saved(*found_late(3, 8, 3001)) == saved(*late));
-}
-
-TEST_CASE("focal learner: a few bright paths are too little light") {
-  const auto model_of = [](int catch_up, float light) {
-    const auto state = FocalLearner({.burn_in = 1, .catch_up = catch_up}).begin(context());
-    // An iteration with too little light, for which the next one could make up.
-    state->absorb(hole_paths(3, 1, 1, kCenter, 0.5f));
-    state->update({0, 2});
-    PathLog log = hole_paths(1000, 1);
-    // 20 paths through another place.
-    add_hole_paths(log, 20, 2, 1, {-1, 2, 6}, 0.5f, light);
-    state->absorb(log);
-    return saved(*state->update({1, 0}).model);
-  };
-  CHECK(model_of(8, 1000) == model_of(0, 1000));
-  CHECK(model_of(8, 1) != model_of(0, 1));
-}
-
-TEST_CASE("focal learner: bright paths of one iteration do not count in the next") {
-  const auto model_of = [](int catch_up) {
-    const auto state = FocalLearner({.burn_in = 1, .catch_up = catch_up}).begin(context());
-    PathLog bright;
-    add_hole_paths(bright, 3, 1, 1, kCenter, 0.5f, 1e6f);
-    state->absorb(bright);
-    state->update({0, 1});
-    state->absorb(hole_paths(1000, 2));
-    return saved(*state->update({1, 0}).model);
-  };
-  CHECK(model_of(8) != model_of(0));
-}
-
-TEST_CASE("focal learner: iterations without light are caught up with") {
-  const auto model_of = [](std::uint32_t dark) {
-    const auto state = FocalLearner({.burn_in = 1, .catch_up = 8}).begin(context());
-    for (std::uint32_t i = 0; i < dark; ++i) state->update({i, 10});
-    state->absorb(hole_paths(1000, 1));
-    return std::dynamic_pointer_cast<const FocalModel>(state->update({dark, 0}).model);
-  };
-  CHECK(hits(*model_of(1)) > 2 * hits(*model_of(0)));
-  CHECK(hits(*model_of(3)) > 1.5 * hits(*model_of(1)));
-}
-
-TEST_CASE("focal learner: catching up does not go with a decay of narrowing") {
-  CHECK(test::input_error([] { FocalLearner({.catch_up = 1, .narrowing_decay = 0.25f}); }) ==
-        "`catch_up` needs `narrowing_decay: 0`");
 }
 
 TEST_CASE("focal learner: narrowing has a decay of its own") {

@@ -95,8 +95,7 @@ TEST_CASE("local density: the density of the scene where nothing is known") {
   CHECK(local.diverging == whole.diverging);
 }
 
-TEST_CASE(
-    "local density: the masses of voxels lie between those of the scene and of the segments") {
+TEST_CASE("local density: a mean of the density of the scene and of what segments use") {
   const FocalDensity whole = even_density();
   constexpr std::size_t kVoxel = 1234;
   const Point3 inside = center_of(kVoxel), outside = center_of(77);

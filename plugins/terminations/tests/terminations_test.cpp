@@ -77,14 +77,11 @@ TEST_CASE("adjoint: contributions outside the window are moved to its edge") {
 
 TEST_CASE("efficiency: the factor in closed form") {
   const ExpectedOutcome found{.squared = 25, .variance = 16, .cost = 4};
-  const auto factor = [&](float relative, float worth) {
-    return efficiency_factor(relative, best_factors(found, worth));
-  };
   // q_r = T/I 5 / 2 sqrt(worth), q_s = T/I 4 / 2 sqrt(worth)
-  CHECK(factor(0.1f, 1) == doctest::Approx(0.25));
-  CHECK(factor(0.45f, 1) == 1);
-  CHECK(factor(2, 1) == doctest::Approx(4));
-  CHECK(factor(2, 0.25f) == doctest::Approx(2));
+  CHECK(efficiency_factor(0.1f, found, 1) == doctest::Approx(0.25));
+  CHECK(efficiency_factor(0.45f, found, 1) == 1);
+  CHECK(efficiency_factor(2, found, 1) == doctest::Approx(4));
+  CHECK(efficiency_factor(2, found, 0.25f) == doctest::Approx(2));
 }
 
 TEST_CASE("learned terminations begin with roulette by throughput and then use what they know") {

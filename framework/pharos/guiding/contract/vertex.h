@@ -56,7 +56,7 @@ struct GuidingQuery {
   /// from both ends, because the density of a step must not depend on the end at which a path
   /// began. For the same reason the event at `previous` is then unknown.
   std::uint16_t bounce = 1;
-  const LocalScattering* scattering = nullptr;  ///< BSDF or phase function at the vertex
+  const LocalScattering* scattering = nullptr;  ///< BSDF or phase function; null on the lens
   const Medium* medium = nullptr;  ///< medium through which the path came; null: empty space
   std::uint32_t region = 0;        ///< region that GuidingModel::place() returned here
   /// The memory of this guide along this path. Null if paths are made from both ends, because the
