@@ -31,8 +31,7 @@
 // - If training ends before the first three iterations are over, the final image uses what was
 //   learned nevertheless.
 // - Training images are weighted by the budget that they took (image_combiner.h). Weights by
-// inverse
-//   variances depend on the values that they weight, which would bias the image.
+//   inverse variances depend on the values that they weight, which would bias the image.
 //
 //     termination: { type: efficiency, most: 20 }
 #include "efficiency.h"

@@ -6,6 +6,10 @@
 #include <string>
 #include <vector>
 
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
@@ -36,6 +40,17 @@ void check_command(const CLI::App& app, int argc, char** argv) {
   throw pharos::InputError(fmt::format("pharos: error: expected a command, one of {}, found '{}'{}",
                                        pharos::quoted_list(known), first,
                                        pharos::suggestion(first, known)));
+}
+
+/// Makes the C library keep freed memory instead of returning it to the system. Every work unit
+/// needs megabytes for path records or splats, and the system clears each page of them anew.
+void keep_freed_memory() {
+#if defined(__GLIBC__)
+  constexpr int kLargestFromHeap = 32 << 20;  // [bytes] the largest value that glibc accepts
+  constexpr int kMostKept = 1 << 30;          // [bytes]
+  mallopt(M_MMAP_THRESHOLD, kLargestFromHeap);
+  mallopt(M_TRIM_THRESHOLD, kMostKept);
+#endif
 }
 
 /// Runs the program and turns every error into one message and an exit code.
@@ -83,6 +98,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  keep_freed_memory();
   const int exit_code = run(argc, argv);
   if (std::fflush(stdout) == 0) return exit_code;
   fmt::print(stderr, "pharos: error: cannot write the output: {}\n", std::strerror(errno));

@@ -56,6 +56,11 @@ class FilmTile {
   /// Adds a contribution f/p in units of (pixel value) x (number of paths started), for light
   /// tracing and camera guiding. Positions off the film have no effect.
   void add_splat(Vec2 film, Rgb contribution) { splats_.push_back({film, contribution}); }
+  /// Reserves memory for about `n` splats with features.
+  void expect_splats(std::size_t n) {
+    splats_.reserve(n);
+    landings_.reserve(n);
+  }
   /// Adds the features of a splat's path. They count as a sample of the pixel at `film`.
   void add_features(Vec2 film, const Features& features) { landings_.push_back({film, features}); }
   /// Counts paths that were started. Splats are divided by the film's total.

@@ -13,6 +13,9 @@ void for_each_path(const WorkUnit& unit, const IterationContext& context, int fi
   const auto own = [&](int x, int y, std::uint32_t samples) {
     return context.pixels == nullptr ? samples : context.pixels->count(x, y, samples);
   };
+  if (context.guiding != nullptr && context.guiding->guides_camera()) {
+    result.film.expect_splats(unit.pixels.area() * unit.sample_count);
+  }
   std::uint64_t count = 0;
   for (int y = unit.pixels.y0; y < unit.pixels.y1; ++y) {
     for (int x = unit.pixels.x0; x < unit.pixels.x1; ++x) {
