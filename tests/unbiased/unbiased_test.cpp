@@ -294,7 +294,7 @@ TEST_CASE("long: vertex triplets are unbiased in the proof variant fog-box") {
   compare_proof("fog-box", triplet_methods(1));
 }
 TEST_CASE("long: vertex triplets are unbiased in the proof variant haze") {
-  compare_proof("haze", triplet_methods(0), {"budget={ spp: 96 }"});
+  compare_proof("haze", triplet_methods(0), {"budget={ spp: 144 }"});
 }
 TEST_CASE("long: vertex triplets are unbiased in the proof variant volume-caustics") {
   compare_proof("volume-caustics", triplet_methods(1));
