@@ -251,7 +251,8 @@ TEST_SUITE_END();
 TEST_SUITE_BEGIN("parallax-aware-mixtures");
 
 TEST_CASE("long: parallax-aware mixtures are unbiased in the proof variant camera-obscura") {
-  compare_proof("camera-obscura", lobe_methods());
+  // Cells that have not found the pinhole cause bright outliers here, too.
+  compare_proof("camera-obscura", lobe_methods(), {"budget={ spp: 160 }"});
 }
 TEST_CASE("long: parallax-aware mixtures are unbiased in the proof variant hall") {
   compare_proof("hall", lobe_methods());
@@ -294,7 +295,7 @@ TEST_CASE("long: vertex triplets are unbiased in the proof variant fog-box") {
   compare_proof("fog-box", triplet_methods(1));
 }
 TEST_CASE("long: vertex triplets are unbiased in the proof variant haze") {
-  compare_proof("haze", triplet_methods(0), {"budget={ spp: 144 }"});
+  compare_proof("haze", triplet_methods(0), {"budget={ spp: 256 }"});
 }
 TEST_CASE("long: vertex triplets are unbiased in the proof variant volume-caustics") {
   compare_proof("volume-caustics", triplet_methods(1));
