@@ -142,7 +142,7 @@ TEST_SUITE_BEGIN("focal");
 
 TEST_CASE("long: unbiased in the proof variant camera-obscura") {
   // With the 64 samples per pixel of the config, a bias of 2 % could go unseen.
-  compare_proof("camera-obscura", focal_methods(), {"budget={ spp: 96 }"});
+  compare_proof("camera-obscura", focal_methods(), {"budget={ spp: 128 }"});
 }
 TEST_CASE("long: unbiased in the proof variant dining-room") {
   // With the 128 samples per pixel of the config, a bias of 2 % could go unseen.
