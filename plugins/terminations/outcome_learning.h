@@ -23,7 +23,7 @@ struct LearnedOutcomes {
 
   /// Returns the radiance to which contributions to a film position [pixels] are compared.
   float scale_at(Vec2 film) const { return pixels.at(film) + pixel_offset; }
-  /// What was learned of a vertex.
+  /// Returns what steps from the vertex of a query are expected to find.
   const ExpectedOutcome& at(const TerminationQuery& query) const {
     return steps.at(query.position, query.towards_previous);
   }

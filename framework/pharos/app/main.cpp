@@ -43,7 +43,7 @@ void check_command(const CLI::App& app, int argc, char** argv) {
 }
 
 /// Makes the C library keep freed memory instead of returning it to the system. Every work unit
-/// needs megabytes for path records or splats, and the system clears each page of them anew.
+/// needs megabytes for path records or splats, and the system would clear all of their pages again.
 void keep_freed_memory() {
 #if defined(__GLIBC__)
   constexpr int kLargestFromHeap = 32 << 20;  // [bytes] the largest value that glibc accepts

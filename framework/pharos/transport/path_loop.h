@@ -5,7 +5,7 @@
 namespace pharos {
 
 /// Calls `trace(key, stream)` for every path of a work unit, in a fixed order, and counts the paths
-/// on the film.
+/// on the film. If a guide chooses the pixels, every path is a splat, and the film reserves memory.
 template <class Trace>
 void for_each_path(const WorkUnit& unit, const IterationContext& context, int film_width,
                    WorkResult& result, Trace&& trace) {
