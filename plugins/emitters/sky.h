@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include <pharos/config/schema.h>
 #include <pharos/scene/emitter.h>
 
@@ -9,10 +11,18 @@
 
 namespace pharos {
 
+/// The models of the clear sky.
+enum class SkyModel {
+  hosek_wilkie,  ///< Hosek and Wilkie 2012
+  preetham       ///< Preetham, Shirley and Smits 1999
+};
+
 /// See sky.cpp.
 class SkyEmitter : public Emitter {
  public:
   struct Settings : DaylightSettings {
+    SkyModel model = SkyModel::hosek_wilkie;
+    Rgb ground = Rgb(0.15f);
     int resolution = 512;
     static void describe(Schema<Settings>& s);
   };
@@ -29,6 +39,12 @@ class SkyEmitter : public Emitter {
   LatLongImage image_;
   LatLongDistribution distribution_;
   float scale_;
+};
+
+template <>
+struct EnumNames<SkyModel> {
+  static constexpr auto names = std::to_array<EnumName<SkyModel>>(
+      {{"hosek_wilkie", SkyModel::hosek_wilkie}, {"preetham", SkyModel::preetham}});
 };
 
 }  // namespace pharos

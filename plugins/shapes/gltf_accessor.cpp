@@ -65,7 +65,7 @@ std::size_t GltfAccessor::size_of(Type type) {
 GltfAccessor::GltfAccessor(GltfFile& file, const GltfValue& reference, std::string_view type) {
   const GltfValue accessor = file.document.referenced(reference, "accessors");
   if (accessor.has("sparse")) accessor.fail("is sparse, which is not read");
-  const std::string& found = accessor.member("type").text();
+  const std::string found = accessor.member("type").text();
   if (found != type) {
     reference.fail(fmt::format("needs {}, and {} is {}", type, accessor.place(), found));
   }

@@ -65,7 +65,7 @@ void check_supported(const GltfValue& root) {
   if (!root.has("extensionsRequired")) return;
   const GltfValue required = root.member("extensionsRequired");
   for (std::size_t i = 0; i < required.size(); ++i) {
-    const std::string& name = required.item(i).text();
+    const std::string name = required.item(i).text();
     const bool harmless = std::any_of(kHarmless.begin(), kHarmless.end(),
                                       [&](auto prefix) { return name.starts_with(prefix); });
     if (!harmless) {

@@ -8,6 +8,8 @@ namespace pharos::mitsuba {
 namespace {
 
 constexpr double kDefaultTurbidity = 3;
+/// The default reflectance of the ground. The one of Mitsuba 0.x is also the one of Pharos.
+constexpr double kGroundOf0 = 0.15, kGroundOf3 = 0.3;
 /// The width of the sun's disk in Pharos and in Mitsuba 0.x, and its default in Mitsuba 3
 /// [degrees].
 constexpr double kSunWidth = 0.5358, kSunApertureOf3 = 0.5338;
@@ -54,10 +56,12 @@ ConfigNode half(Part& part, const char* type, const char* factor) {
 }
 
 ConfigNode sky_half(Part& part) {
-  part.note("emitter " + part.object().type +
-            ": the sky is by Preetham's model, whatever the ground");
-  part.ignore({"albedo"});
-  return half(part, "sky", "sky_scale");
+  ConfigNode node = half(part, "sky", "sky_scale");
+  const bool is_0 = part.map().document().dialect == Dialect::mitsuba_0;
+  if (!is_0 || part.has("albedo")) {
+    node.set("ground", part.color_or("albedo", is_0 ? kGroundOf0 : kGroundOf3), part.where());
+  }
+  return node;
 }
 
 ConfigNode sun_half(Part& part) {

@@ -58,6 +58,9 @@ TEST_CASE("lights: daylight is a sky and a sun") {
 
 TEST_CASE("lights: the zenith is +y in 0.x and +z in 3") {
   CHECK(light("sky", {}, Dialect::mitsuba_0) == "{ type: sky, turbidity: 3 }");
+  const Spectrum grass{.value = {0.2f, 0.4f, 0.1f}};
+  CHECK(light("sky", {value("albedo", grass)}, Dialect::mitsuba_0) ==
+        "{ type: sky, turbidity: 3, ground: [0.2, 0.4, 0.1] }");
   const Import import = import_of({emitter("sky")}, Dialect::mitsuba_2);
   const ConfigNode* matrix =
       import.config.find("scene")->find("emitters")->items()[0].find("to_world");

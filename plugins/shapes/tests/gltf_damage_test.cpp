@@ -22,13 +22,9 @@ std::string refusal(const std::string& what, const std::string& by) {
 }
 
 TEST_CASE("glTF: text that is no JSON") {
-  CHECK(
-      refusal("") ==
-      "file.gltf:1:1: error: syntax error while parsing value - unexpected end of input; expected "
-      "'[', '{', or a literal");
-  CHECK(refusal("{\n  \"asset\": nul\n}")
-            .starts_with(
-                "file.gltf:2:15: error: syntax error while parsing value - invalid literal"));
+  // The rest of the message is the JSON library's, and differs between its versions.
+  CHECK(refusal("").starts_with("file.gltf:1:1: error: syntax error"));
+  CHECK(refusal("{\n  \"asset\": nul\n}").starts_with("file.gltf:2:15: error: syntax error"));
   CHECK(refusal("[1e999]").starts_with("its JSON: number overflow parsing '1e999'"));
   CHECK(refusal("\"\xff\"").starts_with("file.gltf:1:2: error: syntax error"));
   CHECK(refusal("[]") == "its JSON is no object");
