@@ -8,7 +8,7 @@
 
 #include <pharos/tests/fixtures.h>
 
-#include "../document/document.h"
+#include "../mitsuba/document/document.h"
 
 namespace pharos::mitsuba {
 

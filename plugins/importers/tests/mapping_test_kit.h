@@ -6,7 +6,7 @@
 
 #include <pharos/rendering/render_config.h>
 
-#include "../mapping/mapping.h"
+#include "../mitsuba/mapping/mapping.h"
 
 /// Mitsuba scenes built by hand, and the results of their import.
 namespace pharos::mitsuba::test {

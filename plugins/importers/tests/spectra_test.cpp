@@ -4,11 +4,13 @@
 #include <cmath>
 #include <string>
 
-#include "../document/color_matching.h"
+#include "../shared/color_matching.h"
 #include "document_test_kit.h"
 
 namespace pharos::mitsuba {
 namespace {
+
+using importing::black_body, importing::color_in_daylight, importing::color_of_light;
 
 Spectrum read(const std::string& tag, const std::string& attributes,
               const std::string& parent = "bsdf") {

@@ -9,13 +9,16 @@
 
 #include <fmt/format.h>
 
-#include "color_matching.h"
+#include "../../shared/color_matching.h"
 #include "names.h"
 #include "spectrum_file.h"
 #include "values.h"
 
 namespace pharos::mitsuba {
 namespace {
+
+using importing::black_body, importing::color_in_daylight, importing::color_of_light,
+    importing::WavelengthFunction;
 
 Spectrum gray(float value) {
   return {.value = Rgb(value), .is_gray = true};

@@ -11,10 +11,6 @@
 namespace pharos::mitsuba {
 namespace {
 
-ConfigNode float_node(float value, const Location& where) {
-  return ConfigNode::scalar(number_text(value), where);
-}
-
 const Object* nested_object(const Property& property) {
   const auto* nested = std::get_if<std::shared_ptr<const Object>>(&property.value);
   return nested != nullptr ? nested->get() : nullptr;
@@ -22,42 +18,13 @@ const Object* nested_object(const Property& property) {
 
 }  // namespace
 
-ConfigNode number_node(double value, const Location& where) {
-  return ConfigNode::scalar(number_text(value), where);
-}
-
 ConfigNode color_node(const Spectrum& value, const Location& where) {
-  const Rgb c = value.value;
-  if (value.is_gray) return float_node(c.r, where);
-  ConfigNode list = ConfigNode::sequence(where);
-  for (const float channel : {c.r, c.g, c.b}) list.items().push_back(float_node(channel, where));
-  return list;
-}
-
-ConfigNode triple_node(Vec3 value, const Location& where) {
-  ConfigNode list = ConfigNode::sequence(where);
-  for (const float x : {value.x, value.y, value.z}) list.items().push_back(float_node(x, where));
-  return list;
-}
-
-ConfigNode transform_node(const Transform& value, const Location& where) {
-  ConfigNode list = ConfigNode::sequence(where);
-  for (const auto& row : value.matrix()) {
-    for (const float x : row) list.items().push_back(float_node(x, where));
-  }
-  ConfigNode step = ConfigNode::mapping(where);
-  step.set("matrix", std::move(list), where);
-  return step;
-}
-
-ConfigNode text_node(std::string text, const Location& where) {
-  return ConfigNode::scalar(std::move(text), where);
+  if (value.is_gray) return ConfigNode::scalar(number_text(value.value.r), where);
+  return importing::rgb_node(value.value, where);
 }
 
 ConfigNode Part::node(const char* type) const {
-  ConfigNode mapping = ConfigNode::mapping(where());
-  mapping.set("type", text_node(type, where()), where());
-  return mapping;
+  return importing::plugin_node(type, where());
 }
 
 void Part::fail_kind(const Property& property, const char* expected) {

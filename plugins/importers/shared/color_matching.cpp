@@ -8,7 +8,7 @@
 #include <array>
 #include <cmath>
 
-namespace pharos::mitsuba {
+namespace pharos::importing {
 namespace {
 
 constexpr int kFirst = 360, kLast = 830;  ///< wavelengths [nm]
@@ -113,4 +113,4 @@ double black_body(double temperature, double wavelength) {
   return 1e-9 * per_meter;
 }
 
-}  // namespace pharos::mitsuba
+}  // namespace pharos::importing

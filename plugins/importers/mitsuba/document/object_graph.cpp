@@ -7,7 +7,7 @@
 namespace pharos::mitsuba {
 namespace {
 
-constexpr std::size_t kDeepest = 64;
+constexpr std::size_t kDeepestGraph = 64;
 constexpr std::size_t kMostObjects = 10'000'000;
 
 std::string called(const Object& object) {
@@ -32,7 +32,7 @@ ObjectGraph::Extent ObjectGraph::visit(const Object& object, const Location& whe
     throw InputError(where, fmt::format("{} contains itself by this reference", called(object)));
   }
   const std::size_t height = is_new ? 1 : entry->second.height;
-  if (depth + height - 1 > kDeepest) {
+  if (depth + height - 1 > kDeepestGraph) {
     throw InputError(where, "objects and references are nested more than 64 deep");
   }
   if (!is_new) return entry->second;

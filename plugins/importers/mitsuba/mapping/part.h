@@ -7,16 +7,16 @@
 #include <string_view>
 #include <vector>
 
+#include "../../shared/nodes.h"
 #include "scene_map.h"
 
 namespace pharos::mitsuba {
 
-/// Nodes of values, with their location in the scene file.
-ConfigNode number_node(double value, const Location& where);
+using importing::number_node, importing::text_node, importing::transform_node,
+    importing::triple_node;
+
+/// Returns one number for gray colors, and otherwise a list of three.
 ConfigNode color_node(const Spectrum& value, const Location& where);
-ConfigNode triple_node(Vec3 value, const Location& where);
-ConfigNode transform_node(const Transform& value, const Location& where);
-ConfigNode text_node(std::string text, const Location& where);
 
 /// One object during mapping. Returns its properties and records which were requested, so that
 /// finish() can note the unused ones. All functions throw InputError if a property is present but

@@ -1,12 +1,12 @@
 #pragma once
 
 #include <map>
-#include <set>
 #include <string>
 #include <utility>
 
 #include <pharos/scene/importer.h>
 
+#include "../../shared/import_log.h"
 #include "../document/document.h"
 
 namespace pharos::mitsuba {
@@ -24,7 +24,7 @@ class SceneMap {
   explicit SceneMap(const Document& document);
 
   /// Adds a note to the import. Notes with the same message are counted instead of repeated.
-  void note(const Location& where, const std::string& message);
+  void note(const Location& where, const std::string& message) { log_.note(where, message); }
 
   /// Records an object of the scene file in the list of objects. Throws InputError if objects are
   /// nested deeper than 64; the entry counts as a level while it lives. done() states the result
@@ -35,7 +35,7 @@ class SceneMap {
     ~Entry() { --map_.depth_; }
     Entry(const Entry&) = delete;
     Entry& operator=(const Entry&) = delete;
-    void done(std::string stands) { map_.result_.objects[index_].stands = std::move(stands); }
+    void done(std::string stands) { map_.log_.stands(index_, std::move(stands)); }
 
    private:
     SceneMap& map_;
@@ -44,10 +44,9 @@ class SceneMap {
 
   /// A dictionary of the scene: `textures`, `materials`, `media` or `groups`.
   struct Dictionary {
-    std::string word;  ///< "texture"; precedes ids that cannot be names
+    importing::EntryNames free_names;
     ConfigNode entries = ConfigNode::mapping();
     std::map<std::pair<const Object*, UvSense>, std::string> names = {};
-    std::set<std::string> taken = {};
   };
   Dictionary& textures() { return textures_; }
   Dictionary& materials() { return materials_; }
@@ -63,7 +62,7 @@ class SceneMap {
     const auto found = dictionary.names.find({&object, sense});
     if (found != dictionary.names.end()) return found->second;
     ConfigNode node = make();  // records the objects it refers to before this one
-    std::string name = free_name(dictionary, object.id);
+    std::string name = dictionary.free_names.take(object.id);
     dictionary.names[{&object, sense}] = name;
     dictionary.entries.entries().push_back({name, object.where, std::move(node)});
     return name;
@@ -78,17 +77,17 @@ class SceneMap {
 
   const Document& document() const { return document_; }
   /// The import so far.
-  Import& result() { return result_; }
+  Import& result() { return log_.result(); }
 
  private:
-  static std::string free_name(Dictionary& dictionary, const std::string& id);
+  static Dictionary named(const char* word) { return {.free_names = importing::EntryNames(word)}; }
 
   const Document& document_;
-  Import result_;
-  std::map<std::string, std::size_t> note_index_;
+  importing::ImportLog log_;
   std::map<const Object*, bool> uv_dependence_;
   int depth_ = 0;
-  Dictionary textures_{"texture"}, materials_{"material"}, media_{"medium"}, groups_{"group"};
+  Dictionary textures_ = named("texture"), materials_ = named("material"), media_ = named("medium"),
+             groups_ = named("group");
 };
 
 /// Describes an object, such as "bsdf roughplastic 'Lamp'".

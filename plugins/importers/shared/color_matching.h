@@ -4,7 +4,7 @@
 
 #include <pharos/core/rgb.h>
 
-namespace pharos::mitsuba {
+namespace pharos::importing {
 
 /// A spectrum as a function: its value at a wavelength [nm].
 using WavelengthFunction = std::function<double(double)>;
@@ -23,4 +23,4 @@ Rgb color_in_daylight(const WavelengthFunction& spectrum);
 /// Planck's law [W/(m^2 sr nm)].
 double black_body(double temperature, double wavelength);
 
-}  // namespace pharos::mitsuba
+}  // namespace pharos::importing
