@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 
 #include <pharos/config/schema.h>
@@ -10,6 +11,12 @@
 
 namespace pharos {
 
+/// How an image shows all directions.
+enum class EnvironmentLayout {
+  latitude_longitude,  ///< rows are circles of latitude
+  equal_area           ///< a square of equal areas, as in pbrt-v4
+};
+
 /// See environment_map.cpp.
 class EnvironmentMap : public Emitter {
  public:
@@ -17,6 +24,7 @@ class EnvironmentMap : public Emitter {
     std::filesystem::path file;
     Transform to_world = {};
     float scale = 1;
+    EnvironmentLayout layout = EnvironmentLayout::latitude_longitude;
     static void describe(Schema<Settings>& s);
   };
 
@@ -32,6 +40,13 @@ class EnvironmentMap : public Emitter {
   LatLongDistribution distribution_;
   Frame axes_;
   float scale_;
+};
+
+template <>
+struct EnumNames<EnvironmentLayout> {
+  static constexpr auto names = std::to_array<EnumName<EnvironmentLayout>>(
+      {{"latitude_longitude", EnvironmentLayout::latitude_longitude},
+       {"equal_area", EnvironmentLayout::equal_area}});
 };
 
 }  // namespace pharos

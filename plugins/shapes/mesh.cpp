@@ -2,6 +2,8 @@
 //
 //   .gltf .glb    glTF 2.0; parts are its nodes and meshes
 //   .obj          Wavefront OBJ; parts are its objects (o) and groups (g)
+//   .pbrt         a mesh within a scene file of pbrt-v4; parts are the places 'line:column' of its
+//                 `Shape` directives; the importer `pbrt` refers to them
 //   .ply          PLY, text or binary; it has no parts
 //   .serialized   Mitsuba's format, version 3 or 4; in version 4 its meshes are its parts;
 //                 `shape_index` selects a mesh by its number, from 0
@@ -50,7 +52,7 @@ namespace pharos {
 
 void Mesh::Settings::describe(Schema<Settings>& s) {
   s.field("file", &Settings::file,
-          "File with the triangles: .glb, .gltf, .obj, .ply, .serialized or .stl")
+          "File with the triangles: .glb, .gltf, .obj, .pbrt, .ply, .serialized or .stl")
       .required();
   s.field("part", &Settings::part, "Read only the mesh or node of this name; empty: everything");
   s.field("shape_index", &Settings::shape_index,

@@ -15,6 +15,7 @@
 #include "gltf_file.h"
 #include "mesh_source.h"
 #include "obj_file.h"
+#include "pbrt_mesh.h"
 #include "ply_file.h"
 #include "serialized_file.h"
 #include "stl_file.h"
@@ -30,10 +31,11 @@ struct Format {
   bool has_parts, has_numbers;
   TriangleMesh (*read)(const MeshSource&);
 };
-constexpr std::array<Format, 6> kFormats{
+constexpr std::array<Format, 7> kFormats{
     {{".glb", true, false, read_gltf},
      {".gltf", true, false, read_gltf},
      {".obj", true, false, read_obj},
+     {".pbrt", true, false, read_pbrt_mesh},
      {".ply", false, false, [](const MeshSource& source) { return read_ply(source.bytes); }},
      {".serialized", true, true, read_serialized},
      // In STL files every triangle has its own vertices.

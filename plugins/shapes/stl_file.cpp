@@ -16,7 +16,7 @@ namespace {
 // A binary file consists of free text, the number of triangles, and for each triangle its normal,
 // its vertices and two bytes of arbitrary data.
 constexpr std::size_t kTextSize = 80;
-constexpr std::size_t kHeaderSize = kTextSize + sizeof(std::uint32_t);
+constexpr std::size_t kBinaryHeaderSize = kTextSize + sizeof(std::uint32_t);
 constexpr std::size_t kTriangleSize = 50;
 constexpr std::size_t kNormalSize = 12;
 
@@ -31,8 +31,8 @@ std::uint32_t binary_count(std::string_view bytes) {
 bool is_text(std::string_view bytes) {
   const std::size_t first = bytes.find_first_not_of(" \t\r\n");
   if (first == std::string_view::npos || !bytes.substr(first).starts_with("solid")) return false;
-  return bytes.size() < kHeaderSize ||
-         bytes.size() != kHeaderSize + kTriangleSize * std::uint64_t{binary_count(bytes)};
+  return bytes.size() < kBinaryHeaderSize ||
+         bytes.size() != kBinaryHeaderSize + kTriangleSize * std::uint64_t{binary_count(bytes)};
 }
 
 /// Adds a triangle with three new vertices. Equal vertices are joined later.
@@ -43,9 +43,9 @@ void add_triangle(TriangleMesh& mesh, const std::array<Point3, 3>& corners) {
 }
 
 TriangleMesh read_binary(std::string_view bytes) {
-  if (bytes.size() < kHeaderSize) throw InputError("it is too short for an STL file");
+  if (bytes.size() < kBinaryHeaderSize) throw InputError("it is too short for an STL file");
   const std::uint64_t count = binary_count(bytes);
-  if (count > (bytes.size() - kHeaderSize) / kTriangleSize) {
+  if (count > (bytes.size() - kBinaryHeaderSize) / kTriangleSize) {
     throw InputError(fmt::format("it ends before its {} triangles", count));
   }
   check_triangle_count(static_cast<double>(count), "it");
@@ -55,7 +55,7 @@ TriangleMesh read_binary(std::string_view bytes) {
   for (std::uint64_t i = 0; i < count; ++i) {
     std::array<Point3, 3> corners;
     static_assert(sizeof(corners) == 36);
-    std::memcpy(&corners, bytes.data() + kHeaderSize + kTriangleSize * i + kNormalSize,
+    std::memcpy(&corners, bytes.data() + kBinaryHeaderSize + kTriangleSize * i + kNormalSize,
                 sizeof(corners));
     for (const Point3 p : corners) {
       if (!is_finite(p)) throw InputError(fmt::format("a vertex of triangle {} is not finite", i));

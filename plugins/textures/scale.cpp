@@ -9,28 +9,9 @@
 //     { type: scale, texture: { type: bitmap, file: wood.png }, factor: [1, 0.8, 0.6] }
 #include "scale.h"
 
+#include "covariance.h"
+
 namespace pharos {
-namespace {
-
-/// The mean of (a - mean of a) (b - mean of b); exactly 0 if either texture is constant.
-Rgb covariance(const Texture& a, const Texture& b) {
-  constexpr int kSteps = 64;
-  constexpr float kCell = 1.0f / kSteps, kShare = kCell * kCell;
-  Rgb mean_a, mean_b, mean_product;  // of the differences to the averages
-  for (int y = 0; y < kSteps; ++y) {
-    for (int x = 0; x < kSteps; ++x) {
-      SurfacePoint point;
-      point.uv = kCell * Vec2{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f};
-      const Rgb rest_a = a.evaluate(point) - a.average(), rest_b = b.evaluate(point) - b.average();
-      mean_a += kShare * rest_a;
-      mean_b += kShare * rest_b;
-      mean_product += kShare * rest_a * rest_b;
-    }
-  }
-  return mean_product - mean_a * mean_b;
-}
-
-}  // namespace
 
 void ScaleTexture::Settings::describe(Schema<Settings>& s) {
   s.field("texture", &Settings::texture, "Texture that is scaled").required();
@@ -45,7 +26,7 @@ ScaleTexture::ScaleTexture(Settings settings) : settings_(std::move(settings)) {
     throw InputError("scale: the product is beyond what a float can hold");
   }
   const Texture &a = *settings_.texture, &b = *settings_.factor;
-  const Rgb product = a.average() * b.average() + covariance(a, b);
+  const Rgb product = a.average() * b.average() + texture_covariance(a, b);
   for (int i = 0; i < 3; ++i) average_[i] = std::max(0.0f, product[i]);
 }
 

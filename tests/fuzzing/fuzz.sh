@@ -8,7 +8,7 @@
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 build=${PHAROS_BUILD:-$root/build/fuzz}
-name=${1:?usage: fuzz.sh checkpoint|config|image|mesh|mitsuba|model [seconds] [libFuzzer options]}
+name=${1:?usage: fuzz.sh checkpoint|config|image|mesh|mitsuba|model|pbrt [seconds] [libFuzzer options]}
 seconds=${2:-600}
 shift $(($# < 2 ? $# : 2))
 
@@ -48,9 +48,14 @@ case $name in
     # A scene in each dialect; include files of the fuzzer's own.
     printf '<scene version="0.6.0"><default name="n" value="1"/><integrator type="path"><integer name="maxDepth" value="$n"/></integrator><sensor type="perspective"><transform name="toWorld"><scale value="2"/><rotate y="1" angle="30"/><lookAt origin="0,0,1" target="0 0 0" up="0 1 0"/><matrix value="1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1"/></transform><film type="hdrfilm"/></sensor><bsdf type="diffuse" id="a"><srgb name="reflectance" value="#ff8000"/></bsdf><alias id="a" as="b"/><shape type="sphere"><point name="center" x="0" y="1" z="2"/><ref id="b"/><emitter type="area"><blackbody name="radiance" temperature="5000K" scale="2"/></emitter></shape></scene>' >"$corpus/old.xml"
     printf '<?xml version="1.0"?>\n<!-- c -->\n<scene version="3.0.0"><path value="."/><include filename="a.xml"/><include filename="b.xml"/><bsdf type="conductor"><spectrum name="eta" value="400:0.1, 500:0.2, 700:1"/><spectrum name="k" filename="s.spd"/></bsdf><shape type="cube"><transform name="to_world"><translate value="1 2 3"/></transform><boolean name="flip_normals" value="true"/><string name="filename" value="m.ply"/><ref name="bsdf" id="inc"/></shape></scene>' >"$corpus/new.xml"
-    grep -o '"[A-Za-z]*"' "$root/plugins/importers/document/names.h" >"$words"
+    grep -o '"[A-Za-z]*"' "$root/plugins/importers/mitsuba/document/names.h" >"$words"
     printf '"%s"\n' name value type id as filename version temperature origin target up angle \
       '<!--' '-->' '<![CDATA[' ']]>' '<?xml' '&quot;' '<scene version=\"0.6.0\">' '</scene>' >>"$words"
+    limit=4096 ;;
+  pbrt)
+    printf 'LookAt 0 1 4  0 1 0  0 1 0\nCamera "perspective" "float fov" 40\nFilm "rgb" "integer xresolution" [ 8 ]\nWorldBegin # world\nTexture "t" "spectrum" "checkerboard" "float uscale" 8 "rgb tex1" [ .1 .2 .3 ]\nAttributeBegin\nAreaLightSource "diffuse" "blackbody L" 4000\nRotate 90 1 0 0\nMaterial "coateddiffuse" "texture reflectance" "t" "float roughness" .1\nShape "trianglemesh" "point3 P" [ 0 0 0 1 0 0 0 1 0 ] "integer indices" [ 0 1 2 ]\nAttributeEnd\nInclude "a.pbrt"\nShape "sphere"\n' >"$corpus/room.pbrt"
+    printf 'MakeNamedMedium "fog" "rgb sigma_s" [ 1 1 1 ]\nMediumInterface "" "fog"\nCamera "orthographic"\nWorldBegin\nMakeNamedMaterial "m" "string type" "conductor" "spectrum eta" "metal-Cu-eta" "spectrum k" [ 400 1 700 2 ]\nNamedMaterial "m"\nObjectBegin "o"\nTransform [ 1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 ]\nShape "disk" "float alpha" .5\nObjectEnd\nObjectInstance "o"\nLightSource "spot" "float power" 10\nLightSource "infinite" "spectrum L" "s.spd"\n' >"$corpus/fog.pbrt"
+    grep -oh '"[A-Za-z0-9.-]*"' "$root"/plugins/importers/pbrt/*.cpp "$root"/plugins/pbrt_syntax/*.cpp | sort -u | grep -v '""' >"$words"
     limit=4096 ;;
   checkpoint | image | model)
     # Files that a small render leaves, each after the byte that says what it is.

@@ -13,7 +13,7 @@
 
 #include <pharos/tests/fixtures.h>
 
-#include "document/document.h"
+#include "mitsuba/document/document.h"
 
 namespace {
 

@@ -105,6 +105,12 @@ Rgb color_in_daylight(const WavelengthFunction& spectrum) {
   return color;
 }
 
+Rgb color_of_chromaticity(double x, double y) {
+  Rgb color = rec_709({x / y, 1, (1 - x - y) / y});
+  for (int c = 0; c < 3; ++c) color[c] = std::max(color[c], 0.0f);
+  return color;
+}
+
 double black_body(double temperature, double wavelength) {
   constexpr double h = 6.62607015e-34, c = 299792458, k = 1.380649e-23;  // SI, exact
   const double meters = 1e-9 * wavelength;

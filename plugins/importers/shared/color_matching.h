@@ -19,6 +19,10 @@ Rgb color_of_light(const WavelengthFunction& spectrum);
 /// components become 0; if the spectrum never exceeds 1, neither do the components.
 Rgb color_in_daylight(const WavelengthFunction& spectrum);
 
+/// Returns the color of luminance 1 with the chromaticity (x, y) of the CIE 1931 observer. Negative
+/// components become 0.
+Rgb color_of_chromaticity(double x, double y);
+
 /// Returns the radiance of a black body at an absolute temperature [K] and a wavelength [nm], by
 /// Planck's law [W/(m^2 sr nm)].
 double black_body(double temperature, double wavelength);

@@ -3,6 +3,7 @@
 #include "../checkerboard.h"
 #include "../constant.h"
 #include "../grid.h"
+#include "../mix.h"
 #include "../scale.h"
 
 namespace pharos {
@@ -120,6 +121,42 @@ TEST_CASE("scale: a product that is not finite is refused") {
   const Ref<Texture> huge =
       std::make_shared<ConstantTexture>(ConstantTexture::Settings{.value = Rgb(1e30f)});
   CHECK_THROWS_AS(ScaleTexture({.texture = huge, .factor = huge}), InputError);
+}
+
+TEST_CASE("mix: between two textures, its bound and its average") {
+  const auto color = [](Rgb value) -> Ref<Texture> {
+    return std::make_shared<ConstantTexture>(ConstantTexture::Settings{.value = value});
+  };
+  const Ref<Texture> checker =
+      std::make_shared<Checkerboard>(Checkerboard::Settings{.color0 = Rgb(0), .color1 = Rgb(1)});
+  const MixTexture constant(
+      {.first = color({0, 1, 2}), .second = color(Rgb(1)), .weight = color({0.25f, 0.5f, 1})});
+  CHECK(at(constant, 0.3f, 0.9f) == Rgb(0.25f, 1, 1));
+  CHECK(constant.average() == Rgb(0.25f, 1, 1));
+  CHECK(constant.maximum() == Rgb(1, 1, 2));
+
+  const MixTexture squares(
+      {.first = color(Rgb(0.5f)), .second = color({0, 1, 3}), .weight = checker});
+  CHECK(at(squares, 0.25f, 0.25f) == Rgb(0.5f));
+  CHECK(at(squares, 0.75f, 0.25f) == Rgb(0, 1, 3));
+  const MixTexture inverted({.first = color(Rgb(1)), .second = color(Rgb(0)), .weight = checker});
+  CHECK(at(inverted, 0.25f, 0.25f) == Rgb(1));
+
+  // The weight is correlated with both textures.
+  const MixTexture same({.first = color(Rgb(0.3f)), .second = checker, .weight = checker});
+  for (const MixTexture* mix : {&squares, &inverted, &same}) {
+    const Rgb mean = mean_of(*mix), average = mix->average();
+    for (int i = 0; i < 3; ++i) CHECK(average[i] == doctest::Approx(mean[i]).epsilon(1e-4));
+  }
+  CHECK(same.average().r == doctest::Approx(0.65));
+}
+
+TEST_CASE("mix: a weight above 1 is refused") {
+  const auto color = [](float value) -> Ref<Texture> {
+    return std::make_shared<ConstantTexture>(ConstantTexture::Settings{.value = Rgb(value)});
+  };
+  CHECK_THROWS_AS(MixTexture({.first = color(0), .second = color(1), .weight = color(1.5f)}),
+                  InputError);
 }
 
 }  // namespace pharos

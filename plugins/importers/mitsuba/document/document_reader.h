@@ -53,7 +53,7 @@ class DocumentReader {
   std::filesystem::path path_;
   Variables variables_;
   Folders folders_;
-  ReadingBudget budget_;
+  importing::ReadingBudget budget_;
   References references_;
   std::vector<std::filesystem::path> open_files_;  ///< canonical, the outermost first
   std::vector<ImportNote> notes_;

@@ -10,15 +10,15 @@
 #include <fmt/format.h>
 
 #include "../../shared/color_matching.h"
+#include "../../shared/spectrum_file.h"
 #include "names.h"
-#include "spectrum_file.h"
 #include "values.h"
 
 namespace pharos::mitsuba {
 namespace {
 
 using importing::black_body, importing::color_in_daylight, importing::color_of_light,
-    importing::WavelengthFunction;
+    importing::WavelengthFunction, importing::WavelengthList;
 
 Spectrum gray(float value) {
   return {.value = Rgb(value), .is_gray = true};
@@ -103,14 +103,15 @@ Spectrum read_values(const Element& element, bool of_emitter) {
 }
 
 Spectrum read_spectrum_tag(const Element& element, bool of_emitter, const Folders& folders,
-                           ReadingBudget& budget) {
+                           importing::ReadingBudget& budget) {
   element.expect({"name"}, {"value", "filename", "intent"});
   check_intent(element);
   if (element.has("value") == element.has("filename")) {
     element.fail("<spectrum> needs either 'value' or 'filename'");
   }
   if (element.has("value")) return read_values(element, of_emitter);
-  const WavelengthList list = read_spectrum_file(folders.file(element, "filename"), budget);
+  const WavelengthList list =
+      importing::read_spectrum_file(folders.file(element, "filename"), budget);
   return read_list(element, list, of_emitter);
 }
 
@@ -129,7 +130,7 @@ Spectrum read_black_body(const Element& element) {
 }  // namespace
 
 Spectrum read_spectrum(const Element& element, bool of_emitter, const Folders& folders,
-                       ReadingBudget& budget) {
+                       importing::ReadingBudget& budget) {
   if (element.tag() == "spectrum") return read_spectrum_tag(element, of_emitter, folders, budget);
   if (element.tag() == "blackbody") return read_black_body(element);
   element.expect({"name", "value"}, {"intent"});

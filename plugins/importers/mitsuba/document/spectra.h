@@ -14,6 +14,6 @@ namespace pharos::mitsuba {
 /// numbers (linear RGB), pairs `wavelength:value` [nm] with increasing wavelengths, which is 0
 /// outside them, or a text file with one such pair per line, which takes from the budget.
 Spectrum read_spectrum(const Element& element, bool of_emitter, const Folders& folders,
-                       ReadingBudget& budget);
+                       importing::ReadingBudget& budget);
 
 }  // namespace pharos::mitsuba

@@ -7,16 +7,12 @@
 
 #include <pharos/core/vec.h>
 
+#include "../../shared/numbers.h"
 #include "element.h"
 
 namespace pharos::mitsuba {
 
-/// Splits a text into words at blanks and commas.
-std::vector<std::string_view> words(std::string_view text);
-
-/// Parses a finite number without blanks around it; empty if `text` is not a number. A number too
-/// small for a double is 0.
-std::optional<double> parse_number(std::string_view text);
+using importing::parse_number, importing::words;
 
 /// These functions return the value of an attribute of an element. They throw InputError if the
 /// text has another format.

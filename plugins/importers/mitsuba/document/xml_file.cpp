@@ -43,8 +43,8 @@ std::size_t behind(std::string_view text, std::size_t from, std::string_view end
 
 }  // namespace
 
-XmlFile::XmlFile(const std::filesystem::path& path, ReadingBudget& budget)
-    : path_(path), text_(read_file(path, budget)) {
+XmlFile::XmlFile(const std::filesystem::path& path, importing::ReadingBudget& budget)
+    : path_(path), text_(importing::read_file(path, budget)) {
   check_encoding();
   find_lines();
   count_parts(budget);
@@ -73,7 +73,7 @@ void XmlFile::find_lines() {
 
 // Counts the parts before the tree is built, because a tree takes many times the memory of its
 // text.
-void XmlFile::count_parts(ReadingBudget& budget) const {
+void XmlFile::count_parts(importing::ReadingBudget& budget) const {
   const std::string_view text = text_;
   for (std::size_t i = 0; i < text.size(); ++i) {
     if (text[i] == '=') {

@@ -9,7 +9,7 @@
 
 #include <pharos/core/error.h>
 
-#include "read_file.h"
+#include "../../shared/read_file.h"
 
 namespace pharos::mitsuba {
 
@@ -19,7 +19,7 @@ class XmlFile {
  public:
   /// Throws InputError if the file is not XML in UTF-8, has a document type, or exceeds the budget.
   /// `path` must be a readable file, see file_problem().
-  XmlFile(const std::filesystem::path& path, ReadingBudget& budget);
+  XmlFile(const std::filesystem::path& path, importing::ReadingBudget& budget);
 
   const std::filesystem::path& path() const { return path_; }
   /// The outermost element.
@@ -34,7 +34,7 @@ class XmlFile {
 
  private:
   void check_encoding() const;
-  void count_parts(ReadingBudget& budget) const;
+  void count_parts(importing::ReadingBudget& budget) const;
   void find_lines();
   void parse();
   void find_root();

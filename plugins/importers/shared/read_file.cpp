@@ -5,7 +5,7 @@
 
 #include <pharos/core/error.h>
 
-namespace pharos::mitsuba {
+namespace pharos::importing {
 
 std::string read_file(const std::filesystem::path& path, ReadingBudget& budget) {
   const Location where{path.string()};
@@ -27,4 +27,4 @@ std::string read_file(const std::filesystem::path& path, ReadingBudget& budget) 
   return text;
 }
 
-}  // namespace pharos::mitsuba
+}  // namespace pharos::importing

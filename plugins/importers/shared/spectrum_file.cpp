@@ -8,9 +8,9 @@
 
 #include <pharos/core/error.h>
 
-#include "values.h"
+#include "numbers.h"
 
-namespace pharos::mitsuba {
+namespace pharos::importing {
 namespace {
 
 constexpr std::size_t kMostPairs = 100'000;
@@ -66,4 +66,4 @@ WavelengthList read_spectrum_file(const std::filesystem::path& path, ReadingBudg
   return list;
 }
 
-}  // namespace pharos::mitsuba
+}  // namespace pharos::importing

@@ -7,7 +7,7 @@
 
 #include "read_file.h"
 
-namespace pharos::mitsuba {
+namespace pharos::importing {
 
 /// Values at increasing wavelengths [nm]: linear between them, 0 outside.
 class WavelengthList {
@@ -26,4 +26,4 @@ class WavelengthList {
 /// with line and column for anything else in the file.
 WavelengthList read_spectrum_file(const std::filesystem::path& path, ReadingBudget& budget);
 
-}  // namespace pharos::mitsuba
+}  // namespace pharos::importing

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-namespace pharos::mitsuba {
+namespace pharos::importing {
 
 /// Limits for all files of one scene together. Each file takes its share.
 struct ReadingBudget {
@@ -18,4 +18,4 @@ struct ReadingBudget {
 /// Throws InputError if they exceed the budget or reading fails.
 std::string read_file(const std::filesystem::path& path, ReadingBudget& budget);
 
-}  // namespace pharos::mitsuba
+}  // namespace pharos::importing
