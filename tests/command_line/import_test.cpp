@@ -74,7 +74,7 @@ TEST_CASE("members of the integrator and the sampler of a scene are changed one 
   const std::string independent = "sampler type=\"independent\"";
   xml.replace(xml.find(independent), independent.size(), "sampler type=\"multijitter\"");
   folder.write("scene.xml", xml);
-  folder.write("config.yaml", "scene: scene.xml\nintegrator: { roulette_depth: 7 }\n");
+  folder.write("config.yaml", "scene: scene.xml\nintegrator: { termination: { depth: 7 } }\n");
   const auto validated = [&](const std::string& options) {
     const Outcome outcome = run_pharos("validate " + options, folder.path());
     REQUIRE_MESSAGE(outcome.exit_code == 0, outcome.err);
@@ -83,20 +83,28 @@ TEST_CASE("members of the integrator and the sampler of a scene are changed one 
   const auto says = [](const std::string& settings, const char* part) {
     return settings.find(part) != std::string::npos;
   };
-  for (const char* config : {"config.yaml", "scene.xml --set integrator.roulette_depth=7"}) {
+  for (const char* config : {"config.yaml", "scene.xml --set integrator.termination.depth=7"}) {
     const std::string settings = validated(config);
     CHECK(says(settings, "max_depth: 6"));
-    CHECK(says(settings, "roulette_depth: 7"));
+    CHECK(says(settings, "depth: 7"));
     CHECK(says(settings, "spp: 4"));
   }
   CHECK(says(validated("scene.xml --set integrator.guiding=robust"), "max_depth: 6"));
   const std::string sampler = validated("scene.xml --set sampler.correlated=false");
   CHECK(says(sampler, "type: multi_jittered"));
   CHECK(says(sampler, "correlated: false"));
-  // Another integrator begins with its own defaults, and a budget is replaced as a whole.
+  // Another integrator renders the same light unless it states otherwise. A budget is replaced as a
+  // whole.
   const std::string other = validated("scene.xml --set 'integrator={ type: light }'");
   CHECK(says(other, "type: light"));
-  CHECK_FALSE(says(other, "max_depth: 6"));
+  CHECK(says(other, "max_depth: 6"));
+  CHECK(says(other, "termination:\n    type: throughput"));
+  CHECK_FALSE(says(other, "guiding"));
+  CHECK(says(validated("scene.xml --set 'integrator={ type: light, max_depth: 3 }'"),
+             "max_depth: 3"));
+  CHECK(says(validated("scene.xml --set 'integrator={ type: path, termination: none }'"),
+             "max_depth: 6"));
+  CHECK(says(validated("scene.xml --set integrator.roulette=throughput"), "roulette: throughput"));
   CHECK_FALSE(says(validated("scene.xml --set 'budget={ seconds: 2 }'"), "spp: 4"));
 }
 

@@ -33,7 +33,7 @@ constexpr const char* kFilm =
 constexpr const char* kRender =
     "film: { width: 24, height: 16, filter: { type: box } }\n"
     "sampler: independent\nbudget: { spp: 4 }\n"
-    "integrator: { type: path, max_depth: 6, roulette: throughput }\n";
+    "integrator: { type: path, max_depth: 6, termination: throughput }\n";
 
 constexpr const char* kFloor =
     "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float "

@@ -23,9 +23,12 @@ std::string importer_name(const fs::path& file) {
   return extension;
 }
 
-/// Returns whether a node states members of a plugin, but not which plugin it is.
-bool lacks_type(const ConfigNode& node) {
-  return node.is_mapping() && node.find("type") == nullptr;
+/// Returns whether a node states members of the plugin of `imported`, or of any plugin.
+bool extends(const ConfigNode& stated, const ConfigNode& imported) {
+  const ConfigNode* type = stated.find("type");
+  const ConfigNode* imported_type = imported.find("type");
+  if (type == nullptr) return stated.is_mapping();
+  return imported_type != nullptr && type->text() == imported_type->text();
 }
 
 /// Returns a plugin as a mapping, also if only its name is stated.
@@ -34,6 +37,28 @@ ConfigNode with_type(ConfigNode plugin) {
   ConfigNode mapping = ConfigNode::mapping();
   mapping.set("type", std::move(plugin));
   return mapping;
+}
+
+/// Merges a stated sampler into the imported one if it is of the same type.
+ConfigNode merged_sampler(ConfigNode imported, const ConfigNode& stated) {
+  imported = with_type(std::move(imported));
+  return extends(stated, imported) ? merged(std::move(imported), stated) : stated;
+}
+
+/// Merges a stated integrator into the imported one. Whatever its type, it estimates the same
+/// light: the depth and the termination of paths remain unless they are stated.
+ConfigNode merged_integrator(ConfigNode imported, const ConfigNode& stated) {
+  imported = with_type(std::move(imported));
+  const ConfigNode over = with_type(stated);
+  if (over.find("roulette") != nullptr) imported.take("termination");
+  if (extends(over, imported)) return merged(std::move(imported), over);
+  ConfigNode integral = ConfigNode::mapping(imported.where());
+  for (const char* key : {"max_depth", "termination"}) {
+    if (ConfigNode member = imported.take(key); !member.is_null()) {
+      integral.set(key, std::move(member), imported.where());
+    }
+  }
+  return merged(std::move(integral), over);
 }
 
 }  // namespace
@@ -80,8 +105,10 @@ std::vector<ImportNote> expand_import(ConfigNode& config, const Registry& regist
     const ConfigNode* stated = config.find(key);
     if (stated == nullptr) {
       config.set(key, std::move(imported));
-    } else if (key != "budget"sv && lacks_type(*stated)) {
-      config.set(key, merged(with_type(std::move(imported)), *stated));
+    } else if (key == "sampler"sv) {
+      config.set(key, merged_sampler(std::move(imported), *stated));
+    } else if (key == "integrator"sv) {
+      config.set(key, merged_integrator(std::move(imported), *stated));
     }
   }
   if (ConfigNode film = import.config.take("film"); film.is_mapping()) {

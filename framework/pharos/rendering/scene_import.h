@@ -21,10 +21,11 @@ Import import_scene(const std::filesystem::path& file, const Registry& registry)
 ConfigNode read_config_or_scene(const std::filesystem::path& file, const Registry& registry,
                                 std::vector<std::filesystem::path>* files = nullptr);
 
-/// Replaces an importable file that `config` names as its `scene` by the imported scene. Members of
-/// `film` that the config does not state come from the file. So do members of `sampler` and
-/// `integrator` if the config does not state their `type`, and `budget` if the config does not
-/// state it at all. Returns notes on what was approximated.
+/// Replaces an importable file that `config` names as its `scene` by the imported scene, which is a
+/// base of the config. Members of `film` that the config does not state come from the file. So do
+/// members of `sampler` and `integrator` if the config states no `type` or the same one, and
+/// `budget` if the config does not state it at all. An integrator of another type keeps the file's
+/// `max_depth` and `termination` unless it states its own. Returns notes on what was approximated.
 std::vector<ImportNote> expand_import(ConfigNode& config, const Registry& registry);
 
 }  // namespace pharos

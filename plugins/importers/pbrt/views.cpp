@@ -288,7 +288,7 @@ void map_integrator(Scene& scene, const Statement& integrator) {
   scene.integrator = part.node("path");
   scene.integrator.set("max_depth", integer_node(bounces + 1, part.where("maxdepth")),
                        part.where("maxdepth"));
-  scene.integrator.set("roulette", text_node("throughput", part.where()), part.where());
+  scene.integrator.set("termination", text_node("throughput", part.where()), part.where());
   part.ignore({"lightsampler", "samplelights", "samplebsdf"});
   if (method == Method::path) return part.finish();
   part.ignore_all();

@@ -179,6 +179,17 @@ TEST_CASE("what is read in another way is noted once, with how often") {
   CHECK(d.notes[1].where.column == 44);
 }
 
+TEST_CASE("of two properties of the same name the last one counts") {
+  const Document d = read_old(
+      "<bsdf type=\"x\"><float name=\"aB\" value=\"1\"/><string name=\"c\" value=\"d\"/>"
+      "<float name=\"aB\" value=\"2\"/></bsdf>");
+  const Object& bsdf = child(*d.scene);
+  CHECK(value<double>(bsdf, "a_b") == 2);
+  CHECK(bsdf.properties.size() == 2);
+  REQUIRE(d.notes.size() == 1);
+  CHECK(d.notes[0].message == "<bsdf> has two properties 'a_b': the last one counts");
+}
+
 TEST_CASE("luminaires and cameras of Mitsuba 0.3") {
   const Document d = read_text(
       "<scene version=\"0.3.0\"><camera type=\"perspective\">"

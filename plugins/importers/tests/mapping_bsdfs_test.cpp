@@ -70,6 +70,19 @@ TEST_CASE("bsdfs: stated indices of metals are those over the outside's") {
   CHECK_THROWS_AS(material_of(bsdf("conductor", {value("eta", 0.2)})), InputError);
 }
 
+TEST_CASE(
+    "bsdfs: negative components of a metal's index, as from spectra, are raised with a note") {
+  const Import import = import_of_bsdf(
+      bsdf("conductor", {value("eta", rgb(0.2f, -0.8f, 1)), value("k", rgb(4, 2, -2))}));
+  CHECK(part(import, "scene.shapes.0.material") ==
+        "{ type: conductor, eta: [0.2, 0.0001, 1], k: [4, 2, 0] }");
+  const std::vector<std::string> all = notes(import);
+  for (const char* expected : {"bsdf conductor: 'eta' is raised to at least 0.0001",
+                               "bsdf conductor: 'k' is raised to at least 0"}) {
+    CHECK(std::count(all.begin(), all.end(), expected) == 1);
+  }
+}
+
 TEST_CASE("bsdfs: refractive indices by number and name") {
   const auto ior = [](std::vector<Property> all, const char* type = "dielectric") {
     return part(import_of_bsdf(bsdf(type, std::move(all))), "scene.shapes.0.material.ior");

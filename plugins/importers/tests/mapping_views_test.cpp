@@ -162,11 +162,11 @@ TEST_CASE("views: path depth and roulette") {
   CHECK(method("path", {integer("max_depth", 8), integer("rr_depth", 1000)}) ==
         "{ type: path, max_depth: 8 }");
   CHECK(method("path", {integer("max_depth", 8)}) ==
-        "{ type: path, max_depth: 8, roulette: throughput, roulette_depth: 5 }");
+        "{ type: path, max_depth: 8, termination: { type: throughput, depth: 5 } }");
   CHECK(method("path") ==
-        "{ type: path, max_depth: 65535, roulette: throughput, roulette_depth: 5 }");
+        "{ type: path, max_depth: 65535, termination: { type: throughput, depth: 5 } }");
   CHECK(method("path", {integer("max_depth", -1), integer("rr_depth", 3)}) ==
-        "{ type: path, max_depth: 65535, roulette: throughput, roulette_depth: 3 }");
+        "{ type: path, max_depth: 65535, termination: { type: throughput, depth: 3 } }");
   CHECK(method("direct") == "{ type: path, max_depth: 2 }");
   CHECK(built(import_of({object("integrator", "path")})).config.integrator != nullptr);
 }

@@ -117,7 +117,7 @@ TEST_CASE("pbrt: film, filter, sampler and integrator") {
         "{ width: 1280, height: 720, filter: { type: gaussian, radius: 1.5, stddev: 0.5 } }");
   CHECK(part(standard, "sampler") == "z_sobol");
   CHECK(part(standard, "budget") == "{ spp: 16 }");
-  CHECK(part(standard, "integrator") == "{ type: path, max_depth: 6, roulette: throughput }");
+  CHECK(part(standard, "integrator") == "{ type: path, max_depth: 6, termination: throughput }");
 
   const Import stated = import_of(
       "Film \"gbuffer\" \"integer xresolution\" 200 \"integer yresolution\" 100 \"float "

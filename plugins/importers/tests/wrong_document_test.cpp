@@ -83,8 +83,6 @@ TEST_CASE("tags and attributes") {
       {"<float name=\"\" value=\"1\"/>", "37: error: expected a name, found nothing"},
       {"<float name=\"a\" value=\"1\"><b/></float>",
        "50: error: nothing may stand in a <float>, found <b>"},
-      {"<float name=\"aB\" value=\"1\"/><rgb name=\"a_b\" value=\"1\"/>",
-       "63: error: <scene> has a property 'a_b' already: see scene.xml:1:24"},
       {"<point name=\"a\" x=\"1\" y=\"2\"/>",
        "24: error: <point> needs the attribute 'z', or all in 'value'"},
       {"<point name=\"a\" x=\"1\" y=\"2\" z=\"3\" value=\"1\"/>",

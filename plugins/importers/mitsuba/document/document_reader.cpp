@@ -141,12 +141,16 @@ void DocumentReader::read_value(const Element& element, Parent& parent, Context 
   Property::Value value = value_of(element, *parent.object, context.dialect);
   std::string name = property_name(element, context.dialect);
   if (name.empty()) element.fail("name", "expected a name, found nothing");
-  if (!parent.names.insert(name).second) {
-    element.fail("name",
-                 fmt::format("<{}> has a property '{}' already: see {}", parent.object->tag,
-                             one_line(name, 60), parent.object->find(name)->where.to_string()));
+  Property property{std::move(name), element.where(), std::move(value)};
+  std::vector<Property>& all = parent.object->properties;
+  const auto [place, is_new] = parent.values.try_emplace(property.name, all.size());
+  if (is_new) {
+    all.push_back(std::move(property));
+    return;
   }
-  parent.object->properties.push_back({std::move(name), element.where(), std::move(value)});
+  note(property.where, fmt::format("<{}> has two properties '{}': the last one counts",
+                                   parent.object->tag, one_line(property.name, 60)));
+  all[place->second] = std::move(property);
 }
 
 Property::Value DocumentReader::value_of(const Element& element, const Object& parent,

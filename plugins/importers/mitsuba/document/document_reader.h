@@ -1,9 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -36,7 +36,7 @@ class DocumentReader {
   /// An object that is being read.
   struct Parent {
     std::shared_ptr<Object> object;
-    std::set<std::string, std::less<>> names = {};  ///< of its plain values
+    std::map<std::string, std::size_t> values = {};  ///< places of its plain values, by name
   };
 
   void read_children(const XmlFile& file, pugi::xml_node node, Parent& parent, Context context);

@@ -38,8 +38,9 @@ void set_depth(Part& part, ConfigNode& node) {
   set_integer(part, node, "max_depth", longest);
   const std::int64_t roulette = part.integer("rr_depth").value_or(kDefaultRouletteDepth);
   if (roulette >= longest && !is_unlimited) return;  // paths end before Russian roulette begins
-  node.set("roulette", text_node("throughput", part.where()), part.where());
-  set_integer(part, node, "roulette_depth", std::clamp<std::int64_t>(roulette, 0, kLongestPath));
+  ConfigNode termination = part.node("throughput");
+  set_integer(part, termination, "depth", std::clamp<std::int64_t>(roulette, 0, kLongestPath));
+  node.set("termination", std::move(termination), part.where());
 }
 
 ConfigNode map_path(Part& part) {

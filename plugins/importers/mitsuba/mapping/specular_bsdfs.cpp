@@ -41,9 +41,16 @@ std::string known_metal(Part& part, const std::string& name) {
   return "Cr";
 }
 
-Spectrum over(Spectrum value, double divisor) {
+/// Divides a spectrum, and raises components below `least` to it, with a note. Measurements by
+/// spectrum may become negative in RGB.
+Spectrum over(Part& part, const char* key, Spectrum value, double divisor, float least) {
   for (int i = 0; i < 3; ++i) {
-    value.value[i] = static_cast<float>(double{value.value[i]} / divisor);
+    const auto component = static_cast<float>(double{value.value[i]} / divisor);
+    if (component < least) {
+      part.note(
+          fmt::format("bsdf {}: '{}' is raised to at least {}", part.object().type, key, least));
+    }
+    value.value[i] = std::max(component, least);
   }
   return value;
 }
@@ -58,7 +65,8 @@ void set_stated_metal(Part& part, ConfigNode& node) {
                                                  describe(part.object()), key));
     }
     const Location& there = part.object().find(key)->where;
-    node.set(key, color_node(over(*value, outside), there), there);
+    const float least = key == std::string_view("eta") ? 1e-4f : 0;
+    node.set(key, color_node(over(part, key, *value, outside, least), there), there);
   }
   part.ignore({"material"});
 }
