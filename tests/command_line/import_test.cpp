@@ -67,6 +67,39 @@ TEST_CASE("a scene of Mitsuba renders as it stands, and within a config") {
   CHECK(within.out.find("type: gaussian") != std::string::npos);  // from the scene file
 }
 
+TEST_CASE("a scene as YAML renders without a config, and a scene of pbrt as it stands") {
+  const ScratchFolder folder;
+  const std::string scene = fmt::format("'{}/cornell-box/scene.yaml'", PHAROS_SCENES);
+  const Outcome bare = run_pharos(fmt::format("render {} {}", scene, kSmall), folder.path());
+  REQUIRE_MESSAGE(bare.exit_code == 0, bare.err);
+  CHECK(read_image(folder.path() / "scene.exr").width() == 48);
+  CHECK(run_pharos("validate " + scene, folder.path()).out.find("spp: 64") != std::string::npos);
+
+  folder.write("room.pbrt",
+               "Camera \"perspective\" WorldBegin LightSource \"infinite\"\n"
+               "Translate 0 0 3 Shape \"sphere\" Translate 0 -1 0\n"
+               "Shape \"trianglemesh\" \"point3 P\" [ -1 0 0  1 0 0  0 0 1 ]\n");
+  const Outcome pbrt = run_pharos(fmt::format("render room.pbrt {}", kSmall), folder.path());
+  REQUIRE_MESSAGE(pbrt.exit_code == 0, pbrt.err);
+  CHECK(read_image(folder.path() / "room.exr").height() == 30);
+}
+
+TEST_CASE("import copies a scene of pbrt with the files that it names") {
+  const ScratchFolder folder;
+  folder.write("room.pbrt",
+               "Camera \"perspective\" WorldBegin LightSource \"infinite\"\n"
+               "Translate 0 0 3 Shape \"trianglemesh\" \"point3 P\" [ -1 0 0  1 0 0  0 1 0 ]\n");
+  REQUIRE(run_pharos(fmt::format("render room.pbrt {}", kSmall), folder.path()).exit_code == 0);
+  const Outcome outcome = run_pharos("import room.pbrt -o imported/", folder.path());
+  REQUIRE_MESSAGE(outcome.exit_code == 0, outcome.err);
+  fs::remove(folder.path() / "room.pbrt");
+  REQUIRE(
+      run_pharos(fmt::format("render imported/render.yaml {}", kSmall), folder.path()).exit_code ==
+      0);
+  CHECK(read_image(folder.path() / "render.exr").values() ==
+        read_image(folder.path() / "room.exr").values());
+}
+
 TEST_CASE("members of the integrator and the sampler of a scene are changed one by one") {
   const ScratchFolder folder;
   write_scene(folder);

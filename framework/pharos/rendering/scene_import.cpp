@@ -39,6 +39,15 @@ ConfigNode with_type(ConfigNode plugin) {
   return mapping;
 }
 
+/// Samples per pixel of a scene that is rendered without a config.
+constexpr const char* kSamplesOfBareScenes = "64";
+
+/// Returns whether a file is a scene, which a config would name, and not a config.
+bool is_bare_scene(const ConfigNode& node) {
+  const auto has = [&](std::string_view key) { return node.find(key) != nullptr; };
+  return !has("scene") && !has("budget") && (has("shapes") || has("emitters"));
+}
+
 /// Merges a stated sampler into the imported one if it is of the same type.
 ConfigNode merged_sampler(ConfigNode imported, const ConfigNode& stated) {
   imported = with_type(std::move(imported));
@@ -82,9 +91,13 @@ Import import_scene(const fs::path& file, const Registry& registry) {
 
 ConfigNode read_config_or_scene(const fs::path& file, const Registry& registry,
                                 std::vector<fs::path>* files) {
-  if (!is_importable(file, registry)) return read_config(file, files);
   ConfigNode config = ConfigNode::mapping();
   config.set("scene", ConfigNode::scalar(file.string()));
+  if (is_importable(file, registry)) return config;
+  ConfigNode stated = read_config(file, files);
+  if (!is_bare_scene(stated)) return stated;
+  config.set("budget", ConfigNode::mapping());
+  config.find("budget")->set("spp", ConfigNode::scalar(kSamplesOfBareScenes));
   return config;
 }
 

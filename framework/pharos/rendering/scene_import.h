@@ -17,7 +17,7 @@ bool is_importable(const std::filesystem::path& file, const Registry& registry);
 Import import_scene(const std::filesystem::path& file, const Registry& registry);
 
 /// Reads a config like read_config(). For an importable file, returns a config that only names this
-/// file as its scene.
+/// file as its scene, and for a scene as YAML, one that also has a budget of 64 samples per pixel.
 ConfigNode read_config_or_scene(const std::filesystem::path& file, const Registry& registry,
                                 std::vector<std::filesystem::path>* files = nullptr);
 
