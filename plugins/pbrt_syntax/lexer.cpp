@@ -103,7 +103,8 @@ Token Lexer::quoted() {
       .kind = Token::Kind::text, .line = line_, .column = static_cast<int>(at_ - line_begin_) + 1};
   const std::size_t begin = ++at_;
   while (at_ < text_.size() && text_[at_] != '"' && text_[at_] != '\n') {
-    at_ += text_[at_] == '\\' ? 2 : 1;
+    const bool escapes = text_[at_] == '\\' && at_ + 1 < text_.size() && text_[at_ + 1] != '\n';
+    at_ += escapes ? 2 : 1;
   }
   if (at_ >= text_.size() || text_[at_] != '"') {
     at_ = std::min(at_, text_.size());

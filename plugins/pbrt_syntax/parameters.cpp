@@ -135,8 +135,8 @@ Parameters read_parameters(Lexer& lexer) {
 }
 
 const Parameter* find(const Parameters& parameters, std::string_view name) {
-  for (const Parameter& parameter : parameters) {
-    if (parameter.name == name) return &parameter;
+  for (auto parameter = parameters.rbegin(); parameter != parameters.rend(); ++parameter) {
+    if (parameter->name == name) return &*parameter;
   }
   return nullptr;
 }

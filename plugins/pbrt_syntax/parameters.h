@@ -31,7 +31,7 @@ using Parameters = std::vector<Parameter>;
 /// another type, and counts that are not a multiple of the size of a value.
 Parameters read_parameters(Lexer& lexer);
 
-/// Returns the first parameter of this name, or null if there is none.
+/// Returns the parameter of this name, or null if there is none. Of several the last one counts.
 const Parameter* find(const Parameters& parameters, std::string_view name);
 
 }  // namespace pharos::pbrt

@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include <pharos/config/node.h>
 #include <pharos/core/transform.h>
 
 #include "colors.h"
@@ -15,12 +16,14 @@ namespace pharos::pbrt {
 struct GraphicsState {
   Transform to_world;  ///< the current transformation matrix
   bool reverse_orientation = false;
-  std::string material;  ///< an entry of `materials`; empty: the default
-  std::shared_ptr<const Statement> area_light;
-  std::string inside, outside;  ///< names of media; empty: vacuum
+  std::string material;                          ///< an entry of `materials`; empty: the default
+  std::shared_ptr<const ConfigNode> area_light;  ///< null: none
+  std::string inside, outside;                   ///< names of media; empty: vacuum
   ColorSpace space = ColorSpace::srgb;
-  /// Parameters by `Attribute`, for "shape", "light", "material", "medium" and "texture".
-  std::map<std::string, Parameters> attributes;
+  bool moves_start = true;  ///< whether transforms apply to the start of the exposure
+  /// Parameters by `Attribute`, for "shape", "light", "material", "medium" and "texture"; null if
+  /// there are none.
+  std::shared_ptr<const std::map<std::string, Parameters>> attributes;
 };
 
 }  // namespace pharos::pbrt

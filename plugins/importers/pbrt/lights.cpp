@@ -1,5 +1,6 @@
 // pbrt divides the spectrum of a light by its luminance, see colors.h; `scale` and `power` make it
 // bright. RGB values are radiances in Rec.709, as in Pharos.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -21,6 +22,8 @@ struct Brightness {
   double scale = 1;
 };
 
+/// Reads the color `name`, `scale`, and `power`, the total of the light (its power or irradiance).
+/// `power_of_one` is the total of the light with the color 1.
 Brightness read_brightness(Part& part, const char* name, const char* power, double power_of_one) {
   const std::optional<Color> stated = part.color(name, ColorRole::light);
   Brightness result{stated.value_or(Color{.value = Rgb(1), .is_gray = true}),
@@ -90,7 +93,7 @@ ConfigNode map_image(Part& part) {
   ConfigNode node = part.node("environment_map");
   node.set("file", part.file(), part.where("filename"));
   node.set("layout", text_node("equal_area", part.where()), part.where());
-  const Brightness brightness = read_brightness(part, "L", "power", 1);
+  const Brightness brightness = read_brightness(part, "L", "", 1);
   if (part.has("L")) part.note("'L' is left out, the image has the colors");
   if (part.number("illuminance", -1) > 0) part.note("'illuminance' is left out");
   if (brightness.scale != 1) {

@@ -1,9 +1,11 @@
 // Opaque materials of pbrt reflect on both sides of a surface, hence `two_sided`.
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/core.h>
 
 #include "mapping.h"
+#include "named_spectra.h"
 #include "part.h"
 
 namespace pharos::pbrt {
@@ -87,13 +89,11 @@ ConfigNode map_coated_diffuse(Part& part) {
 /// Sets the complex index of refraction, given by `eta` and `k` or by the reflectance at normal
 /// incidence.
 void set_metal(Part& part, ConfigNode& node, const std::string& prefix) {
-  constexpr Rgb kCopper{0.179f, 1.041f, 1.290f}, kCopperK{3.27f, 2.60f, 2.37f};
   if (part.has("reflectance")) {
     // pbrt's index with this reflectance and eta = 1: k = 2 sqrt(r / (1 - r)).
-    const std::optional<Color> color =
-        find(part.statement().parameters, "reflectance")->type == "texture"
-            ? std::nullopt
-            : part.color("reflectance", ColorRole::surface);
+    const std::optional<Color> color = part.find("reflectance")->type == "texture"
+                                           ? std::nullopt
+                                           : part.color("reflectance", ColorRole::surface);
     const double mean = color ? 0 : part.average("reflectance", 0.5);
     Rgb k;
     for (int c = 0; c < 3; ++c) {
@@ -107,10 +107,14 @@ void set_metal(Part& part, ConfigNode& node, const std::string& prefix) {
   const std::string eta_name = prefix + "eta", k_name = prefix + "k";
   const std::optional<Color> eta = part.color(eta_name, ColorRole::surface);
   const std::optional<Color> k = part.color(k_name, ColorRole::surface);
-  node.set("eta", color_node(eta.value_or(Color{.value = kCopper}), part.where(eta_name)),
+  node.set("eta",
+           color_node(eta.value_or(Color{.value = *named_spectrum("metal-Cu-eta")}),
+                      part.where(eta_name)),
            part.where(eta_name));
-  node.set("k", color_node(k.value_or(Color{.value = kCopperK}), part.where(k_name)),
-           part.where(k_name));
+  node.set(
+      "k",
+      color_node(k.value_or(Color{.value = *named_spectrum("metal-Cu-k")}), part.where(k_name)),
+      part.where(k_name));
 }
 
 ConfigNode metal(Part& part, const std::string& prefix) {
@@ -168,7 +172,7 @@ ConfigNode map_interface(Part& part) {
 }
 
 ConfigNode map_mix(Part& part) {
-  const Parameter* both = find(part.statement().parameters, "materials");
+  const Parameter* both = part.find("materials");
   if (both == nullptr || both->texts.size() != 2) {
     throw InputError(part.where("materials"), "Material mix: 'materials' must be two names");
   }
@@ -179,7 +183,7 @@ ConfigNode map_mix(Part& part) {
     const std::string entry = part.scene().material(both->texts[i], both->where);
     node.set(keys[i], text_node(entry, both->where), both->where);
   }
-  node.set("weight", part.texture_or("amount", 0.5), part.where("amount"));
+  node.set("weight", part.texture_or("amount", 0.5, 1, TextureKind::number), part.where("amount"));
   return node;
 }
 
@@ -214,7 +218,8 @@ ConfigNode with_relief(Part& part, ConfigNode node) {
   }
   if (part.has("displacement")) {
     ConfigNode around = part.node("bump_map");
-    around.set("texture", part.texture_or("displacement", 0, 1e30), part.where("displacement"));
+    around.set("texture", part.texture_or("displacement", 0, 1e30, TextureKind::number),
+               part.where("displacement"));
     around.set("bsdf", std::move(node), part.where());
     return around;
   }

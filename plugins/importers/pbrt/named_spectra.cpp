@@ -1,6 +1,7 @@
 // Metals: Ag, Al, Au and Cu as in plugins/bsdfs/metals.cpp; brass (CuZn) as tabulated for renderers
 // from measurements by Querry 1985; MgO by Stephens and Malitson 1952 and TiO2 (ordinary ray) by
-// Devore 1951, at 610, 550 and 465 nm. Glasses: catalog values n_d at 587.6 nm. Illuminants: their
+// Devore 1951, at 610, 550 and 465 nm. Glasses: catalog values n_d at 587.6 nm; F5,
+// F10 and F11 are pbrt's names of SF5, SF10 and SF11. Illuminants: their
 // chromaticities for the observer of 1931, by CIE 15:2004, and by the Academy (S-2008-001) for D60.
 #include "named_spectra.h"
 
@@ -15,14 +16,13 @@ struct Constant {
   std::string_view name;
   Rgb value;
 };
-const std::array<Constant, 22> kIndices{{{"glass-BAF10", Rgb(1.6700f)},
+const std::array<Constant, 21> kIndices{{{"glass-BAF10", Rgb(1.6700f)},
                                          {"glass-BK7", Rgb(1.5168f)},
-                                         {"glass-F11", Rgb(1.6206f)},
                                          {"glass-FK51A", Rgb(1.4866f)},
                                          {"glass-LASF9", Rgb(1.8503f)},
-                                         {"glass-SF10", Rgb(1.7283f)},
-                                         {"glass-SF11", Rgb(1.7847f)},
-                                         {"glass-SF5", Rgb(1.6727f)},
+                                         {"glass-F10", Rgb(1.7283f)},
+                                         {"glass-F11", Rgb(1.7847f)},
+                                         {"glass-F5", Rgb(1.6727f)},
                                          {"metal-Ag-eta", {0.056f, 0.055f, 0.043f}},
                                          {"metal-Ag-k", {4.35f, 3.53f, 2.57f}},
                                          {"metal-Al-eta", {1.473f, 0.986f, 0.598f}},

@@ -22,31 +22,35 @@ Part::Part(Scene& scene, const Statement& statement, const std::string& kind)
     : scene_(scene), statement_(statement) {
   for (const Parameter& p : statement.parameters) parameters_.push_back(&p);
   is_read_.resize(parameters_.size());
-  const auto attributes = scene.state().attributes.find(kind);
-  if (attributes == scene.state().attributes.end()) return;
+  if (scene.state().attributes == nullptr) return;
+  const auto attributes = scene.state().attributes->find(kind);
+  if (attributes == scene.state().attributes->end()) return;
   // Attributes stand for all shapes, lights and so on; a type that has no such parameter ignores
   // them without a note.
-  for (const Parameter& p : attributes->second) {
-    if (has(p.name)) continue;
-    parameters_.push_back(&p);
-    is_read_.push_back(true);
+  parameters_.insert(parameters_.begin(), attributes->second.size(), nullptr);
+  is_read_.insert(is_read_.begin(), attributes->second.size(), true);
+  for (std::size_t i = 0; i < attributes->second.size(); ++i) {
+    parameters_[i] = &attributes->second[i];
   }
+}
+
+std::optional<std::size_t> Part::place_of(std::string_view name) const {
+  for (std::size_t i = parameters_.size(); i > 0; --i) {
+    if (parameters_[i - 1]->name == name) return i - 1;
+  }
+  return std::nullopt;
 }
 
 const Parameter* Part::find(std::string_view name) const {
-  for (const Parameter* p : parameters_) {
-    if (p->name == name) return p;
-  }
-  return nullptr;
+  const std::optional<std::size_t> place = place_of(name);
+  return place ? parameters_[*place] : nullptr;
 }
 
 const Parameter* Part::take(std::string_view name) {
-  for (std::size_t i = 0; i < parameters_.size(); ++i) {
-    if (parameters_[i]->name != name) continue;
-    is_read_[i] = true;
-    return parameters_[i];
-  }
-  return nullptr;
+  const std::optional<std::size_t> place = place_of(name);
+  if (!place) return nullptr;
+  is_read_[*place] = true;
+  return parameters_[*place];
 }
 
 const Location& Part::where(std::string_view name) const {
@@ -123,12 +127,13 @@ std::optional<Color> Part::color(std::string_view name, ColorRole role) {
   return color;
 }
 
-ConfigNode Part::texture_or(std::string_view name, double otherwise, double most) {
+ConfigNode Part::texture_or(std::string_view name, double otherwise, double most,
+                            TextureKind kind) {
   const Parameter* p = find(name);
   if (p == nullptr) return number_node(otherwise, where());
   if (p->type == "texture") {
     take(name);
-    return text_node(scene_.texture(*p).name, p->where);
+    return text_node(scene_.texture(*p, kind).name, p->where);
   }
   Color stated = *color(name, ColorRole::surface);
   for (int c = 0; c < 3; ++c) {
@@ -146,7 +151,7 @@ double Part::average(std::string_view name, double otherwise) {
   const Parameter* p = find(name);
   if (p == nullptr || p->type != "texture") return number(name, otherwise);
   take(name);
-  const std::optional<double> mean = scene_.texture(*p).average();
+  const std::optional<double> mean = scene_.texture(*p, TextureKind::number).average();
   note(fmt::format("the texture of '{}' is replaced by {}", name,
                    mean ? "its average" : "the default " + number_text(otherwise)));
   return mean.value_or(otherwise);

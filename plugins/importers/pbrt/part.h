@@ -7,7 +7,10 @@
 #include <string_view>
 #include <vector>
 
+#include <fmt/core.h>
+
 #include <pharos/config/node.h>
+#include <pharos/core/error.h>
 
 #include "../shared/nodes.h"
 #include "scene.h"
@@ -41,6 +44,8 @@ class Part {
   /// Returns a mapping with this `type`, located at the statement.
   ConfigNode node(const char* type) const { return plugin_node(type, where()); }
 
+  /// Returns the parameter without marking it as read; null if there is none.
+  const Parameter* find(std::string_view name) const;
   bool has(std::string_view name) const { return find(name) != nullptr; }
   std::optional<double> number(std::string_view name);
   double number(std::string_view name, double otherwise) {
@@ -57,9 +62,10 @@ class Part {
   std::vector<double> numbers(std::string_view name, std::size_t count);
   std::optional<Color> color(std::string_view name, ColorRole role);
 
-  /// Returns a color, or the name of a texture. Its values should be at most `most`; a color is
-  /// limited to it with a note.
-  ConfigNode texture_or(std::string_view name, double otherwise, double most = 1);
+  /// Returns a color, or the name of a texture of this kind. Its values should be at most `most`; a
+  /// color is limited to it with a note.
+  ConfigNode texture_or(std::string_view name, double otherwise, double most = 1,
+                        TextureKind kind = TextureKind::spectrum);
   /// Returns a number, or the average of a texture with a note.
   double average(std::string_view name, double otherwise);
   /// Returns the node of the file that a parameter names. Throws InputError if it is missing.
@@ -75,13 +81,14 @@ class Part {
   void finish();
 
  private:
-  const Parameter* find(std::string_view name) const;
+  /// Returns the place of a parameter. Of several of the same name the last one counts.
+  std::optional<std::size_t> place_of(std::string_view name) const;
   const Parameter* take(std::string_view name);
   [[noreturn]] static void fail_kind(const Parameter& parameter, const char* expected);
 
   Scene& scene_;
   const Statement& statement_;
-  std::vector<const Parameter*> parameters_;
+  std::vector<const Parameter*> parameters_;  ///< those of attributes first
   std::vector<bool> is_read_;
 };
 

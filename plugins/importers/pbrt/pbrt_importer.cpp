@@ -2,7 +2,8 @@
 // change, and mapping.h maps each object; docs/pbrt.md lists what is supported and approximated.
 #include "pbrt_importer.h"
 
-#include <cmath>
+#include <algorithm>
+#include <map>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -26,7 +27,14 @@ class SceneReader {
       : scene_(file.parent_path(), budget_), statements_(file, budget_) {}
 
   Import read() {
-    while (std::optional<Statement> statement = statements_.next()) obey(*statement);
+    while (std::optional<Statement> statement = statements_.next()) {
+      try {
+        obey(*statement);
+      } catch (const InputError& e) {
+        if (e.located()) throw;
+        throw InputError(statement->where, e.what());
+      }
+    }
     if (!saved_.empty()) {
       throw InputError(statements_.end(),
                        fmt::format("the {} in line {} has no end", saved_.back().begin.word,
@@ -45,10 +53,11 @@ class SceneReader {
 
   void obey(const Statement& s) {
     if (is_transform(s)) {
-      if (is_start_)
+      if (state().moves_start) {
         state().to_world = transformed(state().to_world, s, spaces_);
-      else
+      } else {
         scene_.note(s.where, "transforms of the end of the exposure are left out");
+      }
     } else if (!obey_view(s) && !obey_block(s) && !obey_state(s)) {
       obey_object(s);
     }
@@ -71,12 +80,16 @@ class SceneReader {
       if (s.word == "Camera") place_camera();
       return true;
     }
+    if (s.word == "Option" && s.type() == "forcediffuse" && s.texts.back() == "true") {
+      scene_.note(s.where, "the option 'forcediffuse' is left out");
+    }
     if (s.word == "Accelerator" || s.word == "Option") return true;
     if (s.word != "WorldBegin") return false;
     if (is_in_world_) throw InputError(s.where, "WorldBegin stands twice");
     map_view(scene_, view_);
     is_in_world_ = true;
     state().to_world = Transform();
+    state().moves_start = true;
     spaces_["world"] = Transform();
     return true;
   }
@@ -103,11 +116,7 @@ class SceneReader {
                            : fmt::format("{} where the {} in line {} must end first", s.word,
                                          saved_.back().begin.word, saved_.back().begin.where.line));
     }
-    if (s.word == "TransformEnd") {
-      state().to_world = saved_.back().state.to_world;
-    } else {
-      state() = std::move(saved_.back().state);
-    }
+    state() = std::move(saved_.back().state);
     if (s.word == "ObjectEnd") scene_.end_object(s.where);
     saved_.pop_back();
     return true;
@@ -126,14 +135,16 @@ class SceneReader {
     } else if (s.word == "NamedMaterial") {
       state().material = scene_.material(s.type(), s.where);
     } else if (s.word == "AreaLightSource") {
-      state().area_light = std::make_shared<const Statement>(s);
+      state().area_light = s.type().empty()
+                               ? nullptr
+                               : std::make_shared<const ConfigNode>(map_area_light(scene_, s));
     } else if (s.word == "MediumInterface") {
       state().inside = s.texts.front();
       state().outside = s.texts.back();
     } else if (s.word == "CoordinateSystem") {
       spaces_[s.type()] = state().to_world;
     } else if (s.word == "ActiveTransform") {
-      is_start_ = s.type() != "EndTime";
+      state().moves_start = s.type() != "EndTime";
     } else if (s.word == "TransformTimes") {
       scene_.note(s.where, "nothing moves: objects stand where they are at the start");
     } else {
@@ -149,8 +160,12 @@ class SceneReader {
           s.where, fmt::format("Attribute has no target '{}'{}; known: {}", one_line(s.type(), 60),
                                suggestion(s.type(), known), quoted_list(known)));
     }
-    Parameters& all = state().attributes[s.type()];
-    all.insert(all.begin(), s.parameters.begin(), s.parameters.end());  // the latest counts
+    std::map<std::string, Parameters> attributes;
+    if (state().attributes != nullptr) attributes = *state().attributes;
+    Parameters& all = attributes[s.type()];
+    all.insert(all.end(), s.parameters.begin(), s.parameters.end());  // the last one counts
+    state().attributes =
+        std::make_shared<const std::map<std::string, Parameters>>(std::move(attributes));
   }
 
   void set_color_space(const Statement& s) {
@@ -191,7 +206,6 @@ class SceneReader {
   std::map<std::string, Transform> spaces_;  ///< by CoordinateSystem
   std::vector<Saved> saved_;
   bool is_in_world_ = false;
-  bool is_start_ = true;  ///< whether transforms apply to the start of the exposure
 };
 
 }  // namespace

@@ -39,6 +39,7 @@ Scene::Scene(std::filesystem::path folder, importing::ReadingBudget& budget)
 
 ConfigNode Scene::file_node(const std::string& name, const Location& where) const {
   const std::filesystem::path path = file_in(folder_, name);
+  if (std::filesystem::path(name).is_absolute()) return importing::text_node(path.string(), where);
   // Nodes are read relative to the file that contains them.
   if (std::filesystem::path(where.file).parent_path() == folder_) {
     return importing::text_node(path.lexically_relative(folder_).string(), where);
@@ -46,22 +47,24 @@ ConfigNode Scene::file_node(const std::string& name, const Location& where) cons
   return importing::text_node(std::filesystem::absolute(path).string(), where);
 }
 
-void Scene::add_texture(const std::string& kind, const std::string& name, const Location& where,
+void Scene::add_texture(TextureKind kind, const std::string& name, const Location& where,
                         ConfigNode node, std::function<std::optional<double>()> average) {
   const auto [entry, is_new] = textures_by_name_.try_emplace({name, kind});
   if (!is_new) fail_twice(where, "texture", name);
   entry->second = {texture_names_.take(name), std::move(average)};
-  textures_.set(entry->second.name, std::move(node), where);
+  textures_.entries().push_back({entry->second.name, where, std::move(node)});
 }
 
-const NamedTexture& Scene::texture(const Parameter& parameter) const {
+const NamedTexture& Scene::texture(const Parameter& parameter, TextureKind kind) const {
   if (parameter.texts.size() != 1) {
     throw InputError(parameter.where,
                      fmt::format("'{}' must be the name of one texture", parameter.name));
   }
   const std::string& name = parameter.texts.front();
-  for (const char* kind : {"spectrum", "float"}) {
-    const auto found = textures_by_name_.find({name, kind});
+  const TextureKind other =
+      kind == TextureKind::number ? TextureKind::spectrum : TextureKind::number;
+  for (const TextureKind wanted : {kind, other}) {
+    const auto found = textures_by_name_.find({name, wanted});
     if (found != textures_by_name_.end()) return found->second;
   }
   std::vector<std::string> known;
@@ -71,8 +74,18 @@ const NamedTexture& Scene::texture(const Parameter& parameter) const {
 
 std::string Scene::add_material(const Location& where, ConfigNode node) {
   std::string entry = material_names_.take("");
-  materials_.set(entry, std::move(node), where);
+  append_material(entry, where, std::move(node));
   return entry;
+}
+
+void Scene::append_material(const std::string& entry, const Location& where, ConfigNode node) {
+  const ConfigNode* type = node.find("type");
+  if (type != nullptr && type->text() == "pass_through") interfaces_.insert(entry);
+  materials_.entries().push_back({entry, where, std::move(node)});
+}
+
+bool Scene::is_interface(const std::string& entry) const {
+  return interfaces_.contains(entry);
 }
 
 std::string Scene::material_entry(const std::string& name, const Location& where, bool defines) {
@@ -85,7 +98,7 @@ std::string Scene::material_entry(const std::string& name, const Location& where
 }
 
 void Scene::define_material(const std::string& name, const Location& where, ConfigNode node) {
-  materials_.set(material_entry(name, where, true), std::move(node), where);
+  append_material(material_entry(name, where, true), where, std::move(node));
 }
 
 std::string Scene::material(const std::string& name, const Location& where) {

@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,6 +18,9 @@
 #include "graphics_state.h"
 
 namespace pharos::pbrt {
+
+/// The types of textures, whose names are independent of each other: "float" and "spectrum".
+enum class TextureKind { number, spectrum };
 
 /// A texture of the scene.
 struct NamedTexture {
@@ -43,17 +47,19 @@ class Scene {
   /// Returns the node of a file that the scene names.
   ConfigNode file_node(const std::string& name, const Location& where) const;
 
-  /// Defines a texture; `kind` is "float" or "spectrum". Throws InputError if it exists already.
-  void add_texture(const std::string& kind, const std::string& name, const Location& where,
+  /// Defines a texture. Throws InputError if it exists already.
+  void add_texture(TextureKind kind, const std::string& name, const Location& where,
                    ConfigNode node, std::function<std::optional<double>()> average);
-  /// Returns the texture that a parameter of type "texture" refers to, of either kind. Throws
-  /// InputError with the nearest name if there is none.
-  const NamedTexture& texture(const Parameter& parameter) const;
+  /// Returns the texture that a parameter of type "texture" refers to, of `kind` or else of the
+  /// other one. Throws InputError with the nearest name if there is none.
+  const NamedTexture& texture(const Parameter& parameter, TextureKind kind) const;
 
   /// Defines a material without a name and returns its entry.
   std::string add_material(const Location& where, ConfigNode node);
   /// Defines a named material. Throws InputError if it exists already.
   void define_material(const std::string& name, const Location& where, ConfigNode node);
+  /// Whether a material that was defined before is an invisible surface.
+  bool is_interface(const std::string& entry) const;
   /// Returns the entry of a named material, which may be defined later.
   std::string material(const std::string& name, const Location& where);
 
@@ -91,6 +97,7 @@ class Scene {
   };
 
   std::string material_entry(const std::string& name, const Location& where, bool defines);
+  void append_material(const std::string& entry, const Location& where, ConfigNode node);
 
   std::filesystem::path folder_;
   ColorReader colors_;
@@ -98,8 +105,9 @@ class Scene {
   GraphicsState state_;
   importing::EntryNames texture_names_{"texture"}, material_names_{"material"},
       medium_names_{"medium"}, group_names_{"object"};
-  std::map<std::pair<std::string, std::string>, NamedTexture> textures_by_name_;
+  std::map<std::pair<std::string, TextureKind>, NamedTexture> textures_by_name_;
   std::map<std::string, Entry> materials_by_name_;
+  std::set<std::string> interfaces_;  ///< entries of materials
   std::map<std::string, std::string> media_by_name_;
   std::map<std::string, Group> objects_;
   std::vector<std::string> order_of_objects_;

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <fmt/core.h>
 
@@ -10,8 +11,6 @@
 
 namespace pharos::pbrt {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 void set_transform(ConfigNode& node, const Transform& to_world, const Location& where) {
   if (to_world.matrix() == Transform().matrix()) return;
@@ -48,11 +47,22 @@ ConfigNode lathe(Part& part, const std::vector<std::array<double, 2>>& profile) 
   return node;
 }
 
+/// Reads `zmin` and `zmax`, in either order. A sphere ends at its poles.
+std::pair<double, double> read_range(Part& part, double lowest, double highest) {
+  double low = part.number("zmin", lowest), high = part.number("zmax", highest);
+  if (low > high) std::swap(low, high);
+  if (part.statement().type() == "sphere") {
+    low = std::clamp(low, lowest, highest);
+    high = std::clamp(high, lowest, highest);
+  }
+  if (!(low < high)) throw InputError(part.where("zmin"), "'zmin' must differ from 'zmax'");
+  return {low, high};
+}
+
 ConfigNode map_sphere(Part& part) {
   check_turn(part);
   const double radius = part.positive("radius", 1);
-  const double low = std::clamp(part.number("zmin", -radius), -radius, radius);
-  const double high = std::clamp(part.number("zmax", radius), -radius, radius);
+  const auto [low, high] = read_range(part, -radius, radius);
   const Transform& to_world = part.scene().state().to_world;
   if (low == -radius && high == radius && is_even(to_world)) {
     ConfigNode node = part.node("sphere");
@@ -61,7 +71,6 @@ ConfigNode map_sphere(Part& part) {
     set_transform(node, to_world * Transform::scale({1, 1, -1}), part.where());
     return node;
   }
-  if (!(low < high)) throw InputError(part.where("zmin"), "'zmin' must be below 'zmax'");
   constexpr int kSteps = 64;
   const double first = std::acos(low / radius), last = std::acos(high / radius);
   std::vector<std::array<double, 2>> profile;
@@ -78,8 +87,7 @@ ConfigNode map_sphere(Part& part) {
 ConfigNode map_cylinder(Part& part) {
   check_turn(part);
   const double radius = part.positive("radius", 1);
-  const double low = part.number("zmin", -1), high = part.number("zmax", 1);
-  if (!(low < high)) throw InputError(part.where("zmin"), "'zmin' must be below 'zmax'");
+  const auto [low, high] = read_range(part, -1, 1);
   const Transform& to_world = part.scene().state().to_world;
   ConfigNode node;
   if (is_even(to_world)) {
@@ -163,7 +171,8 @@ std::optional<ConfigNode> material_of(Part& part) {
     material.set("bsdf", part.node("diffuse"), part.where());
   }
   if (!part.has("alpha")) return material;
-  ConfigNode opacity = part.texture_or("alpha", 1);
+  part.note("light samples do not pass the holes of 'alpha', and a hole counts as a segment");
+  ConfigNode opacity = part.texture_or("alpha", 1, 1, TextureKind::number);
   ConfigNode around = part.node("mask");
   around.set("bsdf", std::move(material), part.where());
   around.set("opacity", std::move(opacity), part.where("alpha"));
@@ -177,7 +186,11 @@ void set_light(Part& part, ConfigNode& node) {
     part.note("does not emit, as in pbrt, because it is part of an object");
     return;
   }
-  node.set("emitter", map_area_light(part.scene(), *state.area_light), state.area_light->where);
+  if (part.scene().is_interface(state.material)) {
+    part.note("does not emit, as in pbrt, because its material is 'interface'");
+    return;
+  }
+  node.set("emitter", *state.area_light, state.area_light->where());
 }
 
 void set_media(Part& part, ConfigNode& node) {

@@ -45,7 +45,7 @@ const std::map<std::string_view, Form>& forms() {
                                                     {"ObjectBegin", {1, 0, false}},
                                                     {"ObjectEnd", {}},
                                                     {"ObjectInstance", {1, 0, false}},
-                                                    {"Option", {0, 0, true}},
+                                                    {"Option", {1, 0, false}},
                                                     {"PixelFilter", {1, 0, true}},
                                                     {"ReverseOrientation", {}},
                                                     {"Rotate", {0, 4, false}},
@@ -92,6 +92,15 @@ std::string read_times(Lexer& lexer) {
     if (token.kind == Token::Kind::word && token.raw == known) return known;
   }
   lexer.fail(token, fmt::format("expected All, StartTime or EndTime, found {}", describe(token)));
+}
+
+/// Returns the value of an Option, whose name has no type.
+std::string read_option(Lexer& lexer) {
+  const Token token = lexer.next();
+  if (token.kind != Token::Kind::word && token.kind != Token::Kind::text) {
+    lexer.fail(token, fmt::format("expected the value of the option, found {}", describe(token)));
+  }
+  return std::string(token.raw);
 }
 
 }  // namespace
@@ -155,6 +164,7 @@ Statement StatementReader::read_statement(const Token& word) {
   if (statement.word == "MediumInterface" && lexer.peek().kind == Token::Kind::text) {
     statement.texts.push_back(lexer.text("a medium"));
   }
+  if (statement.word == "Option") statement.texts.push_back(read_option(lexer));
   if (statement.word == "ActiveTransform") statement.texts.push_back(read_times(lexer));
   statement.numbers = read_numbers(lexer, form->second.numbers);
   if (form->second.parameters) statement.parameters = read_parameters(lexer);

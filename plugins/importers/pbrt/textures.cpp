@@ -1,5 +1,6 @@
-#include <array>
+#include <cmath>
 #include <filesystem>
+#include <memory>
 #include <utility>
 
 #include <fmt/core.h>
@@ -20,26 +21,38 @@ struct Mapped {
   Average average = [] { return std::nullopt; };
 };
 
+/// Returns an average that is computed at the first request. Copies share it, so that textures
+/// made of textures stay small.
+Average known_later(Average compute) {
+  struct Shared {
+    Average compute;
+    std::optional<std::optional<double>> value;
+  };
+  return [shared = std::make_shared<Shared>(Shared{std::move(compute), {}})] {
+    if (!shared->value) shared->value = shared->compute();
+    return *shared->value;
+  };
+}
+
 double mean_of(const Color& color) {
   return double{mean(color.value)};
 }
 
 /// A color or another texture in a parameter, with its mean.
-Mapped read_value(Part& part, const char* name, double otherwise, bool is_limited) {
-  constexpr double kUnlimited = 1e30;
+Mapped read_value(Part& part, const char* name, double otherwise, TextureKind kind,
+                  double most = 1e30) {
   Mapped value;
-  for (const Parameter& p : part.statement().parameters) {
-    if (p.name != name) continue;
-    if (p.type == "texture") {
-      value.average = part.scene().texture(p).average;
-    } else {
-      const double mean = mean_of(part.scene().color(p, ColorRole::surface));
-      value.average = [mean] { return mean; };
-    }
-    value.node = part.texture_or(name, otherwise, is_limited ? 1 : kUnlimited);
-    return value;
+  const Parameter* p = part.find(name);
+  if (p == nullptr)
+    return {number_node(otherwise, part.where()), [otherwise] { return otherwise; }};
+  if (p->type == "texture") {
+    value.average = part.scene().texture(*p, kind).average;
+  } else {
+    const double mean = mean_of(part.scene().color(*p, ColorRole::surface));
+    value.average = [mean] { return mean; };
   }
-  return {number_node(otherwise, part.where()), [otherwise] { return otherwise; }};
+  value.node = part.texture_or(name, otherwise, most, kind);
+  return value;
 }
 
 /// Places a texture by the mapping `uv`: s = uscale u + udelta. Other mappings are replaced.
@@ -69,33 +82,33 @@ ConfigNode placed(Part& part, ConfigNode node, double unit) {
   return around;
 }
 
-Mapped map_constant(Part& part) {
-  Mapped value = read_value(part, "value", 1, false);
+Mapped map_constant(Part& part, TextureKind kind) {
+  Mapped value = read_value(part, "value", 1, kind);
   ConfigNode node = part.node("constant");
   node.set("value", std::move(value.node), part.where());
   return {std::move(node), std::move(value.average)};
 }
 
-Average product(Average a, Average b) {
-  return [a = std::move(a), b = std::move(b)]() -> std::optional<double> {
+Average product(const Average& a, const Average& b) {
+  return known_later([a, b]() -> std::optional<double> {
     const std::optional<double> x = a(), y = b();
     return x && y ? std::optional(*x * *y) : std::nullopt;
-  };
+  });
 }
 
-Average blend_of(Average a, Average b, Average weight) {
-  return [=]() -> std::optional<double> {
+Average blend_of(const Average& a, const Average& b, const Average& weight) {
+  return known_later([=]() -> std::optional<double> {
     const std::optional<double> x = a(), y = b(), w = weight();
     return x && y && w ? std::optional((1 - *w) * *x + *w * *y) : std::nullopt;
-  };
+  });
 }
 
-Mapped map_scale(Part& part) {
-  Mapped texture = read_value(part, "tex", 1, false), factor = read_value(part, "scale", 1, false);
+Mapped map_scale(Part& part, TextureKind kind) {
+  Mapped texture = read_value(part, "tex", 1, kind), factor = read_value(part, "scale", 1, kind);
   ConfigNode node = part.node("scale");
   node.set("texture", std::move(texture.node), part.where());
   node.set("factor", std::move(factor.node), part.where());
-  return {std::move(node), product(std::move(texture.average), std::move(factor.average))};
+  return {std::move(node), product(texture.average, factor.average)};
 }
 
 Mapped mixed(Part& part, Mapped first, Mapped second, Mapped weight) {
@@ -106,13 +119,13 @@ Mapped mixed(Part& part, Mapped first, Mapped second, Mapped weight) {
   return {std::move(node), blend_of(first.average, second.average, weight.average)};
 }
 
-Mapped map_mix(Part& part) {
-  return mixed(part, read_value(part, "tex1", 0, false), read_value(part, "tex2", 1, false),
-               read_value(part, "amount", 0.5, true));
+Mapped map_mix(Part& part, TextureKind kind) {
+  return mixed(part, read_value(part, "tex1", 0, kind), read_value(part, "tex2", 1, kind),
+               read_value(part, "amount", 0.5, TextureKind::number, 1));
 }
 
 /// Squares of one unit show the two textures in turn.
-Mapped map_checkerboard(Part& part) {
+Mapped map_checkerboard(Part& part, TextureKind kind) {
   if (part.integer("dimension", 2) != 2) {
     part.note("the cubes of three dimensions are replaced by squares on the surface");
   }
@@ -121,7 +134,7 @@ Mapped map_checkerboard(Part& part) {
   squares.set("color1", number_node(1, part.where()), part.where());
   // One unit of Pharos' coordinates contains two by two squares.
   Mapped weight{placed(part, std::move(squares), 0.5), [] { return 0.5; }};
-  return mixed(part, read_value(part, "tex1", 1, false), read_value(part, "tex2", 0, false),
+  return mixed(part, read_value(part, "tex1", 1, kind), read_value(part, "tex2", 0, kind),
                std::move(weight));
 }
 
@@ -153,43 +166,45 @@ std::string read_wrap(Part& part) {
   return "clamp";
 }
 
-/// Scales and inverts an image's values.
+/// Scales an image's values, and inverts them then: 1 - scale x.
 Mapped adjusted(Part& part, Mapped image) {
-  const double scale = part.number("scale", 1);
-  if (part.flag("invert", false)) {
-    const auto constant = [&](double value) {
-      return Mapped{number_node(value, part.where()), [value] { return value; }};
-    };
-    image = mixed(part, constant(1), constant(0), std::move(image));
-    if (scale != 1) part.note("'scale' applies after 'invert', values are not limited to 1");
+  double scale = part.number("scale", 1);
+  const bool is_inverted = part.flag("invert", false);
+  if (is_inverted && !(scale >= 0 && scale <= 1)) {
+    part.note("'scale' is left out, as inverted values must be at least 0");
+    scale = 1;
   }
-  if (scale == 1) return image;
-  ConfigNode node = part.node("scale");
-  node.set("texture", std::move(image.node), part.where());
-  node.set("factor", number_node(scale, part.where("scale")), part.where("scale"));
-  return {std::move(node), product(image.average, [scale] { return scale; })};
+  if (scale != 1) {
+    ConfigNode node = part.node("scale");
+    node.set("texture", std::move(image.node), part.where());
+    node.set("factor", number_node(scale, part.where("scale")), part.where("scale"));
+    image = {std::move(node), product(image.average, [scale] { return scale; })};
+  }
+  if (!is_inverted) return image;
+  const auto constant = [&](double value) {
+    return Mapped{number_node(value, part.where()), [value] { return value; }};
+  };
+  return mixed(part, constant(1), constant(0), std::move(image));
 }
 
-Mapped map_image(Part& part) {
+Mapped map_image(Part& part, TextureKind) {
   ConfigNode node = part.node("bitmap");
   node.set("file", part.file(), part.where());
   const std::string wrap = read_wrap(part);
   if (wrap != "repeat") node.set("wrap", text_node(wrap, part.where()), part.where());
   const bool is_linear = reads_linear(part);
   if (is_linear) node.set("color_space", text_node("linear", part.where()), part.where());
-  const std::string filter = find(part.statement().parameters, "filter") != nullptr
-                                 ? part.text("filter").value_or("")
-                                 : "bilinear";
-  if (filter == "point") node.set("filter", text_node("nearest", part.where()), part.where());
+  if (part.text("filter").value_or("bilinear") == "point")
+    node.set("filter", text_node("nearest", part.where()), part.where());
   part.ignore({"maxanisotropy"});
-  const Parameter* name = find(part.statement().parameters, "filename");
-  const std::filesystem::path file = file_in(part.scene().folder(), name->texts.front());
+  const std::string& name = part.find("filename")->texts.front();
+  const std::filesystem::path file = file_in(part.scene().folder(), name);
   return adjusted(part, {placed(part, std::move(node), 1),
                          [file, is_linear] { return image_average(file, is_linear); }});
 }
 
 /// The mean of a value at each corner of the unit square.
-Mapped map_bilinear(Part& part) {
+Mapped map_bilinear(Part& part, TextureKind) {
   Rgb sum;
   for (const char* corner : {"v00", "v01", "v10", "v11"}) {
     const double otherwise = corner[2] == '1' ? 1 : 0;
@@ -206,7 +221,7 @@ Mapped map_bilinear(Part& part) {
 }
 
 /// Stands for textures that Pharos does not have.
-Mapped map_other(Part& part) {
+Mapped map_other(Part& part, TextureKind) {
   constexpr double kGray = 0.5;
   part.note(fmt::format("replaced by {}", kGray));
   part.ignore_all();
@@ -215,7 +230,7 @@ Mapped map_other(Part& part) {
   return {std::move(node), [] { return kGray; }};
 }
 
-using Mapper = Mapped (*)(Part&);
+using Mapper = Mapped (*)(Part&, TextureKind);
 
 }  // namespace
 
@@ -228,18 +243,19 @@ void map_texture(Scene& scene, const Statement& texture) {
       {"mix", map_mix},           {"ptex", map_other},
       {"scale", map_scale},       {"windy", map_other},
       {"wrinkled", map_other}};
-  const std::string name = texture.texts[0], kind = texture.texts[1];
-  if (kind != "float" && kind != "spectrum") {
+  const std::string name = texture.texts[0], type = texture.texts[1];
+  if (type != "float" && type != "spectrum") {
     throw InputError(texture.where, fmt::format("a texture is of type 'float' or 'spectrum', "
                                                 "found '{}'",
-                                                one_line(kind, 60)));
+                                                one_line(type, 60)));
   }
   Statement typed = texture;
   typed.texts = {texture.texts[2]};
   const std::size_t object = scene.log().add_object(
       texture.where, fmt::format("texture {} '{}'", typed.type(), one_line(name, 60)));
   Part part(scene, typed, "texture");
-  Mapped mapped = mapper_of(all, typed)(part);
+  const TextureKind kind = type == "float" ? TextureKind::number : TextureKind::spectrum;
+  Mapped mapped = mapper_of(all, typed)(part, kind);
   part.finish();
   scene.log().stands(object, "texture " + mapped.node.find("type")->text());
   scene.add_texture(kind, name, texture.where, std::move(mapped.node), std::move(mapped.average));

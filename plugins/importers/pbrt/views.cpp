@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include <fmt/core.h>
 
@@ -27,7 +28,8 @@ ConfigNode integer_node(int value, const Location& where) {
 // Film
 
 void set_crop(ConfigNode& film, const std::array<int, 4>& edges, const Location& where) {
-  const auto [x0, x1, y0, y1] = edges;
+  const auto [x0, x1] = std::minmax(edges[0], edges[1]);
+  const auto [y0, y1] = std::minmax(edges[2], edges[3]);
   ConfigNode crop = ConfigNode::mapping(where);
   crop.set("x", integer_node(x0, where), where);
   crop.set("y", integer_node(y0, where), where);
@@ -59,9 +61,10 @@ void read_window(Part& part, ConfigNode& film, Size size) {
   }
 }
 
-/// Notes a brightness or a sensor that Pharos does not have.
-void check_sensor(Part& part) {
-  const double brightness = part.number("exposuretime", 1) * part.number("iso", 100) / 100;
+/// Notes a brightness or a sensor that Pharos does not have. `exposure` is in seconds; with one
+/// second and ISO 100 the image shows radiance.
+void check_sensor(Part& part, double exposure) {
+  const double brightness = exposure * part.number("iso", 100) / 100;
   if (std::abs(brightness - 1) > 1e-6) {
     part.note(fmt::format("pbrt's image is {:.4g} times as bright", brightness));
   }
@@ -72,7 +75,7 @@ void check_sensor(Part& part) {
                "lambdamin", "lambdamax", "nbuckets"});
 }
 
-Size map_film(Scene& scene, const Statement& film) {
+Size map_film(Scene& scene, const Statement& film, double exposure) {
   static const std::map<std::string_view, bool> known{
       {"gbuffer", true}, {"rgb", true}, {"spectral", false}};
   const std::size_t object = scene.log().add_object(film.where, "Film " + film.type());
@@ -85,7 +88,7 @@ Size map_film(Scene& scene, const Statement& film) {
   scene.film.set("width", integer_node(size.width, film.where), film.where);
   scene.film.set("height", integer_node(size.height, film.where), film.where);
   read_window(part, scene.film, size);
-  check_sensor(part);
+  check_sensor(part, exposure);
   part.finish();
   scene.log().stands(object, "film");
   return size;
@@ -252,16 +255,23 @@ void map_sampler(Scene& scene, const Statement& sampler) {
   const NearestSampler nearest = mapper_of(all, sampler);
   if (!nearest.is_same) part.note(fmt::format("replaced by {}", nearest.name));
   const bool is_grid = sampler.type() == "stratified";
-  const int samples = is_grid ? part.integer("xsamples", 4) * part.integer("ysamples", 4)
-                              : part.integer("pixelsamples", 16);
+  const int otherwise = sampler.type() == "independent" ? 4 : 16;
+  const double samples = is_grid
+                             ? double{1} * part.integer("xsamples", 4) * part.integer("ysamples", 4)
+                             : part.integer("pixelsamples", otherwise);
   part.ignore({"seed", "randomization", "jitter"});
   part.finish();
   scene.sampler = text_node(nearest.name, sampler.where);
   scene.budget = ConfigNode::mapping(sampler.where);
-  scene.budget.set("spp", integer_node(std::max(1, samples), sampler.where), sampler.where);
+  scene.budget.set("spp",
+                   integer_node(static_cast<int>(std::clamp(samples, 1.0, 1e9)), sampler.where),
+                   sampler.where);
 }
 
 // Integrator
+
+/// One less than the longest path of all integrators.
+constexpr int kMostBounces = 32766;
 
 /// Whether an integrator is a path tracer, as Pharos' is, or shows the same image, or another one.
 enum class Method { path, same_image, other_image };
@@ -284,7 +294,7 @@ void map_integrator(Scene& scene, const Statement& integrator) {
   if (method == Method::other_image) part.note("replaced by path, which shows light");
   if (part.flag("regularize", false)) part.note("'regularize' is left out");
   // pbrt counts bounces, Pharos the segments between the lens and the light.
-  const int bounces = std::clamp(part.integer("maxdepth", 5), 0, 65534);
+  const int bounces = std::clamp(part.integer("maxdepth", 5), 0, kMostBounces);
   scene.integrator = part.node("path");
   scene.integrator.set("max_depth", integer_node(bounces + 1, part.where("maxdepth")),
                        part.where("maxdepth"));
@@ -304,7 +314,10 @@ Statement stated_or(const std::optional<Statement>& stated, const char* word, co
 
 void map_view(Scene& scene, const View& view) {
   const Location where = view.camera ? view.camera->where : Location{};
-  const Size size = map_film(scene, stated_or(view.film, "Film", "rgb", where));
+  const Statement camera = stated_or(view.camera, "Camera", "perspective", where);
+  Part shutter(scene, camera);
+  const double exposure = shutter.number("shutterclose", 1) - shutter.number("shutteropen", 0);
+  const Size size = map_film(scene, stated_or(view.film, "Film", "rgb", where), exposure);
   scene.film.set(
       "filter", map_filter(scene, stated_or(view.filter, "PixelFilter", "gaussian", where)), where);
   if (view.camera) {

@@ -59,7 +59,8 @@ std::string EntryNames::take(const std::string& id) {
   }
   if (is_taken_word(base)) base = word_ + (base.empty() ? "" : "_") + base;
   std::string name = base;
-  for (int i = 2; !taken_.insert(name).second; ++i) name = fmt::format("{}_{}", base, i);
+  int& next = next_number_.try_emplace(base, 2).first->second;
+  while (!taken_.insert(name).second) name = fmt::format("{}_{}", base, next++);
   return name;
 }
 

@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <pharos/scene/importer.h>
@@ -44,6 +45,7 @@ class EntryNames {
  private:
   std::string word_;
   std::set<std::string> taken_;
+  std::map<std::string, int> next_number_;  ///< to try, by the name before the number
 };
 
 }  // namespace pharos::importing

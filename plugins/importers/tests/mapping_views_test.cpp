@@ -164,16 +164,16 @@ TEST_CASE("views: path depth and roulette") {
   CHECK(method("path", {integer("max_depth", 8)}) ==
         "{ type: path, max_depth: 8, termination: { type: throughput, depth: 5 } }");
   CHECK(method("path") ==
-        "{ type: path, max_depth: 65535, termination: { type: throughput, depth: 5 } }");
+        "{ type: path, max_depth: 32767, termination: { type: throughput, depth: 5 } }");
   CHECK(method("path", {integer("max_depth", -1), integer("rr_depth", 3)}) ==
-        "{ type: path, max_depth: 65535, termination: { type: throughput, depth: 3 } }");
+        "{ type: path, max_depth: 32767, termination: { type: throughput, depth: 3 } }");
   CHECK(method("direct") == "{ type: path, max_depth: 2 }");
   CHECK(built(import_of({object("integrator", "path")})).config.integrator != nullptr);
 }
 
 TEST_CASE("views: a scene without integrator") {
   CHECK(part(import_of({}, Dialect::mitsuba_0), "integrator") == "{ type: path, max_depth: 2 }");
-  CHECK(part(import_of({}, Dialect::mitsuba_2), "integrator.max_depth") == "65535");
+  CHECK(part(import_of({}, Dialect::mitsuba_2), "integrator.max_depth") == "32767");
 }
 
 TEST_CASE("views: other integrators are replaced, with a note") {

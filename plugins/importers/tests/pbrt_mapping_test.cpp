@@ -337,6 +337,56 @@ TEST_CASE("pbrt: transforms follow each other as in pbrt") {
         "[1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0]");
 }
 
+TEST_CASE("pbrt: options have no type, and the shutter is the exposure") {
+  const Import import = import_of(
+      "Option \"seed\" 3 Option \"rendercoordsys\" \"world\" Option \"forcediffuse\" true\n"
+      "Film \"rgb\" \"float iso\" 200 Camera \"perspective\" \"float shutterclose\" .5");
+  CHECK(notes(import) == std::vector<std::string>{"the option 'forcediffuse' is left out"});
+  CHECK(part(import_of("Sampler \"independent\""), "budget.spp") == "4");
+}
+
+TEST_CASE("pbrt: what blocks save, and what WorldBegin resets") {
+  // The transform of the end of the exposure is that of the camera only.
+  const Import moving = import_of(
+      "ActiveTransform EndTime Translate 0 0 1 Camera \"perspective\" WorldBegin Translate 1 0 0 "
+      "Shape \"disk\"");
+  CHECK(part(moving, "scene.shapes.0.to_world.matrix") == "[1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0]");
+  const Import saved = import_of_world(
+      "AttributeBegin ActiveTransform EndTime Attribute \"shape\" \"float radius\" 3 "
+      "AreaLightSource \"diffuse\" AttributeEnd Translate 1 0 0 Shape \"disk\"\n"
+      "AreaLightSource \"diffuse\" Shape \"disk\" AreaLightSource \"\" Shape \"disk\"\n"
+      "Material \"interface\" AreaLightSource \"diffuse\" Shape \"disk\"");
+  CHECK(part(saved, "scene.shapes.0.to_world.matrix") == "[1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0]");
+  CHECK(part(saved, "scene.shapes.0.emitter") == "none");
+  CHECK(part(saved, "scene.shapes.1.emitter") == "{ type: area, radiance: 1 }");
+  CHECK(part(saved, "scene.shapes.2.emitter") == "none");
+  CHECK(part(saved, "scene.shapes.3.emitter") == "none");
+}
+
+TEST_CASE(
+    "pbrt: textures of both types may have one name, and the last of equal parameters counts") {
+  const Import import = import_of_world(
+      "Texture \"t\" \"spectrum\" \"constant\" Texture \"t\" \"float\" \"constant\" \"float "
+      "value\" .25\nMaterial \"mix\" \"texture amount\" \"t\" \"string materials\" [ \"a\" \"a\" "
+      "]\n"
+      "MakeNamedMaterial \"a\" \"string type\" \"diffuse\" \"texture reflectance\" \"t\"\n"
+      "Shape \"sphere\" \"float radius\" 2 \"float radius\" 3");
+  CHECK(part(import, "scene.materials.material.weight") == "t_2");
+  CHECK(part(import, "scene.materials.a.bsdf.reflectance") == "t");
+  CHECK(part(import, "scene.shapes.0.radius") == "3");
+}
+
+TEST_CASE("pbrt: textures made of textures need no more time than there are of them") {
+  std::string world = "Texture \"t0\" \"float\" \"constant\" \"float value\" 1\n";
+  for (int i = 1; i <= 60; ++i) {
+    world += "Texture \"t" + std::to_string(i) + "\" \"float\" \"scale\" \"texture tex\" \"t" +
+             std::to_string(i - 1) + "\" \"texture scale\" \"t" + std::to_string(i - 1) + "\"\n";
+  }
+  const Import import =
+      import_of_world(world + "Material \"dielectric\" \"texture roughness\" \"t60\"");
+  CHECK(part(import, "scene.materials.material.alpha") == "1");
+}
+
 TEST_CASE("pbrt: files in files") {
   const test::TemporaryFolder folder;
   std::filesystem::create_directory(folder / "parts");

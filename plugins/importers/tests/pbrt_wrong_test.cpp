@@ -55,6 +55,8 @@ TEST_CASE("pbrt: transforms") {
          {"CoordSysTransform \"camera\"", "1:1: error: there is no coordinate system 'camera'"},
          {"CoordinateSystem \"lamp\" CoordSysTransform \"lmap\"",
           "1:25: error: there is no coordinate system 'lmap' (did you mean 'lamp'?)"},
+         {"Option \"seed\"",
+          "1:14: error: expected the value of the option, found the end of the file"},
          {"ActiveTransform Start",
           "1:17: error: expected All, StartTime or EndTime, found 'Start'"}});
 }
@@ -198,7 +200,8 @@ TEST_CASE("pbrt: lights, shapes and media") {
         "'loopsubdiv', 'plymesh', 'sphere', 'trianglemesh'"},
        {"Shape \"sphere\" \"float radius\" 0", "16: error: 'radius' must be above 0"},
        {"Shape \"sphere\" \"bool radius\" true", "16: error: 'radius' must be one number"},
-       {"Shape \"cylinder\" \"float zmin\" 2", "18: error: 'zmin' must be below 'zmax'"},
+       {"Shape \"cylinder\" \"float zmin\" 1", "18: error: 'zmin' must differ from 'zmax'"},
+       {"Shape \"disk\" \"float radius\" 1e-40", "1: error: the transform cannot be inverted"},
        {"Shape \"trianglemesh\"", "1: error: 'P' is missing"},
        {"Shape \"plymesh\"", "1: error: Shape plymesh: 'filename' is missing"},
        {"MediumInterface \"fog\" \"\" Shape \"sphere\"", "26: error: there is no medium 'fog'"},

@@ -9,7 +9,7 @@ namespace pharos::mitsuba {
 namespace {
 
 /// The longest path in Pharos, for paths that end only by Russian roulette.
-constexpr std::int64_t kLongestPath = 65535;
+constexpr std::int64_t kLongestPath = 32767;
 constexpr std::int64_t kDefaultRouletteDepth = 5;
 
 /// Integrators that are path tracers of emitted light, like `path`.
