@@ -39,28 +39,34 @@ Vec2 offset_from_center(Vec2 film, int x, int y) {
   return {film.x - (static_cast<float>(x) + 0.5f), film.y - (static_cast<float>(y) + 0.5f)};
 }
 
-/// Returns the fraction of a pixel filter's integral that falls on the film, by the midpoint rule.
-/// The film extends `margins` whole pixels to the left, right, top and bottom of the pixel.
-float share_on_film(const Filter& filter, const std::array<int, 4>& margins) {
+/// Returns the integral of a pixel filter over the offsets between `low` and `high`, by the
+/// midpoint rule.
+double filter_integral(const Filter& filter, Vec2 low, Vec2 high) {
   constexpr int kSteps = 64;
-  const float radius = filter.radius(), step = 2 * radius / kSteps;
-  double inside = 0, all = 0;
+  const Vec2 step = (1.0f / kSteps) * (high - low);
+  double sum = 0;
   for (int i = 0; i < kSteps; ++i) {
     for (int j = 0; j < kSteps; ++j) {
-      const Vec2 offset{step * (static_cast<float>(i) + 0.5f) - radius,
-                        step * (static_cast<float>(j) + 0.5f) - radius};
-      const float weight = filter.evaluate(offset);
-      const auto reaches = [](float distance, int margin) {
-        return distance <= static_cast<float>(margin) + 0.5f;
-      };
-      all += weight;
-      if (reaches(-offset.x, margins[0]) && reaches(offset.x, margins[1]) &&
-          reaches(-offset.y, margins[2]) && reaches(offset.y, margins[3])) {
-        inside += weight;
-      }
+      const auto x = static_cast<float>(i) + 0.5f, y = static_cast<float>(j) + 0.5f;
+      sum += filter.evaluate(low + Vec2{step.x * x, step.y * y});
     }
   }
-  return static_cast<float>(inside / all);
+  return sum * step.x * step.y;
+}
+
+/// Returns the fraction of a pixel filter's integral that falls on the film. The film extends
+/// `margins` whole pixels to the left, right, top and bottom of the pixel. The integral ends
+/// exactly at the film's edge: a grid over the whole filter would be off by up to half a step
+/// there.
+float share_on_film(const Filter& filter, const std::array<int, 4>& margins) {
+  const float radius = filter.radius();
+  const auto reach = [&](int margin) {
+    return std::min(radius, static_cast<float>(margin) + 0.5f);
+  };
+  const Vec2 low{-reach(margins[0]), -reach(margins[2])},
+      high{reach(margins[1]), reach(margins[3])};
+  return static_cast<float>(filter_integral(filter, low, high) /
+                            filter_integral(filter, {-radius, -radius}, {radius, radius}));
 }
 
 /// Returns the index of the pixel that contains a film position, clamped to `bounds`.
