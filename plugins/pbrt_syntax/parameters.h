@@ -18,8 +18,7 @@ struct Parameter {
   std::string type;
   std::string name;
   Location where;  ///< of the declaration
-  /// The values of all types but texts; 0 and 1 for "bool". Their count is a multiple of the size
-  /// of one value (3 for "rgb").
+  /// The values, unless they are texts; 0 and 1 for "bool". A value of type "rgb" is three numbers.
   std::vector<double> numbers;
   /// The values of "string" and "texture", and of a "spectrum" that is a name or a file.
   std::vector<std::string> texts;

@@ -297,9 +297,9 @@ TEST_CASE("long: vertex triplets are unbiased in the proof variant fog-box") {
   compare_proof("fog-box", triplet_methods(1));
 }
 TEST_CASE("long: vertex triplets are unbiased in the proof variant haze") {
-  // Rare paths are so bright here that 32 means of an 8 x 8 block are far from normal (skewness 3
-  // in the darkest one). A t-test of such blocks rejects images with equal means; larger regions do
-  // not depend on single paths.
+  // Rare paths are so bright here that means of an 8 x 8 block are far from normal: in 128 renders
+  // of one method, a single path once raised the mean of a block by a fifth. A t-test of 32 renders
+  // without such a path underestimates the error. Larger regions depend less on single paths.
   statistics::AgreementOptions options = kOptions;
   options.effective_contributions = 2000;
   compare_proof("haze", triplet_methods(0), {"budget={ spp: 256 }"}, options);

@@ -33,8 +33,8 @@ struct Sky {
   Rgb seen(Vec3 direction) const { return light->environment_radiance(normalize(direction)); }
 };
 
-/// Compares the light with `radiance(zenith, gamma)` in directions that are not close to the sun,
-/// where skies change within a pixel.
+/// Compares the light with `radiance(zenith, gamma)` in directions that are not close to the sun.
+/// Next to the sun, the radiance changes within a pixel.
 template <class Model>
 void check_shows(const Sky& sky, const Model& model, Vec3 sun) {
   RandomStream random(1);

@@ -11,7 +11,7 @@
 
 namespace pharos::pbrt {
 
-/// What a color means.
+/// The role of a color: it changes how a spectrum becomes RGB.
 enum class ColorRole {
   surface,  ///< a reflectance, a refractive index, a coefficient: a factor on light
   light,    ///< emitted light

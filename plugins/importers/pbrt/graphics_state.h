@@ -12,7 +12,7 @@
 
 namespace pharos::pbrt {
 
-/// What later directives depend on; AttributeBegin saves it.
+/// The settings that apply to the directives that follow. AttributeBegin saves them.
 struct GraphicsState {
   Transform to_world;  ///< the current transformation matrix
   bool reverse_orientation = false;

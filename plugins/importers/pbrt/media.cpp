@@ -54,11 +54,10 @@ void map_medium(Scene& scene, const Statement& medium) {
                                                       {"nanovdb", leave_out},
                                                       {"rgbgrid", leave_out},
                                                       {"uniformgrid", leave_out}};
-  // The type is a parameter, the first text is the name.
+  // The first text is the name, and the type is a parameter.
   Part named(scene, medium, "medium");
   Statement typed = medium;
-  typed.texts.push_back(named.text("type").value_or("homogeneous"));
-  std::swap(typed.texts.front(), typed.texts.back());
+  typed.texts = {named.text("type").value_or("homogeneous")};
   const std::size_t object = scene.log().add_object(
       medium.where, fmt::format("medium {} '{}'", typed.type(), medium.type()));
   Part part(scene, typed, "medium");

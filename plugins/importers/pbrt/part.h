@@ -88,7 +88,7 @@ class Part {
 
   Scene& scene_;
   const Statement& statement_;
-  std::vector<const Parameter*> parameters_;  ///< those of attributes first
+  std::vector<const Parameter*> parameters_;  ///< first the parameters of Attribute
   std::vector<bool> is_read_;
 };
 

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What follows a directive.
+/// The number of texts and of numbers after a directive, and whether parameters follow.
 struct Form {
   int texts = 0, numbers = 0;
   bool parameters = false;

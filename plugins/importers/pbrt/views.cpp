@@ -71,6 +71,7 @@ void check_sensor(Part& part, double exposure) {
   const std::string sensor = part.text("sensor").value_or("cie1931");
   if (sensor != "cie1931") part.note(fmt::format("the sensor '{}' is left out", sensor));
   if (part.number("whitebalance", 0) != 0) part.note("'whitebalance' is left out");
+  if (part.has("maxcomponentvalue")) part.note("'maxcomponentvalue' does not limit the values");
   part.ignore({"diagonal", "filename", "savefp16", "maxcomponentvalue", "coordinatesystem",
                "lambdamin", "lambdamax", "nbuckets"});
 }

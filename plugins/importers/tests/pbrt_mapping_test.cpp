@@ -63,78 +63,6 @@ Rgb surface_color(const std::string& value) {
 
 }  // namespace
 
-TEST_CASE("pbrt: a camera looks where pbrt's looks, with x to the right") {
-  // Without a transform, pbrt's camera looks along +z with +x on the right. In Pharos +x is on the
-  // left, so the camera is mirrored.
-  const Import plain = import_of("Camera \"perspective\" WorldBegin");
-  CHECK(part(plain, "scene.sensor") ==
-        "{ type: perspective, fov: 121.28449, to_world: { matrix: [-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, "
-        "1, 0] } }");
-  const Import placed = import_of(
-      "Scale -1 1 1 Translate 0 0 5\nFilm \"rgb\" \"integer xresolution\" 100 \"integer "
-      "yresolution\" 100\nCamera \"perspective\" \"float fov\" 40");
-  CHECK(part(placed, "scene.sensor") ==
-        "{ type: perspective, fov: 40, to_world: { matrix: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, -5] } "
-        "}");
-}
-
-TEST_CASE("pbrt: fields of view span the shorter edge, or the screen window") {
-  const auto fov = [](const std::string& film, const std::string& camera) {
-    const Import import = import_of("Film \"rgb\" " + film + " Camera \"perspective\" " + camera);
-    return std::stod(part(import, "scene.sensor.fov"));
-  };
-  const std::string wide = "\"integer xresolution\" 200 \"integer yresolution\" 100 ";
-  const std::string tall = "\"integer xresolution\" 100 \"integer yresolution\" 200 ";
-  const double degree = std::numbers::pi / 180;
-  const double across = 2 * std::atan(2 * std::tan(20 * degree)) / degree;
-  CHECK(fov(wide, "\"float fov\" 40") == doctest::Approx(across));
-  CHECK(fov(tall, "\"float fov\" 40") == doctest::Approx(40));
-  CHECK(fov(wide, "\"float halffov\" 20") == doctest::Approx(across));
-  CHECK(fov(wide, "\"float fov\" 40 \"float screenwindow\" [ -2 2 -1 1 ]") ==
-        doctest::Approx(across));
-  CHECK(fov(wide, "\"float fov\" 40 \"float screenwindow\" [ -1 1 -.5 .5 ]") ==
-        doctest::Approx(40));
-}
-
-TEST_CASE("pbrt: lenses, and cameras without a counterpart") {
-  const Import lens = import_of(
-      "Camera \"perspective\" \"float lensradius\" .1 \"float focaldistance\" 3 \"float fov\" 40");
-  CHECK(part(lens, "scene.sensor.type") == "thin_lens");
-  CHECK(part(lens, "scene.sensor.aperture_radius") == "0.1");
-  CHECK(part(lens, "scene.sensor.focus_distance") == "3");
-  const Import flat =
-      import_of("Camera \"orthographic\" \"float screenwindow\" [ -3 3 -1.6875 1.6875 ]");
-  CHECK(part(flat, "scene.sensor.width") == "6");
-  CHECK(notes(flat).empty());
-  CHECK(notes(import_of("Camera \"spherical\"")) ==
-        std::vector<std::string>{"Camera spherical: replaced by a perspective camera with 50 "
-                                 "degrees across the shorter edge"});
-}
-
-TEST_CASE("pbrt: film, filter, sampler and integrator") {
-  const Import standard = import_of("Camera \"perspective\"");
-  CHECK(part(standard, "film") ==
-        "{ width: 1280, height: 720, filter: { type: gaussian, radius: 1.5, stddev: 0.5 } }");
-  CHECK(part(standard, "sampler") == "z_sobol");
-  CHECK(part(standard, "budget") == "{ spp: 16 }");
-  CHECK(part(standard, "integrator") == "{ type: path, max_depth: 6, termination: throughput }");
-
-  const Import stated = import_of(
-      "Film \"gbuffer\" \"integer xresolution\" 200 \"integer yresolution\" 100 \"float "
-      "cropwindow\" "
-      "[ .25 .75 0 .5 ] \"float iso\" 200\nPixelFilter \"sinc\"\nSampler \"stratified\" \"integer "
-      "xsamples\" 3\nIntegrator \"bdpt\" \"integer maxdepth\" 10 \"bool visualize\" true");
-  CHECK(part(stated, "film.crop") == "{ x: 50, y: 0, width: 100, height: 50 }");
-  CHECK(part(stated, "film.filter") == "{ type: lanczos, lobes: 3 }");
-  CHECK(part(stated, "sampler") == "stratified");
-  CHECK(part(stated, "budget.spp") == "12");
-  CHECK(part(stated, "integrator.max_depth") == "11");
-  CHECK(notes(stated) == std::vector<std::string>{"Film gbuffer: pbrt's image is 2 times as bright",
-                                                  "PixelFilter sinc: has 3 lobes",
-                                                  "the scene has no Camera",
-                                                  "Integrator bdpt: replaced by path"});
-}
-
 TEST_CASE("pbrt: materials") {
   CHECK(material("\"diffuse\" \"rgb reflectance\" [ .1 .2 .3 ]") ==
         "{ type: two_sided, bsdf: { type: diffuse, reflectance: [0.1, 0.2, 0.3] } }");
@@ -287,19 +215,6 @@ TEST_CASE("pbrt: parts of spheres, and stretched ones, are surfaces of revolutio
   CHECK(notes(import).size() == 1);
 }
 
-TEST_CASE("pbrt: objects and instances") {
-  const Import import = import_of_world(
-      "ObjectBegin \"ball\" Translate 0 0 1 Shape \"sphere\" ObjectEnd\nObjectBegin \"nothing\" "
-      "ObjectEnd\n"
-      "Scale 2 2 2 ObjectInstance \"ball\" ObjectInstance \"nothing\"");
-  CHECK(part(import, "scene.groups.ball.0.to_world") ==
-        "{ matrix: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 1] }");
-  CHECK(part(import, "scene.shapes.0") ==
-        "{ type: instance, group: ball, to_world: { matrix: [2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0] } "
-        "}");
-  CHECK(part(import, "scene.shapes.1") == "none");
-}
-
 TEST_CASE("pbrt: media on both sides of a shape, and around the camera") {
   const Import import = import_of(
       "MakeNamedMedium \"air\" \"rgb sigma_s\" [ 1 2 3 ] \"rgb sigma_a\" [ 0 0 0 ] \"float g\" .5\n"
@@ -315,52 +230,6 @@ TEST_CASE("pbrt: media on both sides of a shape, and around the camera") {
   CHECK(part(import, "scene.shapes.0.interior") == "none");
   CHECK(part(import, "scene.shapes.1.interior") == "none");
   CHECK(part(import, "scene.shapes.2.interior") == "none");  // the same on both sides
-}
-
-TEST_CASE("pbrt: transforms follow each other as in pbrt") {
-  const auto matrix = [](const std::string& steps) {
-    return part(import_of_world(steps + " Shape \"disk\""), "scene.shapes.0.to_world.matrix");
-  };
-  CHECK(matrix("Translate 1 0 0 Scale 2 2 2") == "[2, 0, 0, 1, 0, 2, 0, 0, 0, 0, 2, 0]");
-  CHECK(matrix("Rotate 90 0 0 1") == "[0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0]");
-  CHECK(matrix("Translate 5 5 5 Transform [ 1 0 0 0  0 2 0 0  0 0 3 0  4 5 6 1 ]") ==
-        "[1, 0, 0, 4, 0, 2, 0, 5, 0, 0, 3, 6]");
-  CHECK(matrix("Translate 1 1 1 ConcatTransform [ 2 0 0 0  0 2 0 0  0 0 2 0  0 0 0 1 ]") ==
-        "[2, 0, 0, 1, 0, 2, 0, 1, 0, 0, 2, 1]");
-  CHECK(
-      matrix(
-          "Translate 1 1 1 CoordinateSystem \"a\" Identity Scale 3 3 3 CoordSysTransform \"a\"") ==
-      "[1, 0, 0, 1, 0, 1, 0, 1, 0, 0, 1, 1]");
-  CHECK(matrix("TransformBegin Scale 3 3 3 TransformEnd Translate 1 0 0") ==
-        "[1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0]");
-  CHECK(matrix("ActiveTransform EndTime Scale 3 3 3 ActiveTransform All Translate 1 0 0") ==
-        "[1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0]");
-}
-
-TEST_CASE("pbrt: options have no type, and the shutter is the exposure") {
-  const Import import = import_of(
-      "Option \"seed\" 3 Option \"rendercoordsys\" \"world\" Option \"forcediffuse\" true\n"
-      "Film \"rgb\" \"float iso\" 200 Camera \"perspective\" \"float shutterclose\" .5");
-  CHECK(notes(import) == std::vector<std::string>{"the option 'forcediffuse' is left out"});
-  CHECK(part(import_of("Sampler \"independent\""), "budget.spp") == "4");
-}
-
-TEST_CASE("pbrt: what blocks save, and what WorldBegin resets") {
-  // The transform of the end of the exposure is that of the camera only.
-  const Import moving = import_of(
-      "ActiveTransform EndTime Translate 0 0 1 Camera \"perspective\" WorldBegin Translate 1 0 0 "
-      "Shape \"disk\"");
-  CHECK(part(moving, "scene.shapes.0.to_world.matrix") == "[1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0]");
-  const Import saved = import_of_world(
-      "AttributeBegin ActiveTransform EndTime Attribute \"shape\" \"float radius\" 3 "
-      "AreaLightSource \"diffuse\" AttributeEnd Translate 1 0 0 Shape \"disk\"\n"
-      "AreaLightSource \"diffuse\" Shape \"disk\" AreaLightSource \"\" Shape \"disk\"\n"
-      "Material \"interface\" AreaLightSource \"diffuse\" Shape \"disk\"");
-  CHECK(part(saved, "scene.shapes.0.to_world.matrix") == "[1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0]");
-  CHECK(part(saved, "scene.shapes.0.emitter") == "none");
-  CHECK(part(saved, "scene.shapes.1.emitter") == "{ type: area, radiance: 1 }");
-  CHECK(part(saved, "scene.shapes.2.emitter") == "none");
-  CHECK(part(saved, "scene.shapes.3.emitter") == "none");
 }
 
 TEST_CASE(
@@ -385,24 +254,6 @@ TEST_CASE("pbrt: textures made of textures need no more time than there are of t
   const Import import =
       import_of_world(world + "Material \"dielectric\" \"texture roughness\" \"t60\"");
   CHECK(part(import, "scene.materials.material.alpha") == "1");
-}
-
-TEST_CASE("pbrt: files in files") {
-  const test::TemporaryFolder folder;
-  std::filesystem::create_directory(folder / "parts");
-  folder.write(
-      "parts/a.pbrt",
-      "Translate 1 0 0\nTexture \"w\" \"float\" \"imagemap\" \"string filename\" \"w.png\"");
-  folder.write("parts/b.pbrt",
-               "Translate 5 0 0\nShape \"trianglemesh\" \"point3 P\" [ 0 0 0 1 0 0 0 1 0 ]");
-  const Import import = PbrtImporter().import(folder.write(
-      "scene.pbrt", "WorldBegin\nImport \"parts/b.pbrt\" Include \"parts/a.pbrt\" Shape \"disk\""));
-  const std::string mesh = part(import, "scene.shapes.0");
-  CHECK(mesh.find("file: b.pbrt, part: \"2:1\"") != std::string::npos);
-  const ConfigNode& file = *import.config.find("scene")->find("shapes")->items()[0].find("file");
-  CHECK(std::filesystem::path(file.where().file).parent_path() == folder / "parts");
-  CHECK(part(import, "scene.shapes.1.to_world.matrix") == "[1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0]");
-  CHECK(part(import, "scene.textures.w.file") == (folder / "w.png").string());
 }
 
 TEST_CASE("pbrt: a light's spectrum tells its color, not its brightness") {
@@ -434,17 +285,6 @@ TEST_CASE("pbrt: color spaces") {
   CHECK(in("srgb", "[ .1 .2 .3 ]") == "[0.1, 0.2, 0.3]");
   CHECK(in("rec2020", "[ .5 .5 .5 ]") == "[0.5, 0.5, 0.5]");
   CHECK(in("dci-p3", "[ 0 .5 0 ]") == "[0, 0.5210285, 0]");
-}
-
-TEST_CASE("pbrt: what is left out is said, once for each kind") {
-  const Import import = import_of_world(
-      "Shape \"sphere\" \"float squash\" 1 Shape \"sphere\" \"float squash\" 2\n"
-      "AreaLightSource \"diffuse\" \"bool twosided\" true Shape \"sphere\"");
-  CHECK(notes(import) ==
-        std::vector<std::string>{"Shape sphere: 'squash' is left out",
-                                 "AreaLightSource diffuse: emits on the side of the normal only"});
-  CHECK(import.notes[0].times == 2);
-  CHECK(import.objects[2].what == "shape sphere");
 }
 
 }  // namespace pharos::pbrt

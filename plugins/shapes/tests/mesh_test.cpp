@@ -112,7 +112,8 @@ TEST_CASE("other formats are refused with a list and the nearest") {
     const auto file = folder.write(name, "mesh");
     return test::input_error_in(folder, [&] { Mesh({.file = file, .part = part}); });
   };
-  const std::string list = "; known are '.glb', '.gltf', '.obj', '.pbrt', '.ply', '.serialized', '.stl'";
+  const std::string list =
+      "; known are '.glb', '.gltf', '.obj', '.pbrt', '.ply', '.serialized', '.stl'";
   CHECK(message("a.fbx", "") == "mesh 'a.fbx': the format '.fbx' is not known" + list);
   CHECK(message("a.gltff", "") ==
         "mesh 'a.gltff': the format '.gltff' is not known (did you mean '.gltf'?)" + list);
