@@ -25,7 +25,6 @@ TriangleShape::TriangleShape(TriangleMesh mesh, const std::string& name)
     kept.push_back(mesh_.triangles[i]);
     area_up_to_.push_back(total);
   }
-  if (kept.empty()) throw InputError(name + " has no triangle with an area above zero");
   mesh_.triangles = std::move(kept);
   mesh_.precompute();
 }

@@ -12,7 +12,9 @@ namespace pharos {
 class TriangleShape : public Shape {
  public:
   Bounds3 bounds() const override { return bounds_; }
-  float area() const override { return static_cast<float>(area_up_to_.back()); }
+  float area() const override {
+    return area_up_to_.empty() ? 0 : static_cast<float>(area_up_to_.back());
+  }
   const TriangleMesh* mesh() const override { return &mesh_; }
   std::uint32_t primitive_count() const override {
     return static_cast<std::uint32_t>(mesh_.triangles.size());
@@ -21,8 +23,8 @@ class TriangleShape : public Shape {
   ShapeSample sample(Vec2 u) const override;
 
  protected:
-  /// Removes triangles without area. Throws InputError if no triangle remains or a position is not
-  /// finite; the message uses `name` for the shape.
+  /// Removes triangles without area. Throws InputError if a position is not finite; the message
+  /// uses `name` for the shape.
   TriangleShape(TriangleMesh mesh, const std::string& name);
 
   /// Returns the point of `triangle` with the barycentric weights `b`, and the density of sample().

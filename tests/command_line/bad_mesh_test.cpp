@@ -16,7 +16,6 @@ TEST_CASE("OBJ") {
   check_mesh_refused("index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 99999999999\n", "4:7");
   check_mesh_refused("number.obj", "v 0 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "1:7");
   check_mesh_refused("number.obj", "v 0 0 0\nv inf 0 0\nv 0 1 0\nf 1 2 3\n", "2:3");
-  check_mesh_refused("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
   check_mesh_refused("prose.obj", "This is no mesh.\n", "1:1");
 }
 

@@ -60,6 +60,21 @@ std::string scene_of(const std::string& lines) {
   return "scene:\n" + lines + "budget: { spp: 1 }\n";
 }
 
+TEST_CASE("all errors are told in one run, one a line, and not too many") {
+  const ScratchFolder folder;
+  std::string many = "scene:\n  shapes:\n";
+  for (int i = 0; i < 30; ++i) many += "    - { type: spere }\n";
+  folder.write("bad.yaml", many + "film: { width: 0, height: 0 }\nbudget: { spp: 1 }\n");
+  const Outcome outcome = run_pharos("render bad.yaml", folder.path());
+  CHECK(outcome.exit_code == 2);
+  CHECK(outcome.out.empty());
+  CHECK(outcome.err.find("bad.yaml:3:15: error: unknown shape 'spere'") == 0);
+  CHECK(outcome.err.find("\nbad.yaml:22:15: error: ") != std::string::npos);
+  CHECK(outcome.err.find("bad.yaml:23:") == std::string::npos);
+  CHECK(outcome.err.find("\n12 more errors\n") != std::string::npos);
+  CHECK(folder.file_count() == 1);
+}
+
 TEST_CASE("a scene's own keys") {
   check_refused(scene_of("  shapes: []\n"), {"bad.yaml:1:1: error: ", "no sensor"});
   check_refused(scene_of("  sensor: null\n"), {"bad.yaml:1:1: error: ", "no sensor"});

@@ -215,8 +215,8 @@ TEST_CASE("checkpoints of other forms, files and renders are refused or replaced
   CHECK(refusal("render box.yaml --set output.checkpoint=notes.txt")
             .find("is no checkpoint of Pharos, so it is not") != std::string::npos);
   CHECK(test::bytes_of(folder.path() / "notes.txt") == "Some text");
-  write_content(folder.path() / "box.checkpoint", with_form(sound, 2));
-  CHECK(refusal("render box.yaml --resume").find("is of form 2; this Pharos reads form 1") !=
+  write_content(folder.path() / "box.checkpoint", with_form(sound, 1));
+  CHECK(refusal("render box.yaml --resume").find("is of form 1; this Pharos reads form 2") !=
         std::string::npos);
   const Outcome replaced = run_pharos("render box.yaml", folder.path());
   CHECK(replaced.exit_code == 0);

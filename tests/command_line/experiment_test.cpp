@@ -20,9 +20,9 @@ TEST_CASE("an experiment leaves tables, images, records and a report") {
   const Outcome outcome = run_pharos("experiment test.yaml", folder.path());
   REQUIRE_MESSAGE(outcome.exit_code == 0, outcome.err);
   CHECK(rendered_runs(outcome) == 8);
-  for (const char* file :
-       {"test/results.json", "test/runs.csv", "test/convergence.csv", "test/report.html",
-        "test/runs/flat/sobol/seed-1.exr", "test/runs/flat/sobol/seed-2.json"}) {
+  for (const char* file : {"test/results.json", "test/runs.csv", "test/measures.csv",
+                           "test/convergence.csv", "test/report.html",
+                           "test/runs/flat/sobol/seed-1.exr", "test/runs/flat/sobol/seed-2.json"}) {
     CHECK_MESSAGE(folder.has(file), file);
   }
   CHECK_FALSE(folder.has("test/runs/flat/sobol/seed-2.exr"));  // images: first

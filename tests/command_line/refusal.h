@@ -16,9 +16,9 @@ struct Mistake {
   std::string environment = {};
 };
 
-/// Runs `mistake` and checks that it ends as bad input must: with one line on standard error that
-/// contains all texts of `says`, with exit code 2, quickly, with little memory, and without writing
-/// or changing a file.
+/// Runs `mistake` and checks that it ends as bad input must: with one line for each flaw on
+/// standard error, which contains all texts of `says`, with exit code 2, quickly, with little
+/// memory, and without writing or changing a file.
 void check_refused(const Mistake& mistake, const std::vector<std::string>& says);
 
 /// Checks the same for `render bad.yaml` with this text.

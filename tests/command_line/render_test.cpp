@@ -168,6 +168,39 @@ TEST_CASE("Ctrl-C and SIGTERM keep what was rendered") {
   }
 }
 
+TEST_CASE("shapes without area are left out with a warning, or refused with --strict") {
+  const ScratchFolder folder;
+  folder.write("line.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
+  folder.write("lamp.yaml",
+               "scene:\n  sensor: perspective\n  shapes:\n    - { type: mesh, file: line.obj }\n"
+               "    - { type: mesh, file: line.obj, emitter: { type: area, radiance: 1 } }\n"
+               "  emitters: [ { type: constant, radiance: 1 } ]\n"
+               "film: { width: 8, height: 8 }\nbudget: { spp: 1 }\n");
+  const Outcome outcome = run_pharos("render lamp.yaml", folder.path());
+  CHECK(outcome.exit_code == 0);
+  CHECK(outcome.err.find("lamp.yaml:4:7: the shape has no area and is left out (2 times)") !=
+        std::string::npos);
+  const Outcome strict = run_pharos("render lamp.yaml --strict", folder.path());
+  CHECK(strict.exit_code == 2);
+  CHECK(strict.err.find("lamp.yaml:4:7: error: the shape has no area") == 0);
+}
+
+TEST_CASE("a black image is explained") {
+  const ScratchFolder folder;
+  const auto stderr_with = [&](const std::string& lights) {
+    folder.write("dark.yaml", "scene:\n  sensor: perspective\n  shapes: [quad]\n" + lights +
+                                  "film: { width: 8, height: 8 }\nbudget: { spp: 4 }\n");
+    const Outcome outcome = run_pharos("render dark.yaml", folder.path());
+    CHECK(outcome.exit_code == 0);
+    return outcome.err;
+  };
+  const std::string none = stderr_with("");
+  CHECK(none.find("dark.exr: none of 256 paths found light") != std::string::npos);
+  CHECK(none.find("'bidirectional'") != std::string::npos);
+  const std::string lit = stderr_with("  emitters: [ { type: constant, radiance: 1 } ]\n");
+  CHECK(lit.find("found light") == std::string::npos);
+}
+
 TEST_CASE("--replay prints one path") {
   const ScratchFolder folder;
   folder.write("box.yaml", small_render());

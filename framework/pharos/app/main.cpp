@@ -53,6 +53,15 @@ void keep_freed_memory() {
 #endif
 }
 
+/// Prints the flaws of an input, one a line.
+void print_flaws(const std::vector<pharos::InputError>& flaws) {
+  constexpr std::size_t kMost = 20;
+  for (std::size_t i = 0; i < std::min(flaws.size(), kMost); ++i) {
+    fmt::print(stderr, "{}\n", flaws[i].what());
+  }
+  if (flaws.size() > kMost) fmt::print(stderr, "{} more errors\n", flaws.size() - kMost);
+}
+
 /// Runs the program and turns every error into one message and an exit code.
 int run(int argc, char** argv) {
   using namespace pharos;
@@ -85,6 +94,9 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     fmt::print(stderr, "pharos: error: {} (pharos --help shows what there is)\n",
                one_line(error.what()));
+    return kBadInput;
+  } catch (const InputErrors& errors) {
+    print_flaws(errors.all());
     return kBadInput;
   } catch (const InputError& error) {
     fmt::print(stderr, "{}\n", error.what());

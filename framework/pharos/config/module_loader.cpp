@@ -74,13 +74,15 @@ bool is_module(const fs::path& path) {
          std::string_view(name).substr(name.size() - kSuffix.size()) == kSuffix;
 }
 
-/// Returns the plugin folders of the running program, for the build tree and for an install prefix.
-std::vector<fs::path> program_folders() {
+/// Returns the plugin folders of this library, for the build tree and for an install prefix.
+std::vector<fs::path> library_folders() {
+  Dl_info info;
+  if (dladdr(reinterpret_cast<const void*>(&default_module_folders), &info) == 0) return {};
   std::error_code failed;
-  const fs::path program = fs::read_symlink("/proc/self/exe", failed);
+  const fs::path library = fs::canonical(info.dli_fname, failed);
   if (failed) return {};
-  const fs::path folder = program.parent_path();
-  return {folder / "plugins", folder.parent_path() / PHAROS_PLUGIN_FOLDER};
+  const fs::path folder = library.parent_path();
+  return {folder.parent_path() / "plugins", folder / "pharos" / "plugins"};
 }
 
 /// Returns the entries of PHAROS_MODULE_PATH that are not empty.
@@ -127,7 +129,7 @@ void load_modules(Registry& registry, const fs::path& folder, bool required) {
 }
 
 std::vector<fs::path> default_module_folders() {
-  std::vector<fs::path> folders = program_folders();
+  std::vector<fs::path> folders = library_folders();
   for (const fs::path& folder : asked_folders()) {
     if (!contains(folders, folder)) folders.push_back(folder);
   }

@@ -13,9 +13,9 @@ namespace pharos {
 /// that is taken. A folder that does not exist is an error only if `required` is set.
 void load_modules(Registry& registry, const std::filesystem::path& folder, bool required = false);
 
-/// Returns the folders from which every program loads modules: `plugins` beside the program (build
-/// tree), `lib/pharos/plugins` in the install prefix, and then the folders of the colon-separated
-/// PHAROS_MODULE_PATH. Each folder is listed once.
+/// Returns the folders from which every program loads modules: `../plugins` (build tree) and
+/// `pharos/plugins` (install prefix) beside the library libpharos, and then the folders of the
+/// colon-separated PHAROS_MODULE_PATH. Each folder is listed once.
 std::vector<std::filesystem::path> default_module_folders();
 
 /// Returns a registry with the modules of all default folders. Folders that PHAROS_MODULE_PATH

@@ -101,6 +101,7 @@ std::shared_ptr<const Component> Registry::build_component(const std::string& co
   }
   for (const BuildContext::Named& named : context.named) {
     if (!node.is_scalar() || named.contract != contract || named.name != node.text()) continue;
+    if (named.error) throw InputError(*named.error);
     resolved = ConfigNode::scalar(named.name);
     return named.component;
   }

@@ -9,6 +9,7 @@
 
 #include <pharos/config/node.h>
 #include <pharos/config/values.h>
+#include <pharos/core/error.h>
 
 namespace pharos {
 
@@ -141,22 +142,19 @@ class Schema {
   }
 
   /// Reads the mapping `node`. Its key `skipped_key` belongs to the caller and is skipped. Throws
-  /// InputError for unknown keys, missing required keys, wrong types and values out of range. A
-  /// parameter that is not required and has no default keeps its C++ initializer if it is left out
-  /// or given as null. `resolved` receives the values of all other parameters.
+  /// InputError for unknown keys, or for missing required keys, wrong types and values out of
+  /// range, and InputErrors if there are several. A parameter that is not required and has no
+  /// default keeps its C++ initializer if it is left out or given as null. `resolved` receives the
+  /// values of all other parameters.
   Settings read(const ConfigNode& node, BuildContext& context, ConfigNode& resolved,
                 std::string_view skipped_key = {}) const {
     check_keys(node, parameters(), skipped_key);
     Settings settings;
+    InputErrorList errors;
     for (const Field& f : fields_) {
-      const ConfigNode* given = node.find(f.info->key);
-      if (given == nullptr && f.info->required) fail_missing(node, *f.info);
-      const bool may_stay = !f.info->required && f.info->default_value.empty();
-      if (may_stay && (given == nullptr || given->is_null())) continue;
-      ConfigNode value;
-      f.read(settings, given ? *given : default_node(*f.info, node), context, value);
-      resolved.set(f.info->key, std::move(value));
+      errors.attempt([&] { read_field(f, node, context, settings, resolved); });
     }
+    errors.raise();
     return settings;
   }
 
@@ -166,6 +164,17 @@ class Schema {
     std::function<std::string(const Settings&)> text;  ///< the member as YAML
     std::function<void(Settings&, const ConfigNode&, BuildContext&, ConfigNode&)> read;
   };
+
+  static void read_field(const Field& field, const ConfigNode& node, BuildContext& context,
+                         Settings& settings, ConfigNode& resolved) {
+    const ConfigNode* given = node.find(field.info->key);
+    if (given == nullptr && field.info->required) fail_missing(node, *field.info);
+    const bool may_stay = !field.info->required && field.info->default_value.empty();
+    if (may_stay && (given == nullptr || given->is_null())) return;
+    ConfigNode value;
+    field.read(settings, given ? *given : default_node(*field.info, node), context, value);
+    resolved.set(field.info->key, std::move(value));
+  }
 
   std::vector<Field> fields_;
   std::vector<std::string> examples_;

@@ -107,14 +107,16 @@ void check_keys(const ConfigNode& node, const std::vector<ParameterInfo>& parame
                 std::string_view skipped_key) {
   const std::vector<std::string> keys = keys_of(parameters);
   if (!node.is_mapping()) fail_type(node, "a mapping with keys from " + quoted_list(keys));
+  InputErrorList errors;
   for (const ConfigNode::Entry& entry : node.entries()) {
     const bool known =
         entry.key == skipped_key || std::find(keys.begin(), keys.end(), entry.key) != keys.end();
     if (known) continue;
-    throw InputError(entry.key_where,
-                     fmt::format("unknown key '{}'{}; known keys: {}", one_line(entry.key, 60),
-                                 suggestion(entry.key, keys), quoted_list(keys)));
+    errors.add(
+        {entry.key_where, fmt::format("unknown key '{}'{}; known keys: {}", one_line(entry.key, 60),
+                                      suggestion(entry.key, keys), quoted_list(keys))});
   }
+  errors.raise();
 }
 
 ConfigNode default_node(const ParameterInfo& parameter, const ConfigNode& mapping) {

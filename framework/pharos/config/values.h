@@ -16,6 +16,7 @@
 
 #include <pharos/config/component.h>
 #include <pharos/config/node.h>
+#include <pharos/core/error.h>
 #include <pharos/core/rgb.h>
 #include <pharos/core/transform.h>
 #include <pharos/core/vec.h>
@@ -334,13 +335,20 @@ struct BuildContext {
   /// A named component of a scene with its contract and name (`materials:`, `media:`, `textures:`).
   struct Named {
     std::string contract, name;
-    std::shared_ptr<const Component> component;
+    std::shared_ptr<const Component> component;  ///< null if it could not be built
+    std::optional<InputError> error;             ///< why; thrown wherever the name is used
+  };
+  /// A flaw of the input that is passed over.
+  struct Note {
+    Location where;
+    std::string message;
   };
   std::vector<Named> named = {};
   /// All paths that were read, absolute and in order: the input besides the config itself.
   std::vector<std::filesystem::path> files = {};
   /// The config files that were read, in order: scenes and what they extend.
   std::vector<std::filesystem::path> sources = {};
+  std::vector<Note> notes = {};
 };
 
 }  // namespace pharos

@@ -13,9 +13,9 @@
 namespace pharos::conformance {
 namespace {
 
-constexpr int kEdge = 16;
+constexpr int kFilmEdge = 16;
 constexpr std::uint32_t kIterations = 5, kSamples = 8;
-constexpr PixelRect kWhole{0, 0, kEdge, kEdge};
+constexpr PixelRect kWhole{0, 0, kFilmEdge, kFilmEdge};
 
 /// Returns an integrator with the termination; null if there is none, and sets `why_not` to the
 /// reason.
@@ -42,8 +42,8 @@ class School {
          std::uint64_t seed)
       : termination_(termination),
         scene_(room_parts(Room::lamp, foggy)),
-        sensor_(scene_.sensor().prepare(kEdge, kEdge)),
-        prepared_(integrator.prepare({scene_, *sensor_, kEdge, kEdge})),
+        sensor_(scene_.sensor().prepare(kFilmEdge, kFilmEdge)),
+        prepared_(integrator.prepare({scene_, *sensor_, kFilmEdge, kFilmEdge})),
         film_(kWhole, std::make_shared<const OnePixel>()),
         seed_(seed) {}
 
@@ -97,7 +97,7 @@ std::vector<Question> questions_in(const Scene& scene, std::uint64_t seed) {
     const GuidingQuery& at = vertex->query();
     for (const std::uint16_t bounce : {at.bounce, std::uint16_t{8}}) {
       for (const float throughput : {1e-6f, 0.01f, 0.3f, 1.0f, 30.0f, 1e6f}) {
-        const auto pixel = static_cast<float>(all.size() % kEdge) + 0.5f;
+        const auto pixel = static_cast<float>(all.size() % kFilmEdge) + 0.5f;
         all.push_back({{.film = {pixel, pixel},
                         .position = at.current.position,
                         .towards_previous = at.towards_previous,

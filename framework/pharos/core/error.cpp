@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <unistd.h>
+#include <utility>
 #include <vector>
 
 #include <pharos/core/confinement.h>
@@ -36,6 +37,25 @@ bool continues_character(char c) {
 
 Error::Error(const std::string& message)
     : std::runtime_error(one_line(message, std::string::npos)) {}
+
+InputErrors::InputErrors(std::vector<InputError> all)
+    : InputError(all.front()),
+      all_(std::make_shared<const std::vector<InputError>>(std::move(all))) {}
+
+void InputErrorList::raise() const {
+  if (errors_.size() == 1) throw InputError(errors_.front());
+  if (!errors_.empty()) throw InputErrors(errors_);
+}
+
+void InputErrorList::add(const InputError& error) {
+  constexpr std::size_t kMost = 1000;
+  if (errors_.size() == kMost) return;
+  const std::string_view message = error.what();
+  const bool is_known =
+      std::any_of(errors_.begin(), errors_.end(),
+                  [message](const InputError& kept) { return message == kept.what(); });
+  if (!is_known) errors_.push_back(error);
+}
 
 std::string Location::to_string() const {
   std::string text = file;

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace pharos {
 
@@ -34,14 +36,62 @@ class InputError : public Error {
   /// `where` is known.
   InputError(const Location& where, const std::string& message)
       : Error(where.to_string().empty() ? message : where.to_string() + ": error: " + message),
-        located_(!where.to_string().empty()) {}
+        where_(std::make_shared<const Location>(where)) {}
 
+  /// The place of the flaw. All its parts are unknown if the error is unlocated.
+  Location where() const { return where_ != nullptr ? *where_ : Location(); }
   /// Returns false if the message says what is wrong but not where. Code that knows the location
   /// may catch the error and throw it again with the location.
-  bool located() const { return located_; }
+  bool located() const { return !where().to_string().empty(); }
 
  private:
-  bool located_ = false;
+  std::shared_ptr<const Location> where_;  ///< shared: copies must not throw; may be null
+};
+
+/// Several flaws of one input. The message is the first flaw's.
+class InputErrors : public InputError {
+ public:
+  /// At least one error.
+  explicit InputErrors(std::vector<InputError> all);
+  /// In the order in which they were found.
+  const std::vector<InputError>& all() const { return *all_; }
+
+ private:
+  std::shared_ptr<const std::vector<InputError>> all_;  ///< shared: copies must not throw
+};
+
+/// Collects the errors of parts of an input that can be read independently, so that one run reports
+/// all of them:
+///
+///     InputErrorList errors;
+///     for (const ConfigNode& item : items) errors.attempt([&] { read(item); });
+///     errors.raise();
+class InputErrorList {
+ public:
+  /// Calls `read` and returns true, or keeps the InputError that it throws and returns false. Equal
+  /// errors are kept once.
+  template <class Read>
+  bool attempt(Read&& read) {
+    try {
+      read();
+      return true;
+    } catch (const InputErrors& errors) {
+      for (const InputError& error : errors.all()) add(error);
+    } catch (const InputError& error) {
+      add(error);
+    }
+    return false;
+  }
+
+  /// Keeps an error, unless it equals one that is kept or a thousand are kept.
+  void add(const InputError& error);
+
+  /// Throws the error that was kept, or InputErrors if there are several. Does nothing if there is
+  /// none.
+  void raise() const;
+
+ private:
+  std::vector<InputError> errors_;
 };
 
 /// The input is valid, but the work could not be done (disk full, lost file). The program exits

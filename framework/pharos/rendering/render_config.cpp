@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -52,6 +54,17 @@ void add_sources(const ConfigNode& node, std::set<std::filesystem::path>& source
   if (!node.where().file.empty()) sources.insert(node.where().file);
   for (const ConfigNode& item : node.items()) add_sources(item, sources);
   for (const ConfigNode::Entry& entry : node.entries()) add_sources(entry.value, sources);
+}
+
+/// Appends what was passed over in reading the scene. Notes of the same text are merged.
+void add_notes(std::vector<BuildContext::Note> passed_over, std::vector<ImportNote>& notes) {
+  for (BuildContext::Note& note : passed_over) {
+    const auto same = std::find_if(notes.begin(), notes.end(), [&](const ImportNote& known) {
+      return known.message == note.message;
+    });
+    if (same != notes.end()) ++same->times;
+    if (same == notes.end()) notes.push_back({std::move(note.where), std::move(note.message)});
+  }
 }
 
 /// Checks conditions on several parameters at once.
@@ -152,19 +165,24 @@ LoadedConfig load_render_config(const std::filesystem::path& path,
                                 const std::vector<std::string>& overrides,
                                 const Registry& registry) {
   std::vector<std::filesystem::path> sources;
-  ConfigNode node = read_config_or_scene(path, registry, &sources);
+  LoadedConfig loaded =
+      build_render_config(read_config_or_scene(path, registry, &sources), overrides, registry);
+  loaded.sources.insert(loaded.sources.end(), sources.begin(), sources.end());
+  if (loaded.config.output.image.empty()) {
+    loaded.config.output.image = path.stem().string() + ".exr";
+  }
+  return loaded;
+}
+
+LoadedConfig build_render_config(ConfigNode node, const std::vector<std::string>& overrides,
+                                 const Registry& registry) {
   // Presets are expanded at once, so that an override can change what one of them states.
   expand_preset(node, registry);
   for (const std::string& assignment : overrides) {
     apply_override(node, assignment);
     expand_preset(node, registry);
   }
-  LoadedConfig loaded = build_render_config(node, registry);
-  loaded.sources.insert(loaded.sources.end(), sources.begin(), sources.end());
-  if (loaded.config.output.image.empty()) {
-    loaded.config.output.image = path.stem().string() + ".exr";
-  }
-  return loaded;
+  return build_render_config(node, registry);
 }
 
 LoadedConfig build_render_config(const ConfigNode& stated, const Registry& registry) {
@@ -174,6 +192,7 @@ LoadedConfig build_render_config(const ConfigNode& stated, const Registry& regis
   loaded.notes = expand_import(node, registry);
   expand_preset(node, registry);
   loaded.config = Value<RenderConfig>::read(node, context, loaded.resolved);
+  add_notes(std::move(context.notes), loaded.notes);
   loaded.files = std::move(context.files);
   std::set<std::filesystem::path> sources(context.sources.begin(), context.sources.end());
   add_sources(node, sources);

@@ -54,8 +54,8 @@ struct OutputSettings {
   std::string checkpoint;  ///< file from which a killed render goes on; empty: not written
   double every = 300;      ///< time between two checkpoints [s]
   bool png = true;
-  float exposure = 0;  ///< exposure of the PNG [stops]
-  bool filmic = true;  ///< whether the PNG has a filmic curve
+  float exposure = 0;   ///< exposure of the PNG [stops]
+  bool filmic = false;  ///< whether the PNG has a filmic curve
 
   static void describe(Schema<OutputSettings>& schema);
 };
@@ -82,7 +82,8 @@ struct LoadedConfig {
   /// The files that hold the config itself: configs, scenes, presets, and all that they extend or
   /// include.
   std::vector<std::filesystem::path> sources;
-  std::vector<ImportNote> notes;  ///< approximations made in importing a scene of another program
+  /// What was approximated or passed over in reading the scene.
+  std::vector<ImportNote> notes;
 };
 
 /// Loads a render config, or a scene that an importer reads. Follows `extends`, applies `overrides`
@@ -93,5 +94,8 @@ LoadedConfig load_render_config(const std::filesystem::path& path,
                                 const Registry& registry);
 /// Builds a render config from a node that was read or made elsewhere.
 LoadedConfig build_render_config(const ConfigNode& node, const Registry& registry);
+/// The same with `overrides` ("a.b=c"), which are applied in order.
+LoadedConfig build_render_config(ConfigNode node, const std::vector<std::string>& overrides,
+                                 const Registry& registry);
 
 }  // namespace pharos

@@ -15,6 +15,8 @@ namespace {
 /// The keys that an entry of `shapes` may state besides the shape's own parameters.
 constexpr std::array<const char*, 4> kAttachments{"material", "emitter", "interior", "exterior"};
 
+constexpr const char* kWithoutArea = "the shape has no area and is left out";
+
 std::vector<ParameterInfo> keys_of(std::span<const char* const> names) {
   std::vector<ParameterInfo> keys(names.size());
   for (std::size_t i = 0; i < names.size(); ++i) keys[i].key = names[i];
@@ -62,7 +64,8 @@ void check_at(const ConfigNode& node, Check&& check) {
   }
 }
 
-/// Reads a scene's mapping part by part and writes the values in force into `resolved`.
+/// Reads a scene's mapping part by part and writes the values in force into `resolved`. The errors
+/// of all parts are thrown together.
 class SceneReader {
  public:
   SceneReader(const ConfigNode& scene, BuildContext& context, ConfigNode& resolved)
@@ -76,21 +79,29 @@ class SceneReader {
     read_named<Medium>("media");
     SceneParts parts;
     read_groups();
-    groups_.place(read_entries("shapes", given("shapes"), resolved_), parts);
+    EntryList world = read_entries("shapes", given("shapes"), resolved_);
     read_list("emitters", given("emitters"), resolved_,
               [&](const ConfigNode& entry, ConfigNode& resolved) {
                 parts.emitters.push_back(build<Emitter>(entry, resolved));
                 check_emitter_place(*parts.emitters.back(), entry, false);
+                return true;
               });
-    parts.sensor = read_part<Sensor>("sensor", given("sensor"), resolved_);
-    if (parts.sensor != nullptr) {
-      check_at(given("sensor"), [&] { check_reach(parts.sensor->position(), "the sensor"); });
-    }
-    parts.medium = read_part<Medium>("medium", given("medium"), resolved_);
+    errors_.attempt([&] { read_sensor(parts); });
+    errors_.attempt(
+        [&] { parts.medium = read_part<Medium>("medium", given("medium"), resolved_); });
+    errors_.raise();
+    groups_.place(std::move(world), parts);
     return parts;
   }
 
  private:
+  void read_sensor(SceneParts& parts) {
+    const ConfigNode node = given("sensor");
+    parts.sensor = read_part<Sensor>("sensor", node, resolved_);
+    if (parts.sensor == nullptr) return;
+    check_at(node, [&] { check_reach(parts.sensor->position(), "the sensor"); });
+  }
+
   /// Returns the node under `key`, or a null node if there is none.
   ConfigNode given(const char* key) const {
     const ConfigNode* node = scene_.find(key);
@@ -122,13 +133,23 @@ class SceneReader {
     ConfigNode all = ConfigNode::mapping();
     for (const ConfigNode::Entry& entry : dictionary.entries()) {
       ConfigNode resolved;
-      context_.named.push_back({contract, entry.key, build<Contract>(entry.value, resolved)});
+      BuildContext::Named named{contract, entry.key, nullptr, std::nullopt};
+      errors_.attempt([&] {
+        try {
+          named.component = build<Contract>(entry.value, resolved);
+        } catch (const InputError& error) {
+          named.error = error;
+          throw;
+        }
+      });
+      context_.named.push_back(std::move(named));
       all.set(entry.key, std::move(resolved));
     }
     resolved_.set(key, std::move(all));
   }
 
-  /// Reads the entries of `list` and resolves them under `key` of `resolved`.
+  /// Reads the entries of `list` by `read_entry(entry, part)` and resolves them under `key` of
+  /// `resolved`. Entries for which it returns false are left out.
   template <class ReadEntry>
   void read_list(const std::string& key, const ConfigNode& list, ConfigNode& resolved,
                  const ReadEntry& read_entry) {
@@ -137,8 +158,9 @@ class SceneReader {
     ConfigNode all = ConfigNode::sequence();
     for (const ConfigNode& entry : list.items()) {
       ConfigNode part;
-      read_entry(entry, part);
-      all.items().push_back(std::move(part));
+      bool is_kept = false;
+      errors_.attempt([&] { is_kept = read_entry(entry, part); });
+      if (is_kept) all.items().push_back(std::move(part));
     }
     resolved.set(key, std::move(all));
   }
@@ -148,9 +170,13 @@ class SceneReader {
     read_list(key, list, resolved, [&](const ConfigNode& entry, ConfigNode& part) {
       if (is_instance(entry)) {
         entries.instances.push_back(read_instance(entry, part));
-      } else {
-        entries.objects.push_back(read_object(entry, part));
+        return true;
       }
+      SceneObject object = read_object(entry, part);
+      const bool is_visible = object.shape->area() > 0;
+      if (is_visible) entries.objects.push_back(std::move(object));
+      if (!is_visible) context_.notes.push_back({entry.where(), kWithoutArea});
+      return is_visible;
     });
     return entries;
   }
@@ -162,7 +188,9 @@ class SceneReader {
     ConfigNode all = ConfigNode::mapping();
     for (const ConfigNode::Entry& group : dictionary.entries()) {
       if (!group.value.is_sequence()) fail_type(group.value, "a list of shapes");
-      for (const ConfigNode& entry : group.value.items()) check_group_entry(entry);
+      for (const ConfigNode& entry : group.value.items()) {
+        errors_.attempt([&] { check_group_entry(entry); });
+      }
       groups_.add(group.key, read_entries(group.key, group.value, all));
     }
     resolved_.set("groups", std::move(all));
@@ -227,6 +255,7 @@ class SceneReader {
   const ConfigNode& scene_;
   BuildContext& context_;
   ConfigNode& resolved_;
+  InputErrorList errors_;
   GroupTable groups_;
 };
 

@@ -81,7 +81,8 @@ class Shape : public Component {
   static constexpr std::string_view contract_name = "shape";
 
   virtual Bounds3 bounds() const = 0;
-  /// The area of all primitives [scene units^2], > 0.
+  /// The area of all primitives [scene units^2]. It is zero for meshes without a triangle, which
+  /// scenes leave out; nothing else is called on them.
   virtual float area() const = 0;
 
   /// The triangles, or null for an analytic shape. They live as long as the shape.

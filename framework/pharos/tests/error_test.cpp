@@ -28,6 +28,43 @@ TEST_CASE("an input error knows whether it says where") {
   CHECK_FALSE(nowhere.located());
 }
 
+TEST_CASE("an input error keeps its place") {
+  const InputError located({"a.yaml", 3, 7}, "wrong");
+  CHECK(located.where().file == "a.yaml");
+  CHECK(located.where().line == 3);
+  CHECK(located.where().column == 7);
+  CHECK(InputError("wrong").where().to_string().empty());
+}
+
+TEST_CASE("errors of independent parts are collected, equal ones once") {
+  InputErrorList errors;
+  CHECK_NOTHROW(errors.raise());
+  CHECK(errors.attempt([] {}));
+  CHECK_NOTHROW(errors.raise());
+  CHECK_FALSE(errors.attempt([] { throw InputError({"a.yaml", 1}, "first"); }));
+  CHECK_THROWS_AS(errors.raise(), InputError);
+  errors.add(InputError({"a.yaml", 2}, "second"));
+  errors.add(InputError({"a.yaml", 1}, "first"));
+  InputErrorList outer;  // takes the errors one by one
+  outer.attempt([&] { errors.raise(); });
+  outer.attempt([&] { errors.raise(); });
+  try {
+    outer.raise();
+    FAIL("nothing was thrown");
+  } catch (const InputErrors& all) {
+    REQUIRE(all.all().size() == 2);
+    CHECK(std::string(all.all()[0].what()) == "a.yaml:1: error: first");
+    CHECK(std::string(all.all()[1].what()) == "a.yaml:2: error: second");
+    CHECK(std::string(all.what()) == all.all()[0].what());
+    CHECK(all.where().line == 1);
+  }
+}
+
+TEST_CASE("only errors of the input are collected") {
+  InputErrorList errors;
+  CHECK_THROWS_AS(errors.attempt([] { throw RunError("disk full"); }), RunError);
+}
+
 TEST_CASE("suggestions") {
   const std::vector<std::string> known{"radius", "height", "radian", "x", "emission"};
   SUBCASE("one edit of each kind") {

@@ -170,6 +170,44 @@ const char* const kGroups =
     "  nothing: []\n"
     "materials: { wall: { type: diffuse, reflectance: 0.25 } }\n";
 
+/// Returns the messages of all errors of a scene.
+std::vector<std::string> flaws_of(const std::string& text) {
+  std::vector<std::string> messages;
+  try {
+    load(text);
+  } catch (const InputErrors& errors) {
+    for (const InputError& error : errors.all()) messages.emplace_back(error.what());
+  } catch (const InputError& error) {
+    messages.emplace_back(error.what());
+  }
+  return messages;
+}
+
+TEST_CASE("all errors of a scene are found at once") {
+  const std::vector<std::string> flaws = flaws_of(
+      "materials:\n"
+      "  dark: { type: diffuse, reflectance: no-such }\n"
+      "shapes:\n"
+      "  - { type: square, height: tall, material: dark }\n"
+      "  - { type: square, material: dark }\n"
+      "  - { type: square, emitter: sky }\n"
+      "groups: { a: [ squar ] }\n"
+      "emitters: [ area ]\n"
+      "sensor: ey\n");
+  INFO(flaws.size());
+  REQUIRE(flaws.size() == 6);  // `dark` counts once, and not again where it is used
+  const char* places[] = {":2:39:", ":7:16:", ":4:29:", ":6:30:", ":8:13:", ":9:9:"};
+  for (std::size_t i = 0; i < flaws.size(); ++i) {
+    CAPTURE(flaws[i]);
+    CHECK(flaws[i].find(places[i]) != std::string::npos);
+  }
+}
+
+TEST_CASE("all wrong keys of a mapping, or else all wrong values, are found at once") {
+  CHECK(flaws_of("shapes: [ { type: square, heigh: tall, colour: 1 } ]").size() == 2);
+  CHECK(flaws_of("shapes: 3\nshape: 4\nsensors: eye").size() == 2);
+}
+
 TEST_CASE("instances are read, nested ones flattened, and groups that nobody sees left out") {
   const SceneParts parts = load(kGroups).parts;
   CHECK(parts.objects.size() == 1);

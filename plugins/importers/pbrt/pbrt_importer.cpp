@@ -20,7 +20,19 @@ namespace {
 
 using namespace pbrt;
 
-/// Follows the directives of a scene.
+/// Calls `read` and locates its error at the directive.
+template <class Read>
+void locate(const Statement& s, Read&& read) {
+  try {
+    read();
+  } catch (const InputError& e) {
+    if (e.located()) throw;
+    throw InputError(s.where, e.what());
+  }
+}
+
+/// Follows the directives of a scene. The errors of its objects are thrown together; an error of
+/// the file's structure is thrown at once.
 class SceneReader {
  public:
   explicit SceneReader(const std::filesystem::path& file)
@@ -28,19 +40,15 @@ class SceneReader {
 
   Import read() {
     while (std::optional<Statement> statement = statements_.next()) {
-      try {
-        obey(*statement);
-      } catch (const InputError& e) {
-        if (e.located()) throw;
-        throw InputError(statement->where, e.what());
-      }
+      locate(*statement, [&] { obey(*statement); });
     }
     if (!saved_.empty()) {
       throw InputError(statements_.end(),
                        fmt::format("the {} in line {} has no end", saved_.back().begin.word,
                                    saved_.back().begin.where.line));
     }
-    if (!is_in_world_) map_view(scene_, view_);
+    if (!is_in_world_) errors_.attempt([&] { map_view(scene_, view_); });
+    errors_.raise();
     return scene_.finished();
   }
 
@@ -59,7 +67,7 @@ class SceneReader {
         scene_.note(s.where, "transforms of the end of the exposure are left out");
       }
     } else if (!obey_view(s) && !obey_block(s) && !obey_state(s)) {
-      obey_object(s);
+      errors_.attempt([&] { obey_object(s); });
     }
   }
 
@@ -86,7 +94,7 @@ class SceneReader {
     if (s.word == "Accelerator" || s.word == "Option") return true;
     if (s.word != "WorldBegin") return false;
     if (is_in_world_) throw InputError(s.where, "WorldBegin stands twice");
-    map_view(scene_, view_);
+    errors_.attempt([&] { locate(s, [&] { map_view(scene_, view_); }); });
     is_in_world_ = true;
     state().to_world = Transform();
     state().moves_start = true;
@@ -131,7 +139,10 @@ class SceneReader {
     } else if (s.word == "ColorSpace") {
       set_color_space(s);
     } else if (s.word == "Material") {
-      state().material = scene_.add_material(s.where, map_material(scene_, s));
+      errors_.attempt([&] {
+        locate(s,
+               [&] { state().material = scene_.add_material(s.where, map_material(scene_, s)); });
+      });
     } else if (s.word == "NamedMaterial") {
       state().material = scene_.material(s.type(), s.where);
     } else if (s.word == "AreaLightSource") {
@@ -176,8 +187,21 @@ class SceneReader {
     }
   }
 
-  /// Directives that define something or add it to the scene.
   void obey_object(const Statement& s) {
+    try {
+      locate(s, [&] { add_object(s); });
+    } catch (const InputError& error) {
+      if (defines_name(s)) scene_.add_failed(s.type(), error);
+      throw;
+    }
+  }
+
+  static bool defines_name(const Statement& s) {
+    return s.word == "Texture" || s.word == "MakeNamedMedium" || s.word == "MakeNamedMaterial";
+  }
+
+  /// Directives that define something or add it to the scene.
+  void add_object(const Statement& s) {
     if (s.word == "MakeNamedMedium") return map_medium(scene_, s);
     if (s.word == "MakeNamedMaterial") {
       return scene_.define_material(s.type(), s.where, map_material(scene_, s));
@@ -206,6 +230,7 @@ class SceneReader {
   std::map<std::string, Transform> spaces_;  ///< by CoordinateSystem
   std::vector<Saved> saved_;
   bool is_in_world_ = false;
+  InputErrorList errors_;
 };
 
 }  // namespace

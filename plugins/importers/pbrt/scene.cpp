@@ -16,12 +16,6 @@ std::vector<std::string> keys_of(const Map& map) {
   return keys;
 }
 
-[[noreturn]] void fail_unknown(const Location& where, const char* what, const std::string& name,
-                               const std::vector<std::string>& known) {
-  throw InputError(where, fmt::format("there is no {} '{}'{}", what, one_line(name, 60),
-                                      suggestion(name, known)));
-}
-
 [[noreturn]] void fail_twice(const Location& where, const char* what, const std::string& name) {
   throw InputError(where, fmt::format("the {} '{}' is defined twice", what, one_line(name, 60)));
 }
@@ -45,6 +39,15 @@ ConfigNode Scene::file_node(const std::string& name, const Location& where) cons
     return importing::text_node(path.lexically_relative(folder_).string(), where);
   }
   return importing::text_node(std::filesystem::absolute(path).string(), where);
+}
+
+void Scene::fail_unknown(const Location& where, const char* what, const std::string& name,
+                         const std::vector<std::string>& known) const {
+  if (const auto failed = failed_.find(name); failed != failed_.end()) {
+    throw InputError(failed->second);
+  }
+  throw InputError(where, fmt::format("there is no {} '{}'{}", what, one_line(name, 60),
+                                      suggestion(name, known)));
 }
 
 void Scene::add_texture(TextureKind kind, const std::string& name, const Location& where,

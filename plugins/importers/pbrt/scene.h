@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <pharos/config/node.h>
+#include <pharos/core/error.h>
 #include <pharos/scene/importer.h>
 
 #include "../shared/import_log.h"
@@ -69,6 +70,11 @@ class Scene {
   /// Returns the entry of a named medium; empty for vacuum and for media that are left out.
   std::string medium(const std::string& name, const Location& where) const;
 
+  /// Keeps the error of a definition that failed. It is thrown again wherever the name is used.
+  void add_failed(const std::string& name, const InputError& error) {
+    failed_.emplace(name, error);
+  }
+
   /// Begins and ends the definition of an object, to which add_shape() then adds.
   void begin_object(const std::string& name, const Location& where);
   void end_object(const Location& where);
@@ -96,6 +102,8 @@ class Scene {
     ConfigNode shapes;
   };
 
+  [[noreturn]] void fail_unknown(const Location& where, const char* what, const std::string& name,
+                                 const std::vector<std::string>& known) const;
   std::string material_entry(const std::string& name, const Location& where, bool defines);
   void append_material(const std::string& entry, const Location& where, ConfigNode node);
 
@@ -111,6 +119,7 @@ class Scene {
   std::map<std::string, std::string> media_by_name_;
   std::map<std::string, Group> objects_;
   std::vector<std::string> order_of_objects_;
+  std::map<std::string, InputError> failed_;  ///< by name
   Group* object_ = nullptr;
   ConfigNode textures_ = ConfigNode::mapping(), materials_ = ConfigNode::mapping(),
              media_ = ConfigNode::mapping(), shapes_ = ConfigNode::sequence(),

@@ -34,6 +34,20 @@ TEST_CASE("mapping: an id is a material's name, and two shapes share it") {
   CHECK(config.config.scene.objects[0].bsdf == config.config.scene.objects[1].bsdf);
 }
 
+TEST_CASE("mapping: all objects with errors are found at once, each error once") {
+  const ObjectRef wrong = object("bsdf", "difuse", {}, "Red", 3);
+  try {
+    import_of({shape("rectangle", {nested(wrong)}), shape("cube", {nested(wrong)}),
+               object("shape", "qube", {}, {}, 7), object("emitter", "pont", {}, {}, 8)});
+    FAIL("nothing was thrown");
+  } catch (const InputErrors& errors) {
+    REQUIRE(errors.all().size() == 3);
+    CHECK(errors.all()[0].where().line == 3);
+    CHECK(errors.all()[1].where().line == 7);
+    CHECK(errors.all()[2].where().line == 8);
+  }
+}
+
 TEST_CASE("mapping: ids that cannot be names are made such, each of its own") {
   const auto with = [](const char* id) { return shape("cube", {nested(bsdf("diffuse", {}, id))}); };
   const Import import =

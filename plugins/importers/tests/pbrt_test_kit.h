@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -32,6 +33,23 @@ inline std::string refusal(const std::string& text) {
   const TemporaryFolder folder;
   return pharos::test::input_error_in(
       folder, [&] { PbrtImporter().import(folder.write("scene.pbrt", text)); });
+}
+
+/// Returns the messages of all errors of a scene, without its folder.
+inline std::vector<std::string> flaws(const std::string& text) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.write("scene.pbrt", text);
+  std::vector<std::string> messages;
+  try {
+    PbrtImporter().import(file);
+  } catch (const InputErrors& errors) {
+    for (const InputError& error : errors.all()) {
+      messages.push_back(pharos::test::input_error_in(folder, [&] { throw InputError(error); }));
+    }
+  } catch (const InputError& error) {
+    messages.emplace_back(error.what());
+  }
+  return messages;
 }
 
 /// Returns the YAML, on one line, of the part of the config at `path`, such as "scene.shapes.0";

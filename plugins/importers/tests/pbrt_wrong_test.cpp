@@ -115,6 +115,23 @@ TEST_CASE("pbrt: the view") {
          {"LightSource \"point\"", "1:1: error: LightSource must stand after WorldBegin"}});
 }
 
+TEST_CASE("pbrt: all objects with errors are found at once, each error once") {
+  const std::vector<std::string> flaws = test::flaws(
+      "Camera \"perspectiv\"\n"
+      "WorldBegin\n"
+      "Texture \"t\" \"spectrum\" \"imagmap\"\n"
+      "Material \"diffuse\" \"texture reflectance\" \"t\"\n"
+      "Material \"conductor\" \"texture reflectance\" \"t\"\n"
+      "Shape \"spere\"\n"
+      "Shape \"sphere\" \"float radius\" -1\n"
+      "LightSource \"pont\"\n");
+  REQUIRE(flaws.size() >= 4);
+  CHECK(flaws[0].find("scene.pbrt:1:1: error: ") == 0);
+  CHECK(flaws[1].find("scene.pbrt:3:1: error: ") == 0);
+  CHECK(flaws[2].find("scene.pbrt:6:1: error: ") == 0);
+  CHECK(flaws.back().find("scene.pbrt:8:1: error: ") == 0);
+}
+
 TEST_CASE("pbrt: blocks") {
   check_world(
       {{"AttributeEnd", "1: error: AttributeEnd without AttributeBegin"},

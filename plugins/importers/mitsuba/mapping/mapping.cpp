@@ -11,18 +11,12 @@
 namespace pharos::mitsuba {
 namespace {
 
-ConfigNode list_of_shapes(Part& part) {
+/// Maps the scene's objects of a tag by `map(scene_map, object, list)`.
+template <class Map>
+ConfigNode list_of(const char* tag, Part& part, const Map& map, InputErrorList& errors) {
   ConfigNode list = ConfigNode::sequence(part.where());
-  for (const Object* shape : part.children("shape")) {
-    map_shape(part.map(), *shape, list.items());
-  }
-  return list;
-}
-
-ConfigNode list_of_emitters(Part& part) {
-  ConfigNode list = ConfigNode::sequence(part.where());
-  for (const Object* emitter : part.children("emitter")) {
-    map_emitter(part.map(), *emitter, list.items());
+  for (const Object* object : part.children(tag)) {
+    errors.attempt([&] { map(part.map(), *object, list.items()); });
   }
   return list;
 }
@@ -69,12 +63,18 @@ Import map_document(const Document& document) {
   SceneMap map(document);
   const Object& root = *document.scene;
   Part part(map, root);
-  const Object* integrator = part.child("integrator");
-  ConfigNode method = integrator != nullptr ? map_integrator(map, *integrator)
-                                            : default_integrator(map, root.where);
-  Camera camera = read_camera(part);
-  ConfigNode shapes = list_of_shapes(part);
-  ConfigNode emitters = list_of_emitters(part);
+  InputErrorList errors;
+  ConfigNode method;
+  errors.attempt([&] {
+    const Object* integrator = part.child("integrator");
+    method = integrator != nullptr ? map_integrator(map, *integrator)
+                                   : default_integrator(map, root.where);
+  });
+  Camera camera;
+  errors.attempt([&] { camera = read_camera(part); });
+  ConfigNode shapes = list_of("shape", part, map_shape, errors);
+  ConfigNode emitters = list_of("emitter", part, map_emitter, errors);
+  errors.raise();
   skip_definitions(part);
   part.finish();
 
