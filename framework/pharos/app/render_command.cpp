@@ -52,6 +52,22 @@ void replay_path(RenderJob& job, const RenderConfig& config,
   fmt::print("{}", job.replay(x, y, numbers[2], numbers.size() > 3 ? numbers[3] : 0).text);
 }
 
+/// Warns of an image that is black or nearly so because paths do not find the light.
+void warn_of_darkness(const RenderResult& result, const RenderConfig& config) {
+  constexpr double kFewest = 1e-3;  // of all paths
+  const RenderCounters& counters = result.counters;
+  if (static_cast<double>(counters.lit_paths) >= kFewest * static_cast<double>(counters.paths)) {
+    return;
+  }
+  log_warning(fmt::format(
+      "{}: {} of {} paths found light; check that the scene has light where the sensor looks; "
+      "lights that paths from the sensor rarely hit need {}",
+      config.output.image, counters.lit_paths == 0 ? "none" : fmt::to_string(counters.lit_paths),
+      counters.paths,
+      config.integrator->plugin_name() == "path" ? "the integrator 'light' or 'bidirectional'"
+                                                 : "another integrator or guides"));
+}
+
 void report(const RenderResult& result, const RenderConfig& config) {
   const double seconds = result.times.budgeted();
   const PixelRect window = config.film.window();
@@ -82,6 +98,7 @@ void report(const RenderResult& result, const RenderConfig& config) {
         result.counters.invalid_paths, key.index % width, key.index / width, key.sample,
         key.iteration));
   }
+  warn_of_darkness(result, config);
   if (result.invalid_pixels > 0) {
     log_warning(
         fmt::format("{}: {} pixels are NaN or infinite, which happens if light is beyond the "

@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::array<char, 8> kMagic{'p', 'h', 'a', 'r', 'o', 's', 'c', 'p'};
-constexpr std::uint32_t kForm = 1;
+constexpr std::uint32_t kForm = 2;
 /// More than the config of any scene takes [bytes].
 constexpr std::uint64_t kLongestHead = std::uint64_t{1} << 30;
 

@@ -53,6 +53,7 @@ RenderCounters& RenderCounters::operator+=(const RenderCounters& other) {
   paths += other.paths;
   rays += other.rays;
   vertices += other.vertices;
+  lit_paths += other.lit_paths;
   invalid_paths += other.invalid_paths;
   return *this;
 }

@@ -34,10 +34,11 @@ struct RenderCounters {
   std::uint64_t paths = 0;
   std::uint64_t rays = 0;           ///< radiance and shadow rays
   std::uint64_t vertices = 0;       ///< vertices at which a next step was sampled
+  std::uint64_t lit_paths = 0;      ///< paths that carry light
   std::uint64_t invalid_paths = 0;  ///< paths of NaN or infinite value; they count as black
 
   RenderCounters& operator+=(const RenderCounters& other);
-  void archive(Archive& archive) { archive(paths, rays, vertices, invalid_paths); }
+  void archive(Archive& archive) { archive(paths, rays, vertices, lit_paths, invalid_paths); }
 };
 
 /// The result of a work unit. Results are merged in the order of work units.

@@ -59,10 +59,12 @@ inline Rgb checked(Rgb radiance, const PathKey& key, WorkResult& result) {
   return {};
 }
 
-/// Adds the value of a path to the film. NaN and infinite values are counted and added as zero.
+/// Adds the value of a path to the film, and counts it if it carries light. NaN and infinite values
+/// are counted and added as zero.
 inline void deposit(PathSample sample, const RenderTarget& target, const PathKey& key,
                     WorkResult& result) {
   sample.radiance = checked(sample.radiance, key, result);
+  if (!is_black(sample.radiance)) ++result.counters.lit_paths;
   if (sample.splat) {
     const auto pixels = static_cast<float>(target.window.area());
     result.film.add_splat(sample.film, pixels * sample.radiance);

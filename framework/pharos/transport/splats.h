@@ -22,14 +22,18 @@ class Splats {
                        [](const Splat& splat) { return is_finite(splat.contribution); });
   }
 
-  /// Adds the contributions to the film. If one of them is NaN or infinite, the path is rejected
-  /// and none is added.
+  /// Adds the contributions to the film, and counts the path if one of them carries light. If one
+  /// of them is NaN or infinite, the path is rejected and none is added.
   void deposit(const PathKey& key, WorkResult& result) {
     const bool finite = are_finite();
     if (!finite) reject(key, result);
+    bool is_lit = false;
     for (const auto& [film, contribution] : all_) {
-      if (finite && !is_black(contribution)) result.film.add_splat(film, contribution);
+      if (!finite || is_black(contribution)) continue;
+      result.film.add_splat(film, contribution);
+      is_lit = true;
     }
+    if (is_lit) ++result.counters.lit_paths;
     all_.clear();
   }
 
