@@ -7,6 +7,7 @@
 #include <pharos/config/module_loader.h>
 #include <pharos/core/error.h>
 #include <pharos/core/log.h>
+#include <pharos/core/threads.h>
 #include <pharos/core/writable.h>
 #include <pharos/experiments/runner/experiment.h>
 #include <pharos/experiments/runner/results_files.h>
@@ -16,7 +17,6 @@
 #include "config_options.h"
 #include "interrupt.h"
 #include "progress_bar.h"
-#include "threads.h"
 
 namespace pharos {
 namespace {
@@ -33,7 +33,8 @@ struct ExperimentOptions {
 /// Fails before the work starts if its results could not be written.
 void check_outputs(const ExperimentConfig& config) {
   if (!std::filesystem::exists(config.output)) return;
-  for (const char* file : {"results.json", "report.html", "runs.csv", "convergence.csv"}) {
+  for (const char* file :
+       {"results.json", "report.html", "runs.csv", "measures.csv", "convergence.csv"}) {
     check_writable(std::filesystem::path(config.output) / file);
   }
 }

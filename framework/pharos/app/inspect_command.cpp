@@ -11,6 +11,7 @@
 #include <pharos/config/module_loader.h>
 #include <pharos/core/error.h>
 #include <pharos/core/log.h>
+#include <pharos/core/threads.h>
 #include <pharos/core/version.h>
 #include <pharos/experiments/pictures/density_cloud.h>
 #include <pharos/experiments/pictures/density_slice.h>
@@ -21,8 +22,7 @@
 
 #include "commands.h"
 #include "inspect_options.h"
-#include "inspected_file.h"
-#include "threads.h"
+#include "model_facts.h"
 
 namespace pharos {
 namespace {
@@ -50,6 +50,15 @@ std::unique_ptr<const InspectedScene> read_scene(const std::filesystem::path& pa
       new InspectedScene{Scene(std::move(config.scene)), config.film.width, config.film.height});
 }
 
+/// Reads a model file. Throws InputError that names the command.
+LearnedFile read_model(const std::filesystem::path& path, const Registry& registry) {
+  try {
+    return read_learned_file(path, registry);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("pharos inspect: error: {}", error.what()));
+  }
+}
+
 /// A picture of densities, with the images to draw over or behind it.
 struct Picture {
   std::string caption;
@@ -61,7 +70,7 @@ struct Picture {
 /// Makes the picture that the options request.
 class Inspection {
  public:
-  Inspection(const InspectOptions& options, const InspectedFile& file, const InspectedScene* scene)
+  Inspection(const InspectOptions& options, const LearnedFile& file, const InspectedScene* scene)
       : options_(options), file_(file), model_(*file.models[options.index]), scene_(scene) {}
 
   Picture picture() const {
@@ -118,14 +127,19 @@ class Inspection {
 
   Picture slice() const {
     const SlicePlane plane = this->plane(options_.size);
-    Picture picture{fmt::format("density at {} = {:.6g}, {}", kAxisNames[plane.axis],
-                                plane.corner[plane.axis], plane.orientation()),
-                    density_slice(model_, plane)};
-    if (scene_ != nullptr) {
-      picture.draw_over = [outline = scene_outline(scene_->scene, plane)](Image& colors) {
-        draw_over(colors, outline);
-      };
-    }
+    Image density = density_slice(model_, plane);
+    const PixelPosition densest = densest_pixel(density);
+    const Point3 place = plane.at((static_cast<float>(densest.x) + 0.5f) / plane.width,
+                                  (static_cast<float>(densest.y) + 0.5f) / plane.height);
+    Picture picture{
+        fmt::format("density at {} = {:.6g}, {}; the ring is around the densest place, {}",
+                    kAxisNames[plane.axis], plane.corner[plane.axis], plane.orientation(),
+                    point_text(place)),
+        std::move(density)};
+    picture.draw_over = [this, plane, densest](Image& colors) {
+      if (scene_ != nullptr) draw_over(colors, scene_outline(scene_->scene, plane));
+      draw_ring(colors, densest);
+    };
     return picture;
   }
 
@@ -188,7 +202,7 @@ class Inspection {
   }
 
   const InspectOptions& options_;
-  const InspectedFile& file_;
+  const LearnedFile& file_;
   const GuidingModel& model_;
   const InspectedScene* scene_;
 };
@@ -210,14 +224,14 @@ void write_picture(const Picture& picture, const InspectOptions& options) {
   ColorScale scale = options.shares ? ColorScale{0, 1} : density_scale(picture.density);
   if (const auto range = parse_range(options.range)) scale = {range->low, range->high, true};
   write_png(colored(picture, scale), options.output, 0, false);
-  log_info(fmt::format("{}: {}, from {:.3g} to {:.3g}{}", options.output.string(), picture.caption,
+  log_info(fmt::format("{}: {}; colors from {:.3g} to {:.3g}{}", options.output.string(), picture.caption,
                        scale.low, scale.high, scale.logarithmic ? ", logarithmic" : ""));
 }
 
 void inspect(const InspectOptions& options) {
   check_options(options);
   const Registry registry = load_default_modules();
-  const InspectedFile file = read_inspected(options.model, registry);
+  const LearnedFile file = read_model(options.model, registry);
   const auto scene = read_scene(options.scene, registry);
   if (!options.wants_picture()) {
     return print_facts(file, scene == nullptr ? Bounds3() : scene->scene.bounds());

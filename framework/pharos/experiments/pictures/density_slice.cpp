@@ -1,5 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
+#include <numeric>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -11,6 +15,10 @@ namespace {
 
 /// The largest ratio of the values of the brightest and the darkest color.
 constexpr float kDecades = 1e6f;
+
+/// The brightest color begins where the densest pixels hold this share of the mass, and the darkest
+/// color where they hold the other share.
+constexpr double kBrightestShare = 0.01, kDarkestShare = 0.999;
 
 /// The axes of a slice along its rows and along its columns.
 struct SliceAxes {
@@ -80,16 +88,49 @@ Image density_directions(const GuidingModel& model, Point3 point, int height) {
 }
 
 ColorScale density_scale(const Image& map) {
-  float low = kInfinity, high = 0;
-  for (const float value : map.values()) {
-    if (!(value > 0) || !std::isfinite(value)) continue;
-    low = std::min(low, value);
-    high = std::max(high, value);
-  }
-  if (high == 0) return {};
-  low = std::max(low, high / kDecades);
+  std::vector<float> densities;
+  std::copy_if(map.values().begin(), map.values().end(), std::back_inserter(densities),
+               [](float value) { return value > 0 && std::isfinite(value); });
+  if (densities.empty()) return {};
+  std::sort(densities.begin(), densities.end(), std::greater<>());
+  const double total = std::accumulate(densities.begin(), densities.end(), 0.0);
+  const auto density_at = [&](double share) {
+    double mass = 0;
+    const auto last = std::find_if(densities.begin(), densities.end() - 1,
+                                   [&](float value) { return (mass += value) >= share * total; });
+    return *last;
+  };
+  const float high = density_at(kBrightestShare);
+  const float low = std::max(density_at(kDarkestShare), high / kDecades);
   // A map with one single value gets the brightest color.
   return {.low = low < high ? low : high / 10, .high = high, .logarithmic = true};
+}
+
+PixelPosition densest_pixel(const Image& map) {
+  PixelPosition densest;
+  float largest = -kInfinity;
+  for (int y = 0; y < map.height(); ++y) {
+    for (int x = 0; x < map.width(); ++x) {
+      const float density = *map.pixel(x, y);
+      if (!std::isfinite(density) || density <= largest) continue;
+      largest = density;
+      densest = {x, y};
+    }
+  }
+  return densest;
+}
+
+void draw_ring(Image& colors, PixelPosition middle) {
+  constexpr Rgb kColor{0, 0.8f, 1};  // magma, the map of colors, has no blue as bright as this
+  constexpr float kHalfWidth = 1.5f;
+  const auto edge = static_cast<float>(std::max(colors.width(), colors.height()));
+  const float radius = std::max(4.0f, edge / 40);
+  for (int y = 0; y < colors.height(); ++y) {
+    for (int x = 0; x < colors.width(); ++x) {
+      const auto dx = static_cast<float>(x - middle.x), dy = static_cast<float>(y - middle.y);
+      if (std::abs(std::hypot(dx, dy) - radius) < kHalfWidth) colors.set_rgb(x, y, kColor);
+    }
+  }
 }
 
 }  // namespace pharos

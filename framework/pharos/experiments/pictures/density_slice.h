@@ -40,9 +40,20 @@ Vec3 latlong_direction(float u, float v);
 /// image, in one channel "Y". The image is twice as wide as it is high.
 Image density_directions(const GuidingModel& model, Point3 point, int height);
 
-/// Returns a logarithmic scale up to the largest finite value of `map`. It spans at most six
-/// decades and does not begin below the smallest positive value. If no value is positive, the scale
-/// is 0 to 1.
+/// Returns a logarithmic scale of the positive finite values of `map`. The densest pixels with 1 %
+/// of the mass get the brightest color, and all but the densest pixels with 99.9 % of the mass the
+/// darkest. The scale spans at most six decades. If no value is positive, it is 0 to 1.
 ColorScale density_scale(const Image& map);
+
+struct PixelPosition {
+  int x = 0, y = 0;
+};
+
+/// Returns the first pixel of the largest finite value, row by row.
+PixelPosition densest_pixel(const Image& map);
+
+/// Draws a ring around a pixel of `colors` (three channels, linear). Its radius is a fortieth of
+/// the longer edge, and at least four pixels.
+void draw_ring(Image& colors, PixelPosition middle);
 
 }  // namespace pharos

@@ -1,20 +1,30 @@
 // One table per measure, one of which is shown.
 
-/** Returns the best value of the row; NaN if the measure has no better direction or no values. */
-function bestOf(values, better) {
-  const numbers = values.filter((value) => !Number.isNaN(value));
-  if (better === "neither" || numbers.length === 0) return NaN;
-  return better === "lower" ? Math.min(...numbers) : Math.max(...numbers);
+/** Whether `a` is better than `b` and their intervals do not meet, or equal to `b` without intervals. */
+function isAhead(a, b, better) {
+  const [own, other] = [a, b].map((cell) => {
+    const value = toNumber(cell.value);
+    return toInterval(cell.interval) ?? { low: value, high: value };
+  });
+  const isTie = !a.interval && !b.interval && own.low === other.low;
+  return isTie || (better === "lower" ? own.high < other.low : own.low > other.high);
 }
 
-function tableCell(cell, best, isBaseline) {
+/** Returns the cells that are ahead of all others of the row. */
+function bestOf(cells, better) {
+  if (better === "neither") return [];
+  const contenders = cells.filter((cell) => cell.contends && !Number.isNaN(toNumber(cell.value)));
+  return contenders.filter((a) => contenders.every((b) => a === b || isAhead(a, b, better)));
+}
+
+function tableCell(cell, isBest, isBaseline) {
   const value = toNumber(cell.value);
   const interval = toInterval(cell.interval);
   const element = make("td", {}, make("span", { className: "value" }, formatNumber(value)));
-  if (value === best && cell.contends) {
+  if (isBest) {
     element.className = "best";
     element.firstChild.prepend("★ ");
-    element.title = "best of its row";
+    element.title = "better than all others of its row";
   }
   if (Number.isNaN(value)) element.title = "no value";
   if (interval) {
@@ -30,10 +40,9 @@ function tableCell(cell, best, isBaseline) {
 }
 
 function tableRow(row, table) {
-  const contenders = row.cells.filter((cell) => cell.contends);
-  const best = bestOf(contenders.map((cell) => toNumber(cell.value)), table.better);
+  const best = bestOf(row.cells, table.better);
   return make("tr", {}, make("th", { scope: "row" }, row.scene),
-    ...row.cells.map((cell, i) => tableCell(cell, best, report.methods[i] === report.baseline)));
+    ...row.cells.map((cell, i) => tableCell(cell, best.includes(cell), report.methods[i] === report.baseline)));
 }
 
 const capital = (text) => text[0].toUpperCase() + text.slice(1);
@@ -48,7 +57,7 @@ function legendOf(table) {
   const cells = table.rows.flatMap((row) => row.cells);
   const parts = [];
   if (table.definition) parts.push(sentence(table.definition));
-  if (table.better !== "neither") parts.push(`${table.better === "lower" ? "Lower" : "Higher"} is better; ★ marks the best value of a row.`);
+  if (table.better !== "neither") parts.push(`${table.better === "lower" ? "Lower" : "Higher"} is better; ★ marks a value that is better than all others of its row${cells.some((cell) => cell.interval) ? ", by intervals that do not meet" : ""}.`);
   if (cells.some((cell) => cell.interval)) parts.push("Brackets are intervals of 95 %.");
   if (cells.some((cell) => cell.ratio !== null)) parts.push(`× is the ratio to ${report.baseline || "the baseline"}.`);
   return parts.join(" ");

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -118,6 +119,26 @@ std::string runs_csv(const ExperimentResults& results) {
   return text;
 }
 
+std::string measures_csv(const ExperimentResults& results) {
+  std::string text = "scene,method,seed,measure,unit,value\n";
+  for (const RunRecord& run : results.records) {
+    const auto add = [&](std::string_view measure, std::string_view unit, double value) {
+      if (std::isnan(value)) return;
+      text += fmt::format("{},{},{},{},{},{}\n", run.scene, run.method, run.seed, measure, unit,
+                          csv_number(value));
+    };
+    for (const MetricInfo& info : metric_infos()) add(info.key, info.unit, run.errors[info.metric]);
+    add("samples_per_pixel", "1", run.samples_per_pixel);
+    add("training_samples_per_pixel", "1", run.training_samples);
+    add("seconds", "s", run.seconds());
+    add("rays", "1", static_cast<double>(run.rays));
+    add("model_bytes", "B", static_cast<double>(run.model_bytes));
+    add("peak_bytes", "B", run.peak_bytes.value_or(NAN));
+    if (run.gain) add("gain", "nat", run.gain->nats);
+  }
+  return text;
+}
+
 std::string convergence_csv(const ExperimentResults& results) {
   std::string text = "scene,method,seed,samples_per_pixel,seconds";
   for (const Metric metric : checkpoint_metrics()) {
@@ -143,6 +164,7 @@ void write_results(const ExperimentResults& results) {
   const Report report = experiment_report(results);
   write_text_atomically(folder / "results.json", results_json(results, report).dump(1) + "\n");
   write_text_atomically(folder / "runs.csv", runs_csv(results));
+  write_text_atomically(folder / "measures.csv", measures_csv(results));
   write_text_atomically(folder / "convergence.csv", convergence_csv(results));
   write_report(report, folder / "report.html");
 }

@@ -7,6 +7,8 @@ namespace pharos {
 
 /// Returns CSV with one line per run: all errors, times and sizes.
 std::string runs_csv(const ExperimentResults& results);
+/// Returns CSV with one line per run and measure. Unknown values have no line.
+std::string measures_csv(const ExperimentResults& results);
 /// Returns CSV with one line per checkpoint.
 std::string convergence_csv(const ExperimentResults& results);
 
@@ -14,8 +16,8 @@ std::string convergence_csv(const ExperimentResults& results);
 /// learned densities and the exact configs.
 Report experiment_report(const ExperimentResults& results);
 
-/// Writes results.json, runs.csv, convergence.csv and report.html into the output folder. Each file
-/// is written completely or not at all. Throws RunError.
+/// Writes results.json, runs.csv, measures.csv, convergence.csv and report.html into the output
+/// folder. Each file is written completely or not at all. Throws RunError.
 void write_results(const ExperimentResults& results);
 
 }  // namespace pharos

@@ -115,18 +115,42 @@ TEST_CASE("directions: as environment maps are laid out") {
   CHECK(towards({0, -1, 0}).y > 0.99f);
 }
 
-TEST_CASE("scales: the largest value, six decades at most, no zeros, no NaN") {
+TEST_CASE("scales: by percentiles of mass, six decades at most, no zeros, no NaN") {
   const ColorScale narrow = density_scale(row({0, 2, 8, 4}));
   CHECK(narrow.low == 2);
   CHECK(narrow.high == 8);
   CHECK(narrow.logarithmic);
   const ColorScale wide =
       density_scale(row({1e-20f, 100, kInfinity, std::numeric_limits<float>::quiet_NaN(), -1000}));
-  CHECK(wide.low == doctest::Approx(1e-4));
+  CHECK(wide.low == doctest::Approx(10));
   CHECK(wide.high == 100);
+  // 10,000 pixels of mass 1 and one of 50: half a percent, so that it does not set the scale.
+  Image spike(100, 100, {"Y"});
+  std::fill(spike.values().begin(), spike.values().end(), 1.0f);
+  spike.values().front() = 50;
+  spike.values().back() = 1e-3f;  // beyond 99.9 %
+  CHECK(density_scale(spike).high == 1);
+  spike.values().front() = 1e9f;
+  CHECK(density_scale(spike).high == 1e9f);
+  CHECK(density_scale(spike).low == doctest::Approx(1e8f));
   const ColorScale constant = density_scale(row({3, 3}));
   CHECK(scale_position(3, constant) == 1);
   CHECK_FALSE(density_scale(row({0, 0})).logarithmic);
+}
+
+TEST_CASE("a ring marks the densest pixel") {
+  Image map(60, 30, {"Y"});
+  *map.pixel(40, 11) = 2;
+  *map.pixel(3, 3) = kInfinity;
+  const PixelPosition densest = densest_pixel(map);
+  CHECK(densest.x == 40);
+  CHECK(densest.y == 11);
+  Image colors(60, 30, {"R", "G", "B"});
+  draw_ring(colors, densest);
+  CHECK(colors.rgb(40, 11).b == 0);
+  CHECK(colors.rgb(44, 11).b == 1);
+  CHECK(colors.rgb(40, 7).b == 1);
+  CHECK(colors.rgb(50, 11).b == 0);
 }
 
 TEST_CASE("clouds: mass shows where it is seen from the front, the right and above") {

@@ -194,6 +194,12 @@ TEST_CASE(
         "seconds_preparation,seconds_sampler,seconds_training,seconds_update,seconds_rendering,"
         "peak_bytes,version\n"
         "s,base,1,64,,,0.015625,,,,,,,,0,0,0,,,0,0,0,0,0,0,0.64,,0\n");
+  const std::string measures = measures_csv(results);
+  CHECK(measures.find("scene,method,seed,measure,unit,value\n"
+                      "s,base,1,relative_mse,,0.015625\n"
+                      "s,base,1,samples_per_pixel,1,64\n") == 0);
+  CHECK(measures.find("s,base,1,seconds,s,0.64\n") != std::string::npos);
+  CHECK(measures.find("gain") == std::string::npos);  // unknown
   const std::string curve = convergence_csv(results);
   CHECK(std::count(curve.begin(), curve.end(), '\n') == 8);
   CHECK(curve.find("s,base,1,2,0.02,,,0.5,\n") != std::string::npos);
