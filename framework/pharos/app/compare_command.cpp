@@ -9,12 +9,12 @@
 #include <pharos/core/atomic_file.h>
 #include <pharos/core/error.h>
 #include <pharos/core/log.h>
+#include <pharos/core/threads.h>
 #include <pharos/core/writable.h>
 #include <pharos/experiments/metrics/comparison.h>
 #include <pharos/experiments/pictures/error_images.h>
 
 #include "commands.h"
-#include "threads.h"
 
 namespace pharos {
 namespace {

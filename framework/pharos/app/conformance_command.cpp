@@ -6,10 +6,10 @@
 #include <pharos/config/module_loader.h>
 #include <pharos/conformance/conformance.h>
 #include <pharos/core/atomic_file.h>
+#include <pharos/core/threads.h>
 #include <pharos/core/writable.h>
 
 #include "commands.h"
-#include "threads.h"
 
 namespace pharos {
 namespace {

@@ -5,6 +5,7 @@
 
 #include <pharos/config/module_loader.h>
 #include <pharos/core/log.h>
+#include <pharos/core/threads.h>
 #include <pharos/core/writable.h>
 #include <pharos/experiments/runner/output_folder.h>
 #include <pharos/laboratory/integrands/add_integrands.h>
@@ -14,7 +15,6 @@
 #include "config_options.h"
 #include "interrupt.h"
 #include "progress_bar.h"
-#include "threads.h"
 
 namespace pharos {
 namespace {

@@ -2,12 +2,12 @@
 
 #include <pharos/config/module_loader.h>
 #include <pharos/core/log.h>
+#include <pharos/core/threads.h>
 #include <pharos/experiments/runner/run_order.h>
 
 #include "commands.h"
 #include "interrupt.h"
 #include "progress_bar.h"
-#include "threads.h"
 
 namespace pharos {
 namespace {

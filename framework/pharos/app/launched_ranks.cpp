@@ -12,10 +12,9 @@
 #include <tbb/task_arena.h>
 
 #include <pharos/core/error.h>
+#include <pharos/core/threads.h>
 #include <pharos/rendering/mpi_ranks.h>
 #include <pharos/rendering/rank_leader.h>
-
-#include "threads.h"
 
 namespace pharos {
 namespace {

@@ -1,64 +1,11 @@
-#include "inspected_file.h"
+#include "model_facts.h"
 
 #include <algorithm>
-#include <map>
 
 #include <fmt/format.h>
 
-#include <pharos/core/error.h>
-
 namespace pharos {
 namespace {
-
-/// Builds the plugin of contract C with the name `name`, by which the file was `what`.
-template <class C>
-Ref<C> plugin(const std::filesystem::path& path, const char* what, const std::string& name,
-              const Registry& registry, const ConfigNode& config) {
-  if (registry.find(C::contract_name, name) == nullptr) {
-    throw InputError(
-        fmt::format("the model file '{}' was {} by '{}', which no module here has: there are {}",
-                    path.string(), what, name, quoted_list(registry.names(C::contract_name))));
-  }
-  BuildContext context{registry};
-  ConfigNode resolved;
-  return registry.build<C>(config, context, resolved);
-}
-
-/// Reads what the mixing policy has learned about the models that were read before.
-LearnedMixing read_mixing(const InspectedFile& file, const std::filesystem::path& path,
-                          const Registry& registry) {
-  LearnedMixing mixing;
-  std::vector<std::uint32_t> first_regions;
-  std::uint32_t regions = 0;
-  for (const auto& model : file.models) {
-    first_regions.push_back(regions);
-    regions += model->info().regions;
-  }
-  std::vector<float> weights;
-  for (const LearnedMethod& method : file.head.methods) {
-    weights.push_back(method.weight);
-    mixing.methods.push_back({file.models[method.model], first_regions[method.model]});
-  }
-  const auto policy = plugin<MixingPolicy>(path, "mixed", file.head.mixing, registry,
-                                           parse_yaml(file.head.mixing_config, path.string()));
-  const auto state = policy->begin(weights);
-  state->update(regions, {}, false);
-  load_mixing_state(path, read_mixing_state(path), *state);
-  mixing.shares = state->shares();
-  return mixing;
-}
-
-InspectedFile read(const std::filesystem::path& path, const Registry& registry) {
-  InspectedFile file{.head = read_model_head(path)};
-  std::map<std::string, std::size_t> read_before;  // by learner
-  for (const ModelHeader& header : file.head.models) {
-    const auto learner = plugin<Learner>(path, "learned", header.learner, registry,
-                                         ConfigNode::scalar(header.learner));
-    file.models.push_back(read_model_file(path, *learner, read_before[header.learner]++));
-  }
-  file.mixing = read_mixing(file, path, registry);
-  return file;
-}
 
 std::vector<ModelFact> facts_of(const ModelHeader& header, const GuidingModel& model) {
   ModelInfo info = model.info();
@@ -78,7 +25,7 @@ std::vector<ModelFact> facts_of(const ModelHeader& header, const GuidingModel& m
 
 /// Returns the mean shares at vertices of different kinds, wherever in `bounds` a model knows
 /// something.
-std::vector<ModelFact> facts_of_mixing(const InspectedFile& file, const Bounds3& bounds) {
+std::vector<ModelFact> facts_of_mixing(const LearnedFile& file, const Bounds3& bounds) {
   std::vector<ModelFact> facts = {{"mixing", file.head.mixing}};
   for (const std::uint16_t bounce : {1, 2}) {
     for (const float roughness : kShownRoughness) {
@@ -108,15 +55,7 @@ std::string point_text(Point3 p) {
   return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x, p.y, p.z);
 }
 
-InspectedFile read_inspected(const std::filesystem::path& path, const Registry& registry) {
-  try {
-    return read(path, registry);
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("pharos inspect: error: {}", error.what()));
-  }
-}
-
-void print_facts(const InspectedFile& file, Bounds3 bounds) {
+void print_facts(const LearnedFile& file, Bounds3 bounds) {
   for (std::size_t i = 0; i < file.models.size(); ++i) {
     print_aligned(facts_of(file.head.models[i], *file.models[i]));
     const Bounds3 own = file.models[i]->info().bounds;

@@ -11,11 +11,11 @@
 
 #include <pharos/config/command.h>
 #include <pharos/core/log.h>
+#include <pharos/core/threads.h>
 
 #include "commands.h"
 #include "interrupt.h"
 #include "progress_bar.h"
-#include "threads.h"
 
 namespace pharos {
 namespace {

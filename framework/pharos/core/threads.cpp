@@ -1,9 +1,9 @@
-#include "threads.h"
-
 #include <algorithm>
 
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
+
+#include <pharos/core/threads.h>
 
 namespace pharos {
 
