@@ -77,13 +77,15 @@ void add_laboratory(py::module_& module) {
   py::class_<Integrand>(module, "Integrand",
                         "A function on the unit square whose integral is known in closed form.")
       .def(py::init<const std::string&, const py::kwargs&>(), py::arg("type"),
-           "Builds an integrand by its name and settings, as `plugins()['integrand']` lists them.")
+           "Builds an integrand by its name and settings, as `plugins()['integrand']` lists them. "
+           "Raises InputError.")
       .def_property_readonly("mean", &Integrand::mean, "The exact integral.")
       .def("__call__", &Integrand::values, py::arg("points"),
-           "Returns the values at points of shape (n, 2).");
+           "Returns the values at points of shape (n, 2). Raises InputError for other shapes.");
   py::class_<Sampler>(module, "Sampler", "A generator of the random numbers of a render.")
       .def(py::init<const std::string&, const py::kwargs&>(), py::arg("type"),
-           "Builds a sampler by its name and settings, as `plugins()['sampler']` lists them.")
+           "Builds a sampler by its name and settings, as `plugins()['sampler']` lists them. "
+           "Raises InputError, also for samplers that look at a scene before rendering.")
       .def("points", &Sampler::points, py::arg("count"), py::arg("seed") = 1,
            "Returns the points of one pixel in one pair of dimensions, in an array of shape "
            "(count, 2).");

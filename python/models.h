@@ -21,7 +21,8 @@ class GuidingModel {
   const std::string& learner() const { return learned_.learner; }
   ModelInfo info() const { return learned_.model->info(); }
   /// Returns the densities at points, an array of shape (n, 3), or for a direction at each point.
-  /// One point or one direction goes with all of the others.
+  /// One point or one direction goes with all of the others. Throws InputError for other shapes,
+  /// for numbers that are not finite, and for directions of length zero.
   Doubles density(const Floats& points, const std::optional<Floats>& directions) const;
 
  private:

@@ -39,6 +39,7 @@ ConfigNode extended(ConfigNode node) {
 /// Loads a config: the path of a file, or a dictionary.
 LoadedConfig load(const py::object& config, const std::vector<std::string>& overrides) {
   if (!py::isinstance<py::dict>(config)) {
+    if (!is_path(config)) throw InputError("config: expected a path or a dictionary");
     const auto path = config.cast<std::filesystem::path>();
     const Registry& plugins = registry();
     const py::gil_scoped_release release;
@@ -60,8 +61,10 @@ class BackgroundRender {
           with_threads(threads, [&] { result = RenderJob(config).run(control()); });
           return result;
         })) {}
+  /// Ends the render. Python's other threads go on meanwhile.
   ~BackgroundRender() {
     stop();
+    const py::gil_scoped_release release;
     if (result_.valid()) result_.wait();
   }
   BackgroundRender(const BackgroundRender&) = delete;
@@ -97,7 +100,8 @@ class BackgroundRender {
   std::future<RenderResult> result_;  ///< last: its thread uses the other members
 };
 
-/// Calls back from the calling thread. A callback that returns False ends the render.
+/// Calls back from the calling thread. A callback that returns something false but None ends the
+/// render.
 void report(const py::object& callback, BackgroundRender& render) {
   const std::optional<Progress> progress = render.progress();
   if (callback.is_none() || !progress) return;
@@ -107,7 +111,8 @@ void report(const py::object& callback, BackgroundRender& render) {
   facts["samples_per_pixel"] = progress->samples_per_pixel;
   facts["training"] = progress->training;
   facts["rays"] = progress->rays;
-  if (callback(facts).is(py::bool_(false))) render.stop();
+  const py::object goes_on = callback(facts);
+  if (!goes_on.is_none() && !py::bool_(goes_on)) render.stop();
 }
 
 /// Waits for a render. Returns true if Ctrl-C has ended it. Any other exception of Python ends it,
@@ -144,7 +149,8 @@ py::object gain_of(const RenderResult& result) {
 py::list notes_of(const LoadedConfig& loaded) {
   py::list notes;
   for (const ImportNote& note : loaded.notes) {
-    notes.append(fmt::format("{}: {}", note.where.to_string(), note.message));
+    notes.append(fmt::format("{}: {}{}", note.where.to_string(), note.message,
+                             note.times > 1 ? fmt::format(" ({} times)", note.times) : ""));
   }
   return notes;
 }
@@ -235,30 +241,43 @@ py::dict plugins() {
   return contracts;
 }
 
+constexpr const char* kRenderHelp =
+    R"(Renders a config: the path of a file, or a dictionary with the same keys.
+
+`overrides` is a list of assignments such as "budget.spp=16". `threads` is the number of threads;
+0: all cores.
+
+Returns a dictionary. No file is written. The keys are
+
+- 'image': radiance, an array of height x width x 3, and the layers 'albedo', 'normal' and
+  'variance' of the same shape, and 'depth', 'samples', 'splitting' and 'cost';
+- 'models': a list of what was learned;
+- 'metadata': the 'version' of Pharos, the 'config' with every value in force, the 'seed',
+  'samples_per_pixel', 'seconds' as a time budget counts them, the numbers of 'paths', of
+  'lit_paths' that carry light, of 'invalid_paths' (NaN or infinite; they count as black) and of
+  'rays', the 'gain' of the guides or None, whether the render was 'stopped' early, and 'notes' on
+  what was approximated or left out in reading the scene.
+
+`progress` is called some 20 times a second with a dictionary: the 'fraction' of the budget in [0, 1],
+'seconds', 'samples_per_pixel', whether it is 'training', and 'rays'. If it returns False, the render
+ends with the samples so far. Ctrl-C raises Interrupted, whose `result` has them. Raises InputError
+and RunError.)";
+
+constexpr const char* kValidateHelp =
+    R"(Checks a config and returns it with every value in force, as a dictionary. Raises InputError.)";
+
+constexpr const char* kPluginsHelp =
+    R"(Returns all plugins: dictionaries by contract and by name, with the keys 'summary', 'module',
+'parameters' and 'examples'.)";
+
 }  // namespace
 
 void add_renders(py::module_& module) {
-  module.def(
-      "render", render, py::arg("config"), py::arg("overrides") = std::vector<std::string>(),
-      py::kw_only(), py::arg("progress") = py::none(), py::arg("threads") = 0,
-      "Renders a config: the path of a file, or a dictionary with the same keys. `overrides` is a "
-      "list of assignments such as 'budget.spp=16'.\n\n"
-      "Returns a dictionary: 'image' (height x width x 3), the layers 'albedo', 'normal', 'depth', "
-      "'variance', 'samples', 'splitting' and 'cost', the learned 'models', and 'metadata'. No "
-      "file "
-      "is written.\n\n"
-      "`progress` is called some 20 times a second with a dictionary of the progress; if it "
-      "returns "
-      "False, the render ends with the samples so far. Ctrl-C raises `Interrupted`, whose `result` "
-      "has them. `threads` is the number of threads; 0: all cores. Raises InputError and "
-      "RunError.");
+  module.def("render", render, py::arg("config"), py::arg("overrides") = std::vector<std::string>(),
+             py::kw_only(), py::arg("progress") = py::none(), py::arg("threads") = 0, kRenderHelp);
   module.def("validate", validate, py::arg("config"),
-             py::arg("overrides") = std::vector<std::string>(),
-             "Checks a config and returns it with every value in force, as a dictionary. Raises "
-             "InputError.");
-  module.def("plugins", plugins,
-             "Returns all plugins: dictionaries by contract and by name, with the keys 'summary', "
-             "'module', 'parameters' and 'examples'.");
+             py::arg("overrides") = std::vector<std::string>(), kValidateHelp);
+  module.def("plugins", plugins, kPluginsHelp);
 }
 
 }  // namespace pharos::python

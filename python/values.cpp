@@ -19,8 +19,18 @@ std::string type_of(const py::handle& value) {
   return py::str(py::type::of(value).attr("__name__"));
 }
 
-ConfigNode mapping_of(const py::dict& dictionary, const std::string& path) {
-  const Location where{path};
+/// The place of a value in a config: its path of keys and its depth.
+struct Place {
+  std::string path;
+  int depth = 0;
+
+  Place inner(const std::string& key) const { return {path.empty() ? key : path + key, depth + 1}; }
+};
+
+ConfigNode node_at(const py::handle& value, const Place& place);
+
+ConfigNode mapping_of(const py::dict& dictionary, const Place& place) {
+  const Location where{place.path};
   ConfigNode node = ConfigNode::mapping(where);
   for (const auto& [key, value] : dictionary) {
     if (!py::isinstance<py::str>(key)) {
@@ -28,26 +38,52 @@ ConfigNode mapping_of(const py::dict& dictionary, const std::string& path) {
                                           type_of(key)));
     }
     const auto name = key.cast<std::string>();
-    const std::string inner = path.empty() ? name : path + "." + name;
-    node.set(name, node_of(value, inner), {inner});
+    const Place inner = place.inner(place.path.empty() ? name : "." + name);
+    node.set(name, node_at(value, inner), {inner.path});
   }
   return node;
 }
 
-ConfigNode sequence_of(const py::sequence& list, const std::string& path) {
-  ConfigNode node = ConfigNode::sequence({path});
+ConfigNode sequence_of(const py::sequence& list, const Place& place) {
+  ConfigNode node = ConfigNode::sequence({place.path});
   for (std::size_t i = 0; i < list.size(); ++i) {
-    node.items().push_back(node_of(list[i], fmt::format("{}[{}]", path, i)));
+    node.items().push_back(node_at(list[i], place.inner(fmt::format("[{}]", i))));
   }
   return node;
 }
 
 /// Returns a number as YAML writes it, with all its digits.
-ConfigNode number_of(const py::handle& value, const std::string& path) {
-  const auto number = value.cast<double>();
-  const std::string text = number_text(number);
-  if (text.empty()) throw InputError({path}, fmt::format("expected a finite number"));
-  return ConfigNode::scalar(text, {path});
+ConfigNode number_of(const py::handle& value, const Location& where) {
+  const std::string text = number_text(value.cast<double>());
+  if (text.empty()) throw InputError(where, "expected a finite number");
+  return ConfigNode::scalar(text, where);
+}
+
+ConfigNode node_at(const py::handle& value, const Place& place) {
+  constexpr int kDeepest = 64;
+  const Location where{place.path};
+  if (place.depth > kDeepest) throw InputError(where, "values are nested deeper than 64 levels");
+  if (value.is_none()) return ConfigNode::null(where);
+  if (py::isinstance<py::bool_>(value)) {
+    return ConfigNode::scalar(value.cast<bool>() ? "true" : "false", where);
+  }
+  if (py::isinstance<py::str>(value)) return ConfigNode::scalar(value.cast<std::string>(), where);
+  if (py::isinstance<py::int_>(value)) {
+    return ConfigNode::scalar(py::str(value).cast<std::string>(), where);
+  }
+  if (py::isinstance<py::float_>(value)) return number_of(value, where);
+  if (py::isinstance<py::dict>(value)) {
+    return mapping_of(py::reinterpret_borrow<py::dict>(value), place);
+  }
+  if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value)) {
+    return sequence_of(py::reinterpret_borrow<py::sequence>(value), place);
+  }
+  const Place same{place.path, place.depth + 1};
+  if (py::hasattr(value, "tolist")) return node_at(value.attr("tolist")(), same);  // of numpy
+  if (is_path(value)) return node_at(value.attr("__fspath__")(), same);
+  throw InputError(where, fmt::format("expected a dictionary, a list, a string, a number or None, "
+                                      "found a value of type {}",
+                                      type_of(value)));
 }
 
 py::object scalar_of(const std::string& text) {
@@ -91,28 +127,12 @@ const Registry& registry() {
   return loaded;
 }
 
-ConfigNode node_of(const py::handle& value, const std::string& path) {
-  const Location where{path};
-  if (value.is_none()) return ConfigNode::null(where);
-  if (py::isinstance<py::bool_>(value)) {
-    return ConfigNode::scalar(value.cast<bool>() ? "true" : "false", where);
-  }
-  if (py::isinstance<py::str>(value)) return ConfigNode::scalar(value.cast<std::string>(), where);
-  if (py::isinstance<py::int_>(value)) {
-    return ConfigNode::scalar(py::str(value).cast<std::string>(), where);
-  }
-  if (py::isinstance<py::float_>(value)) return number_of(value, path);
-  if (py::isinstance<py::dict>(value)) {
-    return mapping_of(py::reinterpret_borrow<py::dict>(value), path);
-  }
-  if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value)) {
-    return sequence_of(py::reinterpret_borrow<py::sequence>(value), path);
-  }
-  if (py::hasattr(value, "tolist")) return node_of(value.attr("tolist")(), path);  // of numpy
-  if (py::hasattr(value, "__fspath__")) return node_of(value.attr("__fspath__")(), path);
-  throw InputError(where, fmt::format("expected a dictionary, a list, a string, a number or None, "
-                                      "found a value of type {}",
-                                      type_of(value)));
+bool is_path(const py::handle& value) {
+  return py::isinstance<py::str>(value) || py::hasattr(value, "__fspath__");
+}
+
+ConfigNode node_of(const py::handle& value) {
+  return node_at(value, {});
 }
 
 py::object object_of(const ConfigNode& node) {
@@ -161,8 +181,10 @@ py::dict layers_of(const Image& image) {
 }
 
 Image image_of(const py::object& value, const char* name) {
-  if (py::isinstance<py::str>(value) || py::hasattr(value, "__fspath__")) {
-    return read_image(value.cast<std::filesystem::path>());
+  if (is_path(value)) {
+    const auto path = value.cast<std::filesystem::path>();
+    const py::gil_scoped_release release;
+    return read_image(path);
   }
   const auto array = Floats::ensure(value);
   const bool is_gray = array && array.ndim() == 2;
@@ -183,7 +205,11 @@ std::vector<Vec3> vectors_of(const Floats& array, const char* name) {
   }
   std::vector<Vec3> vectors(static_cast<std::size_t>(array.size() / 3));
   const float* value = array.data();
-  for (Vec3& v : vectors) v = {value[0], value[1], value[2]}, value += 3;
+  for (Vec3& v : vectors) {
+    v = {value[0], value[1], value[2]};
+    if (!is_finite(v)) throw InputError(fmt::format("{}: expected finite numbers", name));
+    value += 3;
+  }
   return vectors;
 }
 

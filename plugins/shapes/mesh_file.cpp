@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 #include <new>
+#include <pbrt_syntax/gzip.h>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -11,6 +12,7 @@
 #include <fmt/core.h>
 
 #include <pharos/core/error.h>
+#include <pharos/core/packed_name.h>
 
 #include "gltf_file.h"
 #include "mesh_source.h"
@@ -42,7 +44,7 @@ constexpr std::array<Format, 7> kFormats{
      {".stl", false, false, [](const MeshSource& source) { return welded(read_stl(source)); }}}};
 
 const Format& format_of(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
+  std::string extension = unpacked_name(path).extension().string();
   for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   std::vector<std::string> known;
   for (const Format& format : kFormats) {
@@ -51,6 +53,14 @@ const Format& format_of(const std::filesystem::path& path) {
   }
   throw InputError(fmt::format("the format '{}' is not known{}; known are {}", extension,
                                suggestion(extension, known), quoted_list(known)));
+}
+
+/// Reads a file, and unpacks it if it is packed. A small file that claims to hold much is refused.
+std::string read_unpacked(const std::filesystem::path& path) {
+  constexpr std::size_t kMostGrowth = 100, kAlwaysPossible = std::size_t{16} << 20;  // [bytes]
+  std::string bytes = read_regular_file(path);
+  const std::size_t most = std::max(kAlwaysPossible, kMostGrowth * bytes.size());
+  return pbrt::unpacked(std::move(bytes), most);
 }
 
 /// Reads the mesh with the vertices that its triangles share in the file.
@@ -66,7 +76,7 @@ TriangleMesh read_triangles(const Mesh::Settings& settings) {
     throw InputError(fmt::format("{} files do not number their meshes", format.extension));
   }
   if (index && !part.empty()) throw InputError("'part' and 'shape_index' exclude each other");
-  const std::string bytes = read_regular_file(path);
+  const std::string bytes = read_unpacked(path);
   TriangleMesh mesh = format.read({path, bytes, part, index});
   if (mesh.triangles.empty()) throw InputError("it holds no triangles");
   return mesh;

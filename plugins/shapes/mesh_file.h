@@ -10,7 +10,8 @@ namespace pharos {
 /// normals. The meshes of the file are joined, with the transforms of its nodes applied. By default
 /// all meshes are read. If `part` is not empty, the meshes of that name and everything at or below
 /// the nodes of that name are read; if `shape_index` is set, the mesh of that number. If only some
-/// meshes have normals or texture coordinates, the others get zeros. Texture coordinates have their
+/// meshes have normals or texture coordinates, the others get zeros. A file packed by gzip, such as
+/// `mesh.ply.gz`, is unpacked first. Texture coordinates have their
 /// origin at the lower left of the image. Throws InputError with the path in these cases: the
 /// format is unknown (the message lists the known formats); the file is missing, not a regular
 /// file, unreadable, truncated, or without triangles; it has no such part (the message names the

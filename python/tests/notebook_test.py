@@ -1,6 +1,7 @@
 """Runs the code of the notebooks and compares what it prints with what they show."""
 
 import contextlib
+import importlib.util
 import io
 import json
 import os
@@ -32,6 +33,7 @@ def run(code, names):
     return printed.getvalue()
 
 
+@unittest.skipUnless(importlib.util.find_spec("matplotlib"), "matplotlib is not installed")
 class NotebookTest(unittest.TestCase):
     def test_notebooks_print_what_they_show(self):
         notebooks = sorted(NOTEBOOKS.glob("*.ipynb"))

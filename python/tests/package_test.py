@@ -6,7 +6,6 @@ import os
 import pathlib
 import subprocess
 import tempfile
-import threading
 import unittest
 
 import numpy as np
@@ -108,10 +107,12 @@ class RenderTest(unittest.TestCase):
             pharos.render(LAMP, ["budget={ seconds: 60 }"], progress=fail)
 
     def test_ctrl_c_keeps_the_samples(self):
-        timer = threading.Timer(1, _thread.interrupt_main)
-        timer.start()
+        def interrupt(progress):
+            if progress["samples_per_pixel"] > 0:
+                _thread.interrupt_main()
+
         with self.assertRaises(pharos.Interrupted) as caught:
-            pharos.render(LAMP, ["budget={ seconds: 60 }"])
+            pharos.render(LAMP, ["budget={ seconds: 60 }"], progress=interrupt)
         result = caught.exception.result
         self.assertTrue(result["metadata"]["stopped"])
         self.assertGreater(result["metadata"]["samples_per_pixel"], 0)
@@ -151,6 +152,11 @@ class ErrorTest(unittest.TestCase):
         self.assertIn("a value of type object", str(self.error({**LAMP, "seed": object()})))
         self.assertIn("finite", str(self.error({**LAMP, "seed": float("nan")})))
         self.assertIn("strings", str(self.error({1: 2})))
+        endless = {}
+        endless["film"] = endless
+        self.assertIn("64 levels", str(self.error(endless)))
+        with self.assertRaises(pharos.InputError):
+            pharos.render(5)
 
     def test_arrays_of_wrong_shape(self):
         with self.assertRaises(pharos.InputError):
@@ -182,9 +188,10 @@ class MeasureTest(unittest.TestCase):
     def test_runs_are_records(self):
         with tempfile.TemporaryDirectory() as folder:
             with open(os.path.join(folder, "runs.csv"), "w", encoding="utf-8") as table:
-                table.write("scene,seed,mse,gain\nbox,1,0.5,\n")
+                table.write("scene,seed,mse,gain\n1e5,1,0.5,\nbox,2,inf,-3\n")
             self.assertEqual(pharos.read_runs(folder),
-                             [{"scene": "box", "seed": 1, "mse": 0.5, "gain": None}])
+                             [{"scene": "1e5", "seed": 1, "mse": 0.5, "gain": None},
+                              {"scene": "box", "seed": 2, "mse": float("inf"), "gain": -3}])
 
 
 class ModelTest(unittest.TestCase):
@@ -209,8 +216,10 @@ class ModelTest(unittest.TestCase):
         np.testing.assert_array_equal(densities, each)
         np.testing.assert_array_equal(saved.density(points[:1], directions),
                                       saved.density(np.repeat(points[:1], 50, axis=0), directions))
-        with self.assertRaises(pharos.InputError):
-            saved.density(points, directions[:3])
+        np.testing.assert_array_equal(densities, saved.density(points, 2.0**90 * directions))
+        for wrong in (directions[:3], 0 * directions, np.nan * directions):
+            with self.assertRaises(pharos.InputError):
+                saved.density(points, wrong)
 
     def test_the_density_over_directions_finds_the_lamp(self):
         alone = ["budget.spp=256", "integrator.next_event_estimation=false"]

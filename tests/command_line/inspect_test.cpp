@@ -83,8 +83,9 @@ TEST_CASE("inspect --slice: pictures and numbers") {
   CHECK(numbers.width() == 80);
   CHECK(numbers.height() == 40);
   CHECK(numbers.channels() == std::vector<std::string>{"Y"});
-  CHECK(read_metadata(folder.path() / "y.exr").at("pharos:caption") ==
-        "density at y = 0, x to the right, z down");
+  CHECK(read_metadata(folder.path() / "y.exr")
+            .at("pharos:caption")
+            .find("density at y = 0, x to the right, z down; densest at (") == 0);
   // A grid with five voxels per edge. Their values sum to one.
   CHECK(*numbers.pixel(3, 3) == *numbers.pixel(12, 5));
   CHECK(*numbers.pixel(3, 3) != *numbers.pixel(20, 5));
@@ -100,7 +101,13 @@ TEST_CASE("inspect --range: the colors' scale is said, and may be stated") {
       inspect(folder, "box.model --slice z=0 --size 32 --range 1e-9,1e-8 -o stated.png");
   CHECK(contains(stated.err, "from 1e-09 to 1e-08, logarithmic\n"));
   const Image bright = read_image(folder.path() / "stated.png");
-  CHECK(bright.rgb(3, 3) == bright.rgb(20, 10));  // all values exceed the scale
+  // All values exceed the scale. A few pixels are of the ring around the densest place.
+  int others = 0;
+  for (int y = 0; y < bright.height(); ++y) {
+    for (int x = 0; x < bright.width(); ++x) others += bright.rgb(x, y) != bright.rgb(0, 0) ? 1 : 0;
+  }
+  CHECK(others > 0);
+  CHECK(others < bright.width() * bright.height() / 4);
 }
 
 TEST_CASE("inspect --scene: white lines where the slice cuts the scene") {

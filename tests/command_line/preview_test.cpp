@@ -16,7 +16,8 @@ namespace {
 /// A config whose image fills the buffers of the connection if the viewer reads nothing: 9.6 MB of
 /// colors.
 std::string large_render() {
-  return "scene: { sensor: perspective, shapes: [quad], emitters: [constant] }\n"
+  return "scene: { sensor: { type: perspective, to_world: { translate: [0, 0, 5] } }, "
+         "shapes: [sphere], emitters: [constant] }\n"
          "film: { width: 1000, height: 800 }\nbudget: { spp: 2 }\noutput: { png: false }\n";
 }
 

@@ -188,8 +188,10 @@ TEST_CASE("shapes without area are left out with a warning, or refused with --st
 TEST_CASE("a black image is explained") {
   const ScratchFolder folder;
   const auto stderr_with = [&](const std::string& lights) {
-    folder.write("dark.yaml", "scene:\n  sensor: perspective\n  shapes: [quad]\n" + lights +
-                                  "film: { width: 8, height: 8 }\nbudget: { spp: 4 }\n");
+    folder.write("dark.yaml",
+                 "scene:\n  sensor: { type: perspective, to_world: { translate: [0, 0, 5] } }\n"
+                 "  shapes: [quad]\n" +
+                     lights + "film: { width: 8, height: 8 }\nbudget: { spp: 4 }\n");
     const Outcome outcome = run_pharos("render dark.yaml", folder.path());
     CHECK(outcome.exit_code == 0);
     return outcome.err;
@@ -197,8 +199,14 @@ TEST_CASE("a black image is explained") {
   const std::string none = stderr_with("");
   CHECK(none.find("dark.exr: none of 256 paths found light") != std::string::npos);
   CHECK(none.find("'bidirectional'") != std::string::npos);
-  const std::string lit = stderr_with("  emitters: [ { type: constant, radiance: 1 } ]\n");
-  CHECK(lit.find("found light") == std::string::npos);
+  CHECK(stderr_with("  emitters: [ { type: constant, radiance: 1 } ]\n").find("found light") ==
+        std::string::npos);
+  for (const char* integrator : {"path", "light", "bidirectional"}) {
+    CAPTURE(integrator);
+    const std::string lamp = "  emitters: [ { type: point, position: [0, 0, 4], intensity: 1 } ]\n";
+    CHECK(stderr_with(lamp + fmt::format("integrator: {}\n", integrator)).find("found light") ==
+          std::string::npos);
+  }
 }
 
 TEST_CASE("--replay prints one path") {

@@ -129,18 +129,22 @@ class Inspection {
     const SlicePlane plane = this->plane(options_.size);
     Image density = density_slice(model_, plane);
     const PixelPosition densest = densest_pixel(density);
-    const Point3 place = plane.at((static_cast<float>(densest.x) + 0.5f) / plane.width,
-                                  (static_cast<float>(densest.y) + 0.5f) / plane.height);
-    Picture picture{
-        fmt::format("density at {} = {:.6g}, {}; the ring is around the densest place, {}",
-                    kAxisNames[plane.axis], plane.corner[plane.axis], plane.orientation(),
-                    point_text(place)),
-        std::move(density)};
-    picture.draw_over = [this, plane, densest](Image& colors) {
+    const bool is_empty = !(*density.pixel(densest.x, densest.y) > 0);
+    std::string caption = fmt::format("density at {} = {:.6g}, {}", kAxisNames[plane.axis],
+                                      plane.corner[plane.axis], plane.orientation());
+    if (!is_empty) caption += fmt::format("; densest at {}", point_text(center(plane, densest)));
+    Picture picture{std::move(caption), std::move(density)};
+    picture.draw_over = [this, plane, densest, is_empty](Image& colors) {
       if (scene_ != nullptr) draw_over(colors, scene_outline(scene_->scene, plane));
-      draw_ring(colors, densest);
+      if (!is_empty) draw_ring(colors, densest);
     };
     return picture;
+  }
+
+  /// Returns the place that the center of a pixel shows.
+  static Point3 center(const SlicePlane& plane, PixelPosition pixel) {
+    return plane.at((static_cast<float>(pixel.x) + 0.5f) / static_cast<float>(plane.width),
+                    (static_cast<float>(pixel.y) + 0.5f) / static_cast<float>(plane.height));
   }
 
   /// Returns the shares of all techniques on a slice, in panels that fill the picture's width.
@@ -224,8 +228,9 @@ void write_picture(const Picture& picture, const InspectOptions& options) {
   ColorScale scale = options.shares ? ColorScale{0, 1} : density_scale(picture.density);
   if (const auto range = parse_range(options.range)) scale = {range->low, range->high, true};
   write_png(colored(picture, scale), options.output, 0, false);
-  log_info(fmt::format("{}: {}; colors from {:.3g} to {:.3g}{}", options.output.string(), picture.caption,
-                       scale.low, scale.high, scale.logarithmic ? ", logarithmic" : ""));
+  log_info(fmt::format("{}: {}; colors from {:.3g} to {:.3g}{}", options.output.string(),
+                       picture.caption, scale.low, scale.high,
+                       scale.logarithmic ? ", logarithmic" : ""));
 }
 
 void inspect(const InspectOptions& options) {

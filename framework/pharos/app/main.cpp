@@ -59,7 +59,9 @@ void print_flaws(const std::vector<pharos::InputError>& flaws) {
   for (std::size_t i = 0; i < std::min(flaws.size(), kMost); ++i) {
     fmt::print(stderr, "{}\n", flaws[i].what());
   }
-  if (flaws.size() > kMost) fmt::print(stderr, "{} more errors\n", flaws.size() - kMost);
+  if (flaws.size() > kMost) {
+    fmt::print(stderr, "at least {} more errors\n", flaws.size() - kMost);
+  }
 }
 
 /// Runs the program and turns every error into one message and an exit code.

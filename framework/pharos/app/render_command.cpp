@@ -52,20 +52,28 @@ void replay_path(RenderJob& job, const RenderConfig& config,
   fmt::print("{}", job.replay(x, y, numbers[2], numbers.size() > 3 ? numbers[3] : 0).text);
 }
 
-/// Warns of an image that is black or nearly so because paths do not find the light.
+bool is_black(const Image& image) {
+  for (int y = 0; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x) {
+      if (image.rgb(x, y) != Rgb()) return false;
+    }
+  }
+  return true;
+}
+
+/// Warns of an image that is black, or nearly so because few paths find the light. Integrators that
+/// do not count such paths are judged by their images.
 void warn_of_darkness(const RenderResult& result, const RenderConfig& config) {
   constexpr double kFewest = 1e-3;  // of all paths
   const RenderCounters& counters = result.counters;
-  if (static_cast<double>(counters.lit_paths) >= kFewest * static_cast<double>(counters.paths)) {
-    return;
-  }
+  const auto lit = static_cast<double>(counters.lit_paths);
+  if (lit >= kFewest * static_cast<double>(counters.paths)) return;
+  if (counters.lit_paths == 0 && !is_black(result.image)) return;
   log_warning(fmt::format(
-      "{}: {} of {} paths found light; check that the scene has light where the sensor looks; "
-      "lights that paths from the sensor rarely hit need {}",
+      "{}: {} of {} paths found light; is there light where the sensor looks? Lights that paths "
+      "from the sensor rarely hit need the integrator 'light' or 'bidirectional', or a guide",
       config.output.image, counters.lit_paths == 0 ? "none" : fmt::to_string(counters.lit_paths),
-      counters.paths,
-      config.integrator->plugin_name() == "path" ? "the integrator 'light' or 'bidirectional'"
-                                                 : "another integrator or guides"));
+      counters.paths));
 }
 
 void report(const RenderResult& result, const RenderConfig& config) {

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -65,7 +67,13 @@ const PluginInfo& Registry::require(const std::string& contract, const ConfigNod
   std::string message =
       fmt::format("unknown {} '{}'{}; known: {}", contract, one_line(name.text(), 60),
                   suggestion(name.text(), all), quoted_list(plugins));
-  if (!entries.empty()) message += "; named in the scene: " + quoted_list(entries);
+  constexpr std::size_t kMostListed = 20;
+  if (!entries.empty()) {
+    const std::span<const std::string> listed(entries.data(),
+                                              std::min(entries.size(), kMostListed));
+    message += "; named in the scene: " + quoted_list(listed);
+    if (entries.size() > kMostListed) message += ", …";
+  }
   if (!searched_.empty()) message += "; folders searched: " + quoted_list(searched_);
   name.fail(message);
 }

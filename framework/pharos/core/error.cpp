@@ -48,13 +48,13 @@ void InputErrorList::raise() const {
 }
 
 void InputErrorList::add(const InputError& error) {
-  constexpr std::size_t kMost = 1000;
-  if (errors_.size() == kMost) return;
+  constexpr std::size_t kMost = 100;  // bounds the time and memory that a file of errors takes
   const std::string_view message = error.what();
   const bool is_known =
       std::any_of(errors_.begin(), errors_.end(),
                   [message](const InputError& kept) { return message == kept.what(); });
   if (!is_known) errors_.push_back(error);
+  if (errors_.size() == kMost) raise();
 }
 
 std::string Location::to_string() const {

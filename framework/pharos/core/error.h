@@ -83,7 +83,7 @@ class InputErrorList {
     return false;
   }
 
-  /// Keeps an error, unless it equals one that is kept or a thousand are kept.
+  /// Keeps an error, unless it equals one that is kept. Throws all of them when there are 100.
   void add(const InputError& error);
 
   /// Throws the error that was kept, or InputErrors if there are several. Does nothing if there is

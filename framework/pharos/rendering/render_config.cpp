@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <pharos/core/packed_name.h>
 #include <pharos/rendering/presets.h>
 #include <pharos/rendering/render_config.h>
 #include <pharos/rendering/scene_import.h>
@@ -169,7 +170,7 @@ LoadedConfig load_render_config(const std::filesystem::path& path,
       build_render_config(read_config_or_scene(path, registry, &sources), overrides, registry);
   loaded.sources.insert(loaded.sources.end(), sources.begin(), sources.end());
   if (loaded.config.output.image.empty()) {
-    loaded.config.output.image = path.stem().string() + ".exr";
+    loaded.config.output.image = unpacked_name(path).stem().string() + ".exr";
   }
   return loaded;
 }

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <pharos/core/error.h>
+#include <pharos/core/packed_name.h>
 #include <pharos/rendering/scene_import.h>
 
 namespace pharos {
@@ -14,9 +15,10 @@ namespace {
 namespace fs = std::filesystem;
 using namespace std::string_view_literals;
 
-/// Returns the name of the importer: the extension without the dot and in lower case.
+/// Returns the name of the importer: the extension without the dot and in lower case. The `.gz` of
+/// packed files does not count.
 std::string importer_name(const fs::path& file) {
-  std::string extension = file.extension().string();
+  std::string extension = unpacked_name(file).extension().string();
   if (!extension.empty()) extension.erase(0, 1);
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -91,7 +93,7 @@ Import import_scene(const fs::path& file, const Registry& registry) {
 
 ConfigNode read_config_or_scene(const fs::path& file, const Registry& registry,
                                 std::vector<fs::path>* files) {
-  ConfigNode config = ConfigNode::mapping();
+  ConfigNode config = ConfigNode::mapping({file.string()});
   config.set("scene", ConfigNode::scalar(file.string()));
   if (is_importable(file, registry)) return config;
   ConfigNode stated = read_config(file, files);

@@ -42,20 +42,24 @@ void GroupTable::add(std::string name, EntryList entries) {
   groups_.push_back({.name = std::move(name), .entries = std::move(entries)});
 }
 
+std::uint32_t GroupTable::target_of(const InstanceEntry& entry) const {
+  const auto found = by_name_.find(entry.group);
+  if (found != by_name_.end()) return found->second;
+  std::vector<std::string> names;
+  for (const Group& group : groups_) names.push_back(group.name);
+  throw InputError(entry.where,
+                   fmt::format("unknown group '{}'{}; known: {}", one_line(entry.group, 60),
+                               suggestion(entry.group, names), quoted_list(names)));
+}
+
 std::vector<std::uint32_t> GroupTable::targets_of(const EntryList& entries) const {
   std::vector<std::uint32_t> targets;
   targets.reserve(entries.instances.size());
+  InputErrorList errors;
   for (const InstanceEntry& entry : entries.instances) {
-    const auto found = by_name_.find(entry.group);
-    if (found == by_name_.end()) {
-      std::vector<std::string> names;
-      for (const Group& group : groups_) names.push_back(group.name);
-      throw InputError(entry.where,
-                       fmt::format("unknown group '{}'{}; known: {}", one_line(entry.group, 60),
-                                   suggestion(entry.group, names), quoted_list(names)));
-    }
-    targets.push_back(found->second);
+    errors.attempt([&] { targets.push_back(target_of(entry)); });
   }
+  errors.raise();
   return targets;
 }
 

@@ -54,6 +54,7 @@ class GroupTable {
     Bounds3 bounds;                   ///< bounds of its own objects, once it is placed
   };
 
+  std::uint32_t target_of(const InstanceEntry& entry) const;
   std::vector<std::uint32_t> targets_of(const EntryList& entries) const;
   void count(std::uint32_t group);
   void count_within(Group& outer, std::uint32_t inner, const Location& where);

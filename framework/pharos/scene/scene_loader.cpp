@@ -74,18 +74,14 @@ class SceneReader {
   SceneParts read() {
     resolved_ = ConfigNode::mapping();
     context_.named.clear();  // names are valid in this scene only
-    read_named<Texture>("textures");
-    read_named<Bsdf>("materials");
-    read_named<Medium>("media");
+    errors_.attempt([&] { read_named<Texture>("textures"); });
+    errors_.attempt([&] { read_named<Bsdf>("materials"); });
+    errors_.attempt([&] { read_named<Medium>("media"); });
     SceneParts parts;
-    read_groups();
-    EntryList world = read_entries("shapes", given("shapes"), resolved_);
-    read_list("emitters", given("emitters"), resolved_,
-              [&](const ConfigNode& entry, ConfigNode& resolved) {
-                parts.emitters.push_back(build<Emitter>(entry, resolved));
-                check_emitter_place(*parts.emitters.back(), entry, false);
-                return true;
-              });
+    EntryList world;
+    errors_.attempt([&] { read_groups(); });
+    errors_.attempt([&] { world = read_entries("shapes", given("shapes"), resolved_); });
+    errors_.attempt([&] { read_emitters(parts); });
     errors_.attempt([&] { read_sensor(parts); });
     errors_.attempt(
         [&] { parts.medium = read_part<Medium>("medium", given("medium"), resolved_); });
@@ -95,6 +91,15 @@ class SceneReader {
   }
 
  private:
+  void read_emitters(SceneParts& parts) {
+    read_list("emitters", given("emitters"), resolved_,
+              [&](const ConfigNode& entry, ConfigNode& resolved) {
+                parts.emitters.push_back(build<Emitter>(entry, resolved));
+                check_emitter_place(*parts.emitters.back(), entry, false);
+                return true;
+              });
+  }
+
   void read_sensor(SceneParts& parts) {
     const ConfigNode node = given("sensor");
     parts.sensor = read_part<Sensor>("sensor", node, resolved_);

@@ -82,7 +82,7 @@ class Shape : public Component {
 
   virtual Bounds3 bounds() const = 0;
   /// The area of all primitives [scene units^2]. It is zero for meshes without a triangle, which
-  /// scenes leave out; nothing else is called on them.
+  /// scenes leave out; only bounds() is called on them besides.
   virtual float area() const = 0;
 
   /// The triangles, or null for an analytic shape. They live as long as the shape.

@@ -208,6 +208,12 @@ TEST_CASE("all wrong keys of a mapping, or else all wrong values, are found at o
   CHECK(flaws_of("shapes: 3\nshape: 4\nsensors: eye").size() == 2);
 }
 
+TEST_CASE("a section of the wrong type hides no error of the others") {
+  CHECK(flaws_of("materials: { dark: no-such }\nshapes: 3\nemitters: {}\nsensor: ey").size() == 4);
+  CHECK(flaws_of("shapes: [ { type: instance, group: a }, { type: instance, group: b } ]").size() ==
+        2);
+}
+
 TEST_CASE("instances are read, nested ones flattened, and groups that nobody sees left out") {
   const SceneParts parts = load(kGroups).parts;
   CHECK(parts.objects.size() == 1);

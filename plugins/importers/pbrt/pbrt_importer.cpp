@@ -32,22 +32,14 @@ void locate(const Statement& s, Read&& read) {
 }
 
 /// Follows the directives of a scene. The errors of its objects are thrown together; an error of
-/// the file's structure is thrown at once.
+/// the file's structure is the last one.
 class SceneReader {
  public:
   explicit SceneReader(const std::filesystem::path& file)
       : scene_(file.parent_path(), budget_), statements_(file, budget_) {}
 
   Import read() {
-    while (std::optional<Statement> statement = statements_.next()) {
-      locate(*statement, [&] { obey(*statement); });
-    }
-    if (!saved_.empty()) {
-      throw InputError(statements_.end(),
-                       fmt::format("the {} in line {} has no end", saved_.back().begin.word,
-                                   saved_.back().begin.where.line));
-    }
-    if (!is_in_world_) errors_.attempt([&] { map_view(scene_, view_); });
+    errors_.attempt([&] { follow_all(); });
     errors_.raise();
     return scene_.finished();
   }
@@ -59,6 +51,18 @@ class SceneReader {
     GraphicsState state;
   };
 
+  void follow_all() {
+    while (std::optional<Statement> statement = statements_.next()) {
+      locate(*statement, [&] { obey(*statement); });
+    }
+    if (!saved_.empty()) {
+      throw InputError(statements_.end(),
+                       fmt::format("the {} in line {} has no end", saved_.back().begin.word,
+                                   saved_.back().begin.where.line));
+    }
+    if (!is_in_world_) map_view(scene_, view_);
+  }
+
   void obey(const Statement& s) {
     if (is_transform(s)) {
       if (state().moves_start) {
@@ -66,8 +70,12 @@ class SceneReader {
       } else {
         scene_.note(s.where, "transforms of the end of the exposure are left out");
       }
-    } else if (!obey_view(s) && !obey_block(s) && !obey_state(s)) {
-      errors_.attempt([&] { obey_object(s); });
+    } else if (!obey_view(s) && !obey_block(s)) {
+      errors_.attempt([&] {
+        locate(s, [&] {
+          if (!obey_state(s)) obey_object(s);
+        });
+      });
     }
   }
 
@@ -139,10 +147,7 @@ class SceneReader {
     } else if (s.word == "ColorSpace") {
       set_color_space(s);
     } else if (s.word == "Material") {
-      errors_.attempt([&] {
-        locate(s,
-               [&] { state().material = scene_.add_material(s.where, map_material(scene_, s)); });
-      });
+      state().material = scene_.add_material(s.where, map_material(scene_, s));
     } else if (s.word == "NamedMaterial") {
       state().material = scene_.material(s.type(), s.where);
     } else if (s.word == "AreaLightSource") {
@@ -191,13 +196,10 @@ class SceneReader {
     try {
       locate(s, [&] { add_object(s); });
     } catch (const InputError& error) {
-      if (defines_name(s)) scene_.add_failed(s.type(), error);
+      if (s.word == "Texture") scene_.add_failed("texture", s.type(), error);
+      if (s.word == "MakeNamedMedium") scene_.add_failed("medium", s.type(), error);
       throw;
     }
-  }
-
-  static bool defines_name(const Statement& s) {
-    return s.word == "Texture" || s.word == "MakeNamedMedium" || s.word == "MakeNamedMaterial";
   }
 
   /// Directives that define something or add it to the scene.

@@ -43,7 +43,7 @@ ConfigNode Scene::file_node(const std::string& name, const Location& where) cons
 
 void Scene::fail_unknown(const Location& where, const char* what, const std::string& name,
                          const std::vector<std::string>& known) const {
-  if (const auto failed = failed_.find(name); failed != failed_.end()) {
+  if (const auto failed = failed_.find({what, name}); failed != failed_.end()) {
     throw InputError(failed->second);
   }
   throw InputError(where, fmt::format("there is no {} '{}'{}", what, one_line(name, 60),

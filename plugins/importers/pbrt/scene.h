@@ -71,8 +71,9 @@ class Scene {
   std::string medium(const std::string& name, const Location& where) const;
 
   /// Keeps the error of a definition that failed. It is thrown again wherever the name is used.
-  void add_failed(const std::string& name, const InputError& error) {
-    failed_.emplace(name, error);
+  /// `what` is "texture" or "medium".
+  void add_failed(const char* what, const std::string& name, const InputError& error) {
+    failed_.emplace(std::pair(what, name), error);
   }
 
   /// Begins and ends the definition of an object, to which add_shape() then adds.
@@ -119,7 +120,7 @@ class Scene {
   std::map<std::string, std::string> media_by_name_;
   std::map<std::string, Group> objects_;
   std::vector<std::string> order_of_objects_;
-  std::map<std::string, InputError> failed_;  ///< by name
+  std::map<std::pair<std::string, std::string>, InputError> failed_;  ///< by kind and name
   Group* object_ = nullptr;
   ConfigNode textures_ = ConfigNode::mapping(), materials_ = ConfigNode::mapping(),
              media_ = ConfigNode::mapping(), shapes_ = ConfigNode::sequence(),

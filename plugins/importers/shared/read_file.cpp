@@ -2,6 +2,8 @@
 
 #include <array>
 #include <fstream>
+#include <pbrt_syntax/gzip.h>
+#include <utility>
 
 #include <pharos/core/error.h>
 
@@ -23,6 +25,11 @@ std::string read_file(const std::filesystem::path& path, ReadingBudget& budget) 
     }
   }
   if (in.bad()) throw InputError(where, "the file cannot be read");
+  try {
+    text = pbrt::unpacked(std::move(text), budget.bytes);
+  } catch (const InputError& error) {
+    throw InputError(where, error.what());
+  }
   budget.bytes -= text.size();
   return text;
 }

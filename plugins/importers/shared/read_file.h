@@ -14,8 +14,9 @@ struct ReadingBudget {
   std::size_t attributes = 8'000'000;
 };
 
-/// Returns the bytes of a readable file, see file_problem(), and subtracts them from the budget.
-/// Throws InputError if they exceed the budget or reading fails.
+/// Returns the bytes of a readable file, see file_problem(), and subtracts them from the budget. A
+/// file packed by gzip is unpacked. Throws InputError if the bytes exceed the budget or reading
+/// fails.
 std::string read_file(const std::filesystem::path& path, ReadingBudget& budget);
 
 }  // namespace pharos::importing

@@ -10,6 +10,33 @@ namespace pharos::pbrt {
 
 using test::import_of, test::import_of_world, test::notes, test::part;
 
+TEST_CASE("pbrt: scenes packed by gzip") {
+  // Camera "perspective" / WorldBegin / Shape "plymesh" "string filename" "ball.ply.gz"
+  const std::string packed(
+      "\x1f\x8b\x08\x00\x00\x00\x00\x00\x02\x03\x0d\x8b\xcd\x0d\x80\x20\x0c\x46\xef\x4c"
+      "\x41\x3a\x00\x43\xe8\x08\x1e\x3c\x57\xfd\x84\x26\x05\x49\x31\x26\x3a\xbd\xbd\xbe"
+      "\x9f\x99\x2b\x8c\x23\x75\xd8\xe8\xd8\x6f\x79\x40\x61\xbd\x4c\x8f\x09\x59\x5a\x58"
+      "\x0a\x77\xb8\xd6\xb7\x62\x14\x8a\x34\x6e\x93\x96\xe3\x29\x8a\xe6\xaf\x93\x8d\x55"
+      "\x93\x07\x29\x7f\x14\x7e\x98\x89\xb3\x82\x50\x00\x00\x00",
+      94);
+  const pharos::test::TemporaryFolder folder;
+  const auto import = [&](const std::string& bytes) {
+    return PbrtImporter().import(folder.write("scene.pbrt.gz", bytes));
+  };
+  CHECK(part(import(packed), "scene.shapes.0.file") == "ball.ply.gz");
+  const auto refusal = [&](const std::string& bytes) {
+    return pharos::test::input_error_in(folder, [&] { import(bytes); });
+  };
+  CHECK(refusal(packed.substr(0, packed.size() - 12)) ==
+        "scene.pbrt.gz: error: its gzip data are cut off");
+  std::string damaged = packed;
+  damaged[packed.size() - 6] ^= 1;  // the checksum
+  CHECK(refusal(damaged) == "scene.pbrt.gz: error: its gzip data are damaged");
+  // Two packed files one after the other hold the texts one after the other.
+  CHECK(refusal(packed + packed) ==
+        "scene.pbrt.gz:4:1: error: Camera must stand before WorldBegin");
+}
+
 TEST_CASE("pbrt: a camera looks where pbrt's looks, with x to the right") {
   // Without a transform, pbrt's camera looks along +z with +x on the right. In Pharos +x is on the
   // left, so the camera is mirrored.

@@ -16,8 +16,8 @@ namespace {
 /// The largest ratio of the values of the brightest and the darkest color.
 constexpr float kDecades = 1e6f;
 
-/// The brightest color begins where the densest pixels hold this share of the mass, and the darkest
-/// color where they hold the other share.
+/// The brightest color begins where the densest pixels hold the first share of the sum of all
+/// pixels, and the darkest color where they hold the second share.
 constexpr double kBrightestShare = 0.01, kDarkestShare = 0.999;
 
 /// The axes of a slice along its rows and along its columns.
@@ -95,9 +95,9 @@ ColorScale density_scale(const Image& map) {
   std::sort(densities.begin(), densities.end(), std::greater<>());
   const double total = std::accumulate(densities.begin(), densities.end(), 0.0);
   const auto density_at = [&](double share) {
-    double mass = 0;
+    double sum = 0;
     const auto last = std::find_if(densities.begin(), densities.end() - 1,
-                                   [&](float value) { return (mass += value) >= share * total; });
+                                   [&](float value) { return (sum += value) >= share * total; });
     return *last;
   };
   const float high = density_at(kBrightestShare);

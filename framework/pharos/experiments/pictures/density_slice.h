@@ -40,16 +40,17 @@ Vec3 latlong_direction(float u, float v);
 /// image, in one channel "Y". The image is twice as wide as it is high.
 Image density_directions(const GuidingModel& model, Point3 point, int height);
 
-/// Returns a logarithmic scale of the positive finite values of `map`. The densest pixels with 1 %
-/// of the mass get the brightest color, and all but the densest pixels with 99.9 % of the mass the
+/// Returns a logarithmic scale of the positive finite values of `map`. The densest pixels that hold
+/// 1 % of the sum of all pixels get the brightest color, and those beyond 99.9 % of the sum the
 /// darkest. The scale spans at most six decades. If no value is positive, it is 0 to 1.
 ColorScale density_scale(const Image& map);
 
+/// The column and the row of a pixel, from the upper left corner.
 struct PixelPosition {
   int x = 0, y = 0;
 };
 
-/// Returns the first pixel of the largest finite value, row by row.
+/// Returns the first pixel of the largest finite value, row by row; (0, 0) if there is none.
 PixelPosition densest_pixel(const Image& map);
 
 /// Draws a ring around a pixel of `colors` (three channels, linear). Its radius is a fortieth of

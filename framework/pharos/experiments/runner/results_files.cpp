@@ -128,10 +128,10 @@ std::string measures_csv(const ExperimentResults& results) {
                           csv_number(value));
     };
     for (const MetricInfo& info : metric_infos()) add(info.key, info.unit, run.errors[info.metric]);
-    add("samples_per_pixel", "1", run.samples_per_pixel);
-    add("training_samples_per_pixel", "1", run.training_samples);
+    add("samples_per_pixel", "", run.samples_per_pixel);
+    add("training_samples_per_pixel", "", run.training_samples);
     add("seconds", "s", run.seconds());
-    add("rays", "1", static_cast<double>(run.rays));
+    add("rays", "", static_cast<double>(run.rays));
     add("model_bytes", "B", static_cast<double>(run.model_bytes));
     add("peak_bytes", "B", run.peak_bytes.value_or(NAN));
     if (run.gain) add("gain", "nat", run.gain->nats);

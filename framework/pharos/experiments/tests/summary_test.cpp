@@ -197,7 +197,7 @@ TEST_CASE(
   const std::string measures = measures_csv(results);
   CHECK(measures.find("scene,method,seed,measure,unit,value\n"
                       "s,base,1,relative_mse,,0.015625\n"
-                      "s,base,1,samples_per_pixel,1,64\n") == 0);
+                      "s,base,1,samples_per_pixel,,64\n") == 0);
   CHECK(measures.find("s,base,1,seconds,s,0.64\n") != std::string::npos);
   CHECK(measures.find("gain") == std::string::npos);  // unknown
   const std::string curve = convergence_csv(results);

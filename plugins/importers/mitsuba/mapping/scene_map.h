@@ -47,6 +47,7 @@ class SceneMap {
     importing::EntryNames free_names;
     ConfigNode entries = ConfigNode::mapping();
     std::map<std::pair<const Object*, UvSense>, std::string> names = {};
+    std::map<std::pair<const Object*, UvSense>, InputError> failed = {};
   };
   Dictionary& textures() { return textures_; }
   Dictionary& materials() { return materials_; }
@@ -54,14 +55,23 @@ class SceneMap {
   Dictionary& groups() { return groups_; }
 
   /// Returns the name of the object in `dictionary`. At the first request `make()` maps it and
-  /// returns its node. `sense` matters only for objects with textures.
+  /// returns its node. If that throws an InputError, so do all further requests. `sense` matters
+  /// only for objects with textures.
   template <class Make>
   std::string name_in(Dictionary& dictionary, const Object& object, UvSense sense,
                       const Make& make) {
     if (!depends_on_uv(object)) sense = UvSense::same;
     const auto found = dictionary.names.find({&object, sense});
     if (found != dictionary.names.end()) return found->second;
-    ConfigNode node = make();  // records the objects it refers to before this one
+    const auto failed = dictionary.failed.find({&object, sense});
+    if (failed != dictionary.failed.end()) throw InputError(failed->second);
+    ConfigNode node;
+    try {
+      node = make();  // records the objects it refers to before this one
+    } catch (const InputError& error) {
+      dictionary.failed.emplace(std::pair(&object, sense), error);
+      throw;
+    }
     std::string name = dictionary.free_names.take(object.id);
     dictionary.names[{&object, sense}] = name;
     dictionary.entries.entries().push_back({name, object.where, std::move(node)});
