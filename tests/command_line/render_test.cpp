@@ -189,8 +189,8 @@ TEST_CASE("a black image is explained") {
   const ScratchFolder folder;
   const auto stderr_with = [&](const std::string& lights) {
     folder.write("dark.yaml",
-                 "scene:\n  sensor: { type: perspective, to_world: { translate: [0, 0, 5] } }\n"
-                 "  shapes: [quad]\n" +
+                 "scene:\n  sensor: { type: perspective, to_world: { translate: [0, 0, -5] } }\n"
+                 "  shapes: [ { type: quad, flip_normals: true } ]\n" +
                      lights + "film: { width: 8, height: 8 }\nbudget: { spp: 4 }\n");
     const Outcome outcome = run_pharos("render dark.yaml", folder.path());
     CHECK(outcome.exit_code == 0);
@@ -203,7 +203,8 @@ TEST_CASE("a black image is explained") {
         std::string::npos);
   for (const char* integrator : {"path", "light", "bidirectional"}) {
     CAPTURE(integrator);
-    const std::string lamp = "  emitters: [ { type: point, position: [0, 0, 4], intensity: 1 } ]\n";
+    const std::string lamp =
+        "  emitters: [ { type: point, position: [0, 0, -3], intensity: 1 } ]\n";
     CHECK(stderr_with(lamp + fmt::format("integrator: {}\n", integrator)).find("found light") ==
           std::string::npos);
   }

@@ -86,26 +86,6 @@ TEST_CASE("triangles without area are left out") {
   CHECK(file.load().primitive_count() == 1);
 }
 
-TEST_CASE("meshes packed by gzip are unpacked") {
-  // A PLY file with the triangle (0 0 0), (2 0 0), (0 3 0).
-  const std::string packed(
-      "\x1f\x8b\x08\x00\x00\x00\x00\x00\x02\x03\x5d\x8d\x51\x0a\xc4\x20\x0c\x44\xff\x73"
-      "\x8a\x39\xc1\xa2\xed\x81\x4a\xd0\x48\x03\x56\x45\xdd\xa5\xee\xe9\x57\xf6\xa3\x85"
-      "\x32\x64\x18\x5e\x42\xa6\xc4\x41\x21\xd7\x83\x3b\xb8\x39\x55\xd8\x97\x21\x89\x72"
-      "\x48\xea\xf8\x48\xed\x72\x62\xa5\x52\x73\x99\x79\x20\xc4\x3c\x2f\xcf\x27\x18\x4f"
-      "\xf0\xbd\x7e\x04\x76\x02\x7b\xef\xa3\xb6\x8e\xb7\xdb\xb9\x42\xaf\x8a\x4d\x93\x57"
-      "\x27\x8d\x24\xf9\x6d\x17\xf6\x52\xc9\x60\x8a\x96\xbf\x1b\xac\xd3\xe7\xc0\x62\xa1"
-      "\x1f\xe4\xa7\xea\xba\xb4\x00\x00\x00",
-      129);
-  CHECK(MeshFile("triangle.ply.gz", packed).load().area() == doctest::Approx(3));
-  CHECK(test::input_error([&] {
-          MeshFile("cut.ply.gz", packed.substr(0, 90)).load();
-        }).find("its gzip data are cut off") != std::string::npos);
-  CHECK(test::input_error([&] {
-          MeshFile("triangle.xyz.gz", packed).load();
-        }).find("the format '.xyz' is not known") != std::string::npos);
-}
-
 TEST_CASE("a mesh of triangles without area has no area") {
   const MeshFile file("line.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
   CHECK(file.load().area() == 0);
