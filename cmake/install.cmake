@@ -14,6 +14,9 @@ if(PHAROS_TESTS)
           ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 endif()
 install(DIRECTORY configs/presets DESTINATION ${CMAKE_INSTALL_LIBDIR}/pharos/plugins)
+# Modules to be copied: `find_package(pharos)` is all that they need.
+install(DIRECTORY tests/out_of_tree/stripes tests/out_of_tree/grid_guide
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/pharos/examples PATTERN check.cmake EXCLUDE)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/pharos)
 install(EXPORT pharos-targets NAMESPACE pharos:: DESTINATION ${package_dir})
 configure_package_config_file(cmake/pharos-config.cmake.in
