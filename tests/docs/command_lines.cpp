@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <chrono>
 #include <filesystem>
 #include <optional>
 #include <regex>
@@ -121,8 +122,8 @@ std::set<std::string> taught_plugins(const Page& page) {
 
 class Checker {
  public:
-  Checker(const Page& page, const Workbench& bench)
-      : page_(page), bench_(bench), help_(bench), taught_(taught_plugins(page)) {}
+  Checker(const Page& page, const Workbench& bench, Pace pace)
+      : page_(page), bench_(bench), pace_(pace), help_(bench), taught_(taught_plugins(page)) {}
 
   CommandCheck check() {
     for (const Fence& fence : page_.fences) {
@@ -185,16 +186,22 @@ class Checker {
     std::string line = call.name;
     for (const std::string& word : call.arguments) line += " " + quoted(word);
     // A replayed path is one of the film and of the samples that the config states.
-    if (call.name == "render" && !is_among(call.arguments, "--replay")) line += kSmallRender;
-    if (call.name == "inspect" && !is_among(call.arguments, "--size")) line += " --size 64";
+    if (pace_ == Pace::quick) {
+      if (call.name == "render" && !is_among(call.arguments, "--replay")) line += kSmallRender;
+      if (call.name == "inspect" && !is_among(call.arguments, "--size")) line += " --size 64";
+    }
     ++result_.executed;
+    const auto start = std::chrono::steady_clock::now();
     const testing::Outcome outcome = bench_.run(line);
+    result_.seconds +=
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (outcome.exit_code == 0) return {};
     return fmt::format("exit code {}: {}", outcome.exit_code, outcome.err);
   }
 
   const Page& page_;
   const Workbench& bench_;
+  Pace pace_;
   ProgramHelp help_;
   std::set<std::string> taught_;
   CommandCheck result_;
@@ -202,8 +209,8 @@ class Checker {
 
 }  // namespace
 
-CommandCheck check_commands(const Page& page, const Workbench& bench) {
-  return Checker(page, bench).check();
+CommandCheck check_commands(const Page& page, const Workbench& bench, Pace pace) {
+  return Checker(page, bench, pace).check();
 }
 
 }  // namespace pharos::docs

@@ -88,6 +88,18 @@ TEST_CASE("pages: command lines exist, and the cheap ones run") {
   CHECK(executed >= 10);
 }
 
+TEST_CASE("long: the commands of the tutorial take less than ten minutes on two cores") {
+  const SourcePage* tutorial = all_pages().find("docs/tutorial.md");
+  REQUIRE(tutorial != nullptr);
+  const Workbench bench;
+  save_named_blocks(tutorial->page.fences, bench);
+  const CommandCheck check = check_commands(tutorial->page, bench, Pace::as_written);
+  for (const std::string& problem : check.problems) FAIL_CHECK(problem);
+  MESSAGE(fmt::format("{} commands of the tutorial took {:.0f} s", check.executed, check.seconds));
+  CHECK(check.executed >= 15);
+  CHECK(check.seconds < 600);
+}
+
 TEST_CASE("pages: links lead to files and headings") {
   for (const std::string& problem : dead_links(all_pages())) FAIL_CHECK(problem);
 }
