@@ -56,11 +56,11 @@ void add_comparisons(py::module_& module) {
              py::arg("exposure") = 0.0f,
              "Returns the errors of an image by metric. Images are files, or arrays of height x "
              "width x 3. `exposure` [stops] counts for 'psnr' and 'flip'. Raises InputError.");
-  module.def(
-      "compare", compare, py::arg("a"), py::arg("b"), py::arg("reference"), py::kw_only(),
-      py::arg("exposure") = 0.0f,
-      "Returns the errors of two images as 'a' and 'b', and those of `b` divided by those of "
-      "`a` as 'ratio'. Arguments are as in `errors`.");
+  module.def("compare", compare, py::arg("a"), py::arg("b"), py::arg("reference"), py::kw_only(),
+             py::arg("exposure") = 0.0f,
+             "Returns the errors of two images as 'a' and 'b', and as 'ratio' the errors of `b` "
+             "divided by "
+             "the errors of `a`. Arguments are as in `errors`.");
   module.def("read_image", read_layers, py::arg("file"),
              "Returns the layers of an image file as `render` does. Raises InputError.");
 }

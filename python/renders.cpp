@@ -9,8 +9,6 @@
 #include <string>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include <pharos/core/error.h>
 #include <pharos/core/threads.h>
 #include <pharos/core/version.h>
@@ -148,10 +146,7 @@ py::object gain_of(const RenderResult& result) {
 
 py::list notes_of(const LoadedConfig& loaded) {
   py::list notes;
-  for (const ImportNote& note : loaded.notes) {
-    notes.append(fmt::format("{}: {}{}", note.where.to_string(), note.message,
-                             note.times > 1 ? fmt::format(" ({} times)", note.times) : ""));
-  }
+  for (const ImportNote& note : loaded.notes) notes.append(note.to_string());
   return notes;
 }
 

@@ -95,9 +95,10 @@ TEST_CASE("includes that leave a folder are recognized") {
   CHECK_FALSE(stays_in_folder({"modules/focal/focal.h", "../aligned/sampler.h"}));
 }
 
-TEST_CASE("plugins and modules include the framework and their own folder only") {
+TEST_CASE(
+    "plugins, modules and the Python package include the framework and their own folder only") {
   std::size_t seen = 0;
-  for (const std::string group : {"plugins", "modules"}) {
+  for (const std::string group : {"plugins", "modules", "python"}) {
     for (const Include& include : includes_below(group)) {
       CAPTURE(include.file.string());
       CAPTURE(include.name);

@@ -1,7 +1,5 @@
 #include "import_notes.h"
 
-#include <fmt/format.h>
-
 #include <pharos/core/error.h>
 #include <pharos/core/log.h>
 
@@ -9,10 +7,7 @@ namespace pharos {
 
 void tell_notes(const std::vector<ImportNote>& notes, bool strict) {
   if (strict && !notes.empty()) throw InputError(notes.front().where, notes.front().message);
-  for (const ImportNote& note : notes) {
-    log_warning(fmt::format("{}: {}{}", note.where.to_string(), note.message,
-                            note.times > 1 ? fmt::format(" ({} times)", note.times) : ""));
-  }
+  for (const ImportNote& note : notes) log_warning(note.to_string());
 }
 
 }  // namespace pharos

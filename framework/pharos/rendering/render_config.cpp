@@ -57,7 +57,7 @@ void add_sources(const ConfigNode& node, std::set<std::filesystem::path>& source
   for (const ConfigNode::Entry& entry : node.entries()) add_sources(entry.value, sources);
 }
 
-/// Appends what was passed over in reading the scene. Notes of the same text are merged.
+/// Appends notes on what reading the scene has left out. Notes of the same text are merged.
 void add_notes(std::vector<BuildContext::Note> passed_over, std::vector<ImportNote>& notes) {
   for (BuildContext::Note& note : passed_over) {
     const auto same = std::find_if(notes.begin(), notes.end(), [&](const ImportNote& known) {

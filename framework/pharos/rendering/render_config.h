@@ -82,7 +82,7 @@ struct LoadedConfig {
   /// The files that hold the config itself: configs, scenes, presets, and all that they extend or
   /// include.
   std::vector<std::filesystem::path> sources;
-  /// What was approximated or passed over in reading the scene.
+  /// Notes on what reading the scene has approximated or left out.
   std::vector<ImportNote> notes;
 };
 

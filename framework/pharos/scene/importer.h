@@ -23,6 +23,12 @@ struct ImportNote {
   Location where;       ///< place of the first occurrence
   std::string message;  ///< what is approximated or left out, and what replaces it
   int times = 1;        ///< number of occurrences; notes of the same kind are merged
+
+  /// Returns "file:line:column: message (3 times)".
+  std::string to_string() const {
+    const std::string count = times > 1 ? " (" + std::to_string(times) + " times)" : "";
+    return where.to_string() + ": " + message + count;
+  }
 };
 
 /// A scene of another program as a Pharos render config.

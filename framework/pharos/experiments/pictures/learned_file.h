@@ -10,7 +10,7 @@
 
 namespace pharos {
 
-/// What a render has learned, read from a model file.
+/// The content of a model file: everything that a render has learned.
 struct LearnedFile {
   ModelFileHead head;
   std::vector<std::shared_ptr<const GuidingModel>> models;  ///< in the order of `head.models`
