@@ -35,9 +35,10 @@ endif()
 
 find_program(PHAROS_CCACHE ccache)
 if(PHAROS_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  # ccache asks for these settings and flags where headers are precompiled.
+  # ccache asks for these settings and flags where headers are precompiled. It takes the headers of a
+  # source from the compiler's list, because preprocessing each source first takes a tenth of the time.
   set(CMAKE_CXX_COMPILER_LAUNCHER
-      ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${PHAROS_CCACHE})
+      ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros CCACHE_DEPEND=1 ${PHAROS_CCACHE})
   add_compile_options($<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>
                       "$<$<CXX_COMPILER_ID:Clang>:SHELL:-Xclang -fno-pch-timestamp>")
 endif()

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Eigenvalues>
+
 #include <pharos/core/frame.h>
 #include <pharos/core/parallel.h>
 #include <pharos/statistics/von_mises_fisher.h>

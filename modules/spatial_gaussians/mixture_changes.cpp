@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include <Eigen/LU>
+
 #include <pharos/core/parallel.h>
 #include <pharos/guiding/toolkit/ray_integrals.h>
 

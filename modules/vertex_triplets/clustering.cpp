@@ -91,9 +91,9 @@ template <int D>
 std::optional<Mixture<D>> best_halves(const Cluster<D>& cluster, const Regularization& rule) {
   std::optional<Mixture<D>> best;
   double best_score = -std::numeric_limits<double>::infinity();
-  const Eigen::SelfAdjointEigenSolver<Matrix<D>> eigen(cluster.sums.covariance());
+  const Matrix<D> axes = statistics::eigenvectors<D>(cluster.sums.covariance());
   for (int i = D - 1; i >= 0; --i) {
-    const Vector<D> axis = eigen.eigenvectors().col(i);
+    const Vector<D> axis = axes.col(i);
     Mixture<D> halves;
     double score = 0;
     for (const Sums<D>& half : sums_of_sides<D>(cluster.points, cluster.center, rounded<D>(axis))) {

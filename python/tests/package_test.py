@@ -4,6 +4,7 @@ import _thread
 import json
 import os
 import pathlib
+import signal
 import subprocess
 import tempfile
 import unittest
@@ -111,6 +112,8 @@ class RenderTest(unittest.TestCase):
             if progress["samples_per_pixel"] > 0:
                 _thread.interrupt_main()
 
+        # Shells start background jobs with Ctrl-C ignored.
+        signal.signal(signal.SIGINT, signal.default_int_handler)
         with self.assertRaises(pharos.Interrupted) as caught:
             pharos.render(LAMP, ["budget={ seconds: 60 }"], progress=interrupt)
         result = caught.exception.result

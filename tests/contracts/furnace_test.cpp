@@ -47,8 +47,8 @@ TEST_CASE("furnace: paths from both ends, unguided and guided in both directions
 
 TEST_CASE("furnace: from both ends, a density off by 3 % is seen") {
   const std::string guider = "{ type: stub_direction, pdf_scale: 1.03 }";
-  const std::string config = path_config(kDiffuseScene, 4, pair("stub_direction", guider), 128);
-  CHECK(furnace_t(from_both_ends(config), kDiffuseFurnace, 24) < -kLimit);
+  const std::string config = path_config(kDiffuseScene, 4, pair("stub_direction", guider), 16);
+  CHECK(furnace_t(from_both_ends(config), kDiffuseFurnace) < -kLimit);
 }
 
 TEST_CASE("furnace (a): a direction-only method") {
@@ -63,8 +63,8 @@ TEST_CASE("furnace: a deliberately bad guide is noisy, not wrong") {
 
 TEST_CASE("furnace: a density off by 3 % is seen") {
   const std::string guider = "{ type: stub_direction, pdf_scale: 1.03 }";
-  const std::string config = path_config(kDiffuseScene, 4, pair("stub_direction", guider), 128);
-  CHECK(furnace_t(config, kDiffuseFurnace, 24) < -kLimit);
+  const std::string config = path_config(kDiffuseScene, 4, pair("stub_direction", guider), 16);
+  CHECK(furnace_t(config, kDiffuseFurnace) < -kLimit);
 }
 
 TEST_CASE("furnace (b): a method that splats along segments") {

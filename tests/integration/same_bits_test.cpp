@@ -47,7 +47,7 @@ TEST_CASE("same bits: what light paths splat") {
 }
 
 TEST_CASE("same bits: paths that split, unguided and guided") {
-  constexpr const char* kSplit = "termination: { type: stub_factor, factor: 1.6 }";
+  constexpr const char* kSplit = "termination: { type: stub_factor, factor: 1.6, last: 4 }";
   for (const char* sampler : {"sobol", "independent"}) {
     check_same_bits(
         cornell(fmt::format("sampler: {}\nintegrator: {{ type: path, {} }}\n", sampler, kSplit)));

@@ -88,32 +88,12 @@ TEST_CASE("unbiased: spatial Gaussians under strips of light") {
   compare_proof("strip-lights", {gaussian_methods().front()});
 }
 
-TEST_CASE("unbiased: an SD-tree under strips of light") {
-  compare_proof("strip-lights", {sd_tree_methods().front()});
-}
-
-TEST_CASE("unbiased: parallax-aware mixtures under strips of light") {
-  compare_proof("strip-lights", {lobe_methods()[3]});
-}
-
-TEST_CASE("unbiased: three methods with learned shares under strips of light") {
-  compare_proof("strip-lights", {simplex_methods().front()});
-}
-
-TEST_CASE("unbiased: steps chosen among candidates under strips of light") {
-  compare_proof("strip-lights", {resampled_methods().front()});
-}
-
 TEST_CASE("unbiased: robust guiding, whose training ends where it pays no more") {
   compare_proof("standing-light", {robust_methods()[1]});
 }
 
 TEST_CASE("unbiased: more samples for noisy pixels, with a filter wider than a pixel") {
   compare_proof("fog-box", adaptive_methods(), {"film.filter=gaussian"});
-}
-
-TEST_CASE("unbiased: paths that split and end by their efficiency, unguided") {
-  compare_proof("fog-box", {termination_methods()[2]}, {"budget={ spp: 64 }"});
 }
 
 TEST_CASE("unbiased: vertex triplets in fog, with paths from lights") {

@@ -1,4 +1,4 @@
-#include <Eigen/Dense>
+#include <Eigen/Eigenvalues>
 
 #include <pharos/statistics/gaussian.h>
 
@@ -26,11 +26,19 @@ Matrix<D> with_eigenvalues_above(double floor, const Matrix<D>& symmetric) {
   return 0.5 * (result + result.transpose());
 }
 
+template <int D>
+Matrix<D> eigenvectors(const Matrix<D>& symmetric) {
+  return Eigen::SelfAdjointEigenSolver<AnyMatrix>(symmetric).eigenvectors();
+}
+
 // Eigenvalues take long to compile, so they are compiled here once.
 template Matrix<2> with_eigenvalues_above(double, const Matrix<2>&);
 template Matrix<3> with_eigenvalues_above(double, const Matrix<3>&);
 template Matrix<6> with_eigenvalues_above(double, const Matrix<6>&);
 template Matrix<9> with_eigenvalues_above(double, const Matrix<9>&);
+template Matrix<3> eigenvectors(const Matrix<3>&);
+template Matrix<6> eigenvectors(const Matrix<6>&);
+template Matrix<9> eigenvectors(const Matrix<9>&);
 
 Vector<3> principal_axis(const Matrix<3>& symmetric) {
   return Eigen::SelfAdjointEigenSolver<Matrix<3>>(symmetric).eigenvectors().col(2);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
 
 #include <pharos/core/archive.h>
 
@@ -84,6 +84,10 @@ std::array<Moments<D>, 2> halves(const Moments<D>& moments, const Vector<D>& dir
 /// eigenvectors stay the same. D is 2, 3, 6 or 9.
 template <int D>
 Matrix<D> with_eigenvalues_above(double floor, const Matrix<D>& symmetric);
+
+/// Returns the unit eigenvectors as columns, in the order of ascending eigenvalues. D is 3, 6 or 9.
+template <int D>
+Matrix<D> eigenvectors(const Matrix<D>& symmetric);
 
 /// Returns the unit eigenvector of the largest eigenvalue.
 Vector<3> principal_axis(const Matrix<3>& symmetric);

@@ -1,6 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <Eigen/QR>
 #include <doctest/doctest.h>
 #include <tbb/global_control.h>
 
@@ -128,6 +131,21 @@ TEST_CASE("eigenvalues are raised to the floor and no others changed") {
     const Vector<3> before = Eigen::SelfAdjointEigenSolver<MatrixXd>(m).eigenvalues();
     const Vector<3> after = Eigen::SelfAdjointEigenSolver<MatrixXd>(raised).eigenvalues();
     for (int k = 0; k < 3; ++k) CHECK(after[k] == doctest::Approx(std::max(before[k], 0.01)));
+  }
+}
+
+TEST_CASE_TEMPLATE("eigenvectors are orthonormal, in the order of their eigenvalues", T,
+                   std::integral_constant<int, 3>, std::integral_constant<int, 9>) {
+  constexpr int D = T::value;
+  RandomStream random(4);
+  for (int i = 0; i < 20; ++i) {
+    const Matrix<D> m = random_gaussian<D>(random, 100).covariance;
+    const Matrix<D> axes = eigenvectors<D>(m);
+    CHECK((axes.transpose() * axes - Matrix<D>::Identity()).norm() < 1e-12);
+    const Matrix<D> diagonal = axes.transpose() * m * axes;
+    const Vector<D> values = diagonal.diagonal();
+    CHECK((diagonal - Matrix<D>(values.asDiagonal())).norm() < 1e-12);
+    CHECK(std::is_sorted(values.begin(), values.end()));
   }
 }
 

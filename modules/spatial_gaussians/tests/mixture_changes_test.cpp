@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include <Eigen/LU>
 #include <doctest/doctest.h>
 
 #include <pharos/core/warp.h>

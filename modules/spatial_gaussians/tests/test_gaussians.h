@@ -2,7 +2,8 @@
 
 #include <cmath>
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
 
 #include <pharos/core/random.h>
 #include <pharos/core/warp.h>

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include <Eigen/LU>
 #include <doctest/doctest.h>
 
 #include "../conditional_mixtures.h"

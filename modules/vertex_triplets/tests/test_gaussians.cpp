@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include <Eigen/Dense>
-
 #include <pharos/core/warp.h>
 
 namespace pharos::vertex_triplets::testing {
