@@ -1,15 +1,40 @@
 #include "rough_coat.h"
 
+#include <algorithm>
+#include <map>
+#include <mutex>
+#include <tuple>
+
 #include "fresnel.h"
 
 namespace pharos {
 
 RoughCoat::RoughCoat(FacetDistribution distribution, float alpha, float ior, Masking masking)
     : facets_(distribution, alpha, alpha), ior_(ior), masking_(masking) {
+  // The materials of a scene, and the runs of an experiment, often have equal coats.
+  using Key = std::tuple<FacetDistribution, float, float, Masking>;
+  static std::map<Key, Table> tables;
+  static std::mutex mutex;
+  const Key key{distribution, alpha, ior, masking};
+  {
+    const std::lock_guard lock(mutex);
+    if (const auto found = tables.find(key); found != tables.end()) {
+      transmittance_ = found->second;
+      return;
+    }
+  }
+  transmittance_ = tabulated_transmittance();
+  const std::lock_guard lock(mutex);
+  tables.emplace(key, transmittance_);
+}
+
+RoughCoat::Table RoughCoat::tabulated_transmittance() const {
+  Table table;
   for (std::size_t i = 0; i <= kIntervals; ++i) {
     const float x = static_cast<float>(i) / kIntervals;
-    transmittance_[i] = std::max(0.0f, 1 - reflectance(square(square(x))));
+    table[i] = std::max(0.0f, 1 - reflectance(square(square(x))));
   }
+  return table;
 }
 
 float RoughCoat::transmittance(float cosine) const {

@@ -18,7 +18,7 @@ class RoughCoat {
  public:
   /// Takes `alpha` in (0, 1] and the index `ior` of the coat relative to the outside, at least 1.
   /// Runs for a few milliseconds with GGX, and for a few tens of milliseconds with Beckmann's
-  /// distribution.
+  /// distribution, unless the process has had such a coat before.
   RoughCoat(FacetDistribution distribution, float alpha, float ior,
             Masking masking = Masking::height_correlated);
 
@@ -36,16 +36,18 @@ class RoughCoat {
   Vec3 sample(Vec3 wo, Vec2 u) const;
 
  private:
-  float reflectance(float cosine) const;
-
   /// Nodes lie at cosine = x^4, evenly spaced in x, because details at grazing angles are as narrow
   /// as alpha.
   static constexpr std::size_t kIntervals = 128;
+  using Table = std::array<float, kIntervals + 1>;
+
+  float reflectance(float cosine) const;
+  Table tabulated_transmittance() const;
 
   Facets facets_;
   float ior_;
   Masking masking_;
-  std::array<float, kIntervals + 1> transmittance_;
+  Table transmittance_;
 };
 
 }  // namespace pharos

@@ -76,6 +76,19 @@ TEST_CASE("rough plastic: the share that enters, where the coat is almost smooth
   }
 }
 
+TEST_CASE("rough plastic: equal coats let equal shares in, and others their own") {
+  const auto share = [](FacetDistribution distribution, float alpha, float ior, Masking masking) {
+    return RoughCoat(distribution, alpha, ior, masking).transmittance(0.3f);
+  };
+  constexpr Masking kCorrelated = Masking::height_correlated;
+  const float first = share(kGgx, 0.35f, 1.6f, kCorrelated);
+  CHECK(share(kGgx, 0.35f, 1.6f, kCorrelated) == first);
+  CHECK(share(kBeckmann, 0.35f, 1.6f, kCorrelated) != first);
+  CHECK(share(kGgx, 0.36f, 1.6f, kCorrelated) != first);
+  CHECK(share(kGgx, 0.35f, 1.7f, kCorrelated) != first);
+  CHECK(share(kGgx, 0.35f, 1.6f, Masking::separable) != first);
+}
+
 TEST_CASE("rough plastic: its base tends to that of smooth plastic") {
   const SurfacePoint point;
   const RoughPlastic rough(settings(1e-3f, {0.2f, 0.5f, 0.9f}));
