@@ -6,9 +6,14 @@
 
 PHAROS_MODULE(registry) {
   using namespace pharos::aligned;
-  registry.add<AlignedSampler>("aligned", "Point sets aligned with the edges of integrands");
-  registry.add<DirectionsCommand>("directions",
-                                  "Draw the estimated directions of the edges in a scene");
-  registry.add<SynthesizeCommand>("synthesize",
-                                  "Make point sets with low energy along stated directions");
+  constexpr const char* kPaper =
+      "M. Werner, J. Hanika, C. Dachsbacher: Optimized and Aligned Anisotropic Monte Carlo "
+      "Sampling "
+      "Patterns. 2025";
+  registry.add<AlignedSampler>("aligned", "Point sets aligned with the edges of integrands",
+                               {kPaper});
+  registry.add<DirectionsCommand>(
+      "directions", "Draw the estimated directions of the edges in a scene", {kPaper});
+  registry.add<SynthesizeCommand>(
+      "synthesize", "Make point sets with low energy along stated directions", {kPaper});
 }

@@ -20,7 +20,9 @@ PHAROS_MODULE(registry) {
                                        "Radiance by direction from a latitude-longitude image");
   registry.add<pharos::PointEmitter>("point", "Light from a point, the same in all directions");
   registry.add<pharos::SkyEmitter>("sky",
-                                   "The clear sky for a given turbidity and position of the sun");
+                                   "The clear sky for a given turbidity and position of the sun",
+                                   {"L. Hosek, A. Wilkie: An Analytic Model for Full Spectral "
+                                    "Sky-Dome Radiance. ACM Transactions on Graphics 31(4), 2012"});
   registry.add<pharos::SpotEmitter>("spot", "Light from a point within a cone");
   registry.add<pharos::SunEmitter>("sun", "The sun's disk, attenuated by the atmosphere");
 }

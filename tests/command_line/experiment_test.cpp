@@ -6,6 +6,7 @@
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "small_experiment.h"
 
@@ -207,8 +208,9 @@ TEST_CASE("a method that learns: checkpoints after training, sizes, pictures of 
   const ScratchFolder folder;
   write_experiment(folder, "spp: 32", 1);
   const Outcome outcome = run_pharos(
-      "experiment test.yaml --set 'methods.1.settings={ integrator: { guiding: { learner: "
-      "stub_direction, guider: stub_direction, training: { iterations: 4 } } } }'",
+      "experiment test.yaml --set 'methods.1.settings={ integrator: { termination: adjoint, "
+      "guiding: { learner: stub_direction, guider: stub_direction, training: { iterations: 4 } } } "
+      "}'",
       folder.path(), std::string("PHAROS_MODULE_PATH=") + PHAROS_TEST_PLUGINS);
   REQUIRE_MESSAGE(outcome.exit_code == 0, outcome.err);
   for (const char* picture : {"slice-x", "slice-y", "slice-z", "directions"}) {
@@ -222,8 +224,14 @@ TEST_CASE("a method that learns: checkpoints after training, sizes, pictures of 
     if (line.rfind("deep,sobol,1,", 0) == 0) samples += line.substr(13, line.find(',', 13) - 12);
   }
   CHECK(samples == "17,18,20,24,32,");
-  CHECK(test::bytes_of(folder.path() / "test/report.html").find("model_bytes") !=
-        std::string::npos);
+  const std::string report = test::bytes_of(folder.path() / "test/report.html");
+  CHECK(report.find("model_bytes") != std::string::npos);
+  // The papers of its plugins.
+  CHECK(report.find("J. Vorba") != std::string::npos);
+  const auto results =
+      nlohmann::json::parse(test::bytes_of(folder.path() / "test" / "results.json"));
+  CHECK(results["papers"].size() == 1);
+  CHECK(results["papers"]["sobol"].dump().find("Adjoint-Driven") != std::string::npos);
 }
 
 TEST_CASE("long: runs of equal time end within 3 % of it") {

@@ -78,6 +78,19 @@ TEST_CASE("the config in an image's metadata renders that image again") {
         read_image(folder.path() / "again.exr").values());
 }
 
+TEST_CASE("an image names the papers of the plugins that it was rendered with") {
+  const ScratchFolder folder;
+  folder.write("box.yaml", small_render());
+  REQUIRE(run_pharos("render box.yaml -q", folder.path()).exit_code == 0);
+  CHECK(read_metadata(folder.path() / "box.exr").count("pharos:papers") == 0);
+  REQUIRE(run_pharos("render box.yaml -q --set integrator.guiding=robust-ears", folder.path())
+              .exit_code == 0);
+  const std::string papers = read_metadata(folder.path() / "box.exr").at("pharos:papers");
+  for (const char* authors : {"A. Rath, P. Grittmann", "T. Müller, M. Gross", "L. Ruppert"}) {
+    CHECK_MESSAGE(papers.find(authors) != std::string::npos, papers);
+  }
+}
+
 TEST_CASE("pixels beyond the range of a float are counted") {
   const ScratchFolder folder;
   folder.write("box.yaml",
@@ -234,6 +247,8 @@ TEST_CASE("plugins lists contracts, plugins and parameters") {
   const Outcome edge = run_pharos("plugins edge", folder.path());
   CHECK(edge.out.find("integrand 'edge'") != std::string::npos);
   CHECK(edge.out.find("one to eight angles") != std::string::npos);
+  const Outcome adjoint = run_pharos("plugins adjoint", folder.path());
+  CHECK(adjoint.out.find("Please cite J. Vorba, J. Křivánek: Adjoint-Driven") != std::string::npos);
   const Outcome unknown = run_pharos("plugins pth", folder.path());
   CHECK(unknown.exit_code == 2);
   CHECK(unknown.err.find("did you mean 'path'?") != std::string::npos);

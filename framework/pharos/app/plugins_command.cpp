@@ -48,6 +48,7 @@ void print_plugin(const PluginInfo& plugin) {
   for (const std::string& example : plugin.examples) {
     fmt::print("\n  {}\n", stated(plugin, example));
   }
+  for (const std::string& paper : plugin.papers) fmt::print("\n  Please cite {}\n", paper);
 }
 
 /// Escapes vertical bars, which would otherwise separate cells of the table.
@@ -88,6 +89,7 @@ void print_markdown(const Registry& registry, const std::filesystem::path& previ
       }
       print_parameters(plugin);
       print_examples(plugin);
+      for (const std::string& paper : plugin.papers) fmt::print("\nPaper: {}\n", paper);
     }
   }
 }

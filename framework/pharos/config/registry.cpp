@@ -18,6 +18,13 @@ std::vector<std::string> named_components(const BuildContext& context,
   return names;
 }
 
+/// Appends the papers of a plugin that are not there yet.
+void add_papers(const PluginInfo& plugin, std::vector<std::string>& papers) {
+  for (const std::string& paper : plugin.papers) {
+    if (std::find(papers.begin(), papers.end(), paper) == papers.end()) papers.push_back(paper);
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> Registry::contracts() const {
@@ -89,6 +96,7 @@ std::shared_ptr<const Component> Registry::build_plugin(const std::string& contr
   try {
     const std::shared_ptr<Component> built = info.build(settings, context, resolved);
     built->plugin_name_ = info.name;
+    add_papers(info, context.papers);
     return built;
   } catch (const InputError& e) {
     if (e.located()) throw;

@@ -19,6 +19,7 @@ struct PluginInfo {
   std::string name;
   std::string summary;                    ///< one line of text
   std::string module;                     ///< name of the library that registered it
+  std::vector<std::string> papers;        ///< to be cited: "Authors: Title. Venue, year"
   std::vector<ParameterInfo> parameters;  ///< in the order of declaration
   std::vector<std::string> examples;      ///< settings as YAML mappings, see Schema::example
   /// Parses and checks `node`, builds the component, and writes the resolved mapping.
@@ -31,10 +32,12 @@ struct PluginInfo {
 class Registry {
  public:
   /// Registers the class P under its contract. The struct P::Settings declares
-  /// `static void describe(Schema<Settings>&)`, and P has a constructor from Settings. Throws
-  /// InputError with the names of both modules if the name is taken.
+  /// `static void describe(Schema<Settings>&)`, and P has a constructor from Settings. `papers` are
+  /// those from which the method comes, such as "A. Rath, P. Slusallek: Title. Venue, 2023". Images
+  /// and reports name the papers of the plugins that they have used. Throws InputError with the
+  /// names of both modules if the name is taken.
   template <class P>
-  void add(std::string name, std::string summary);
+  void add(std::string name, std::string summary, std::vector<std::string> papers = {});
 
   /// Makes `name` the plugin that is meant by a bare number or list where contract C is expected:
   /// `reflectance: 0.5` is then read as `{ type: name, key: 0.5 }`.
@@ -108,7 +111,7 @@ class Registry {
 };
 
 template <class P>
-void Registry::add(std::string name, std::string summary) {
+void Registry::add(std::string name, std::string summary, std::vector<std::string> papers) {
   using Settings = typename P::Settings;
   Schema<Settings> schema;
   Settings::describe(schema);
@@ -116,6 +119,7 @@ void Registry::add(std::string name, std::string summary) {
                   .name = std::move(name),
                   .summary = std::move(summary),
                   .module = current_module_,
+                  .papers = std::move(papers),
                   .parameters = schema.parameters(),
                   .examples = schema.examples(),
                   .build = {}};

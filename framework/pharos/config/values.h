@@ -349,6 +349,8 @@ struct BuildContext {
   /// The config files that were read, in order: scenes and what they extend.
   std::vector<std::filesystem::path> sources = {};
   std::vector<Note> notes = {};
+  /// The papers of all plugins that were built, in order, each once.
+  std::vector<std::string> papers = {};
 };
 
 }  // namespace pharos

@@ -30,6 +30,9 @@ Metadata metadata_of(const RenderResult& result, const LoadedConfig& loaded,
       {"pharos:stopped", result.stopped ? "true" : "false"},
       {"pharos:exposure", fmt::format("{}", loaded.config.output.exposure)},
   };
+  if (!loaded.papers.empty()) {
+    metadata.emplace("pharos:papers", fmt::format("{}", fmt::join(loaded.papers, "\n")));
+  }
   if (!state_name.empty()) metadata.emplace(kStateEntry, state_name);
   return metadata;
 }

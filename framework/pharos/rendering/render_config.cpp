@@ -195,6 +195,7 @@ LoadedConfig build_render_config(const ConfigNode& stated, const Registry& regis
   loaded.config = Value<RenderConfig>::read(node, context, loaded.resolved);
   add_notes(std::move(context.notes), loaded.notes);
   loaded.files = std::move(context.files);
+  loaded.papers = std::move(context.papers);
   std::set<std::filesystem::path> sources(context.sources.begin(), context.sources.end());
   add_sources(node, sources);
   loaded.sources.assign(sources.begin(), sources.end());

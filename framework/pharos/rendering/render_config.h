@@ -84,6 +84,7 @@ struct LoadedConfig {
   std::vector<std::filesystem::path> sources;
   /// Notes on what reading the scene has approximated or left out.
   std::vector<ImportNote> notes;
+  std::vector<std::string> papers;  ///< to be cited for the plugins in use, see Registry::add
 };
 
 /// Loads a render config, or a scene that an importer reads. Follows `extends`, applies `overrides`

@@ -84,8 +84,8 @@ struct Hammer : Tool {
 Registry paints() {
   Registry registry;
   registry.add<Plain>("plain", "One value");
-  registry.add<Sum>("sum", "A sum");
-  registry.add<Twice>("twice", "Doubles another");
+  registry.add<Sum>("sum", "A sum", {"Adder: Sums. 1999"});
+  registry.add<Twice>("twice", "Doubles another", {"Doubler: Twice. 2001", "Adder: Sums. 1999"});
   registry.add<Bare>("bare", "Without settings");
   registry.add<Hammer>("hammer", "A tool");
   registry.set_shorthand<Paint>("plain", "value");
@@ -95,6 +95,7 @@ Registry paints() {
 struct Built {
   Ref<Paint> paint;
   std::string resolved;
+  std::vector<std::string> papers;
 };
 
 Built build(const std::string& yaml, std::vector<BuildContext::Named> named = {},
@@ -104,6 +105,7 @@ Built build(const std::string& yaml, std::vector<BuildContext::Named> named = {}
   Built built;
   built.paint = registry.build<Paint>(parse_yaml(yaml, "a.yaml"), context, resolved);
   built.resolved = to_flow_yaml(resolved);
+  built.papers = context.papers;
   return built;
 }
 
@@ -166,6 +168,14 @@ TEST_CASE("a name of another contract is not meant") {
   const BuildContext::Named tool{"tool", "red", std::make_shared<const Hammer>(NoSettings{})};
   CHECK(build("red", {tool, named("red", 5)}).paint->value() == 5);
   CHECK(error("red", {tool}) == "a.yaml:1:1: error: unknown paint 'red'; known: " + kNames);
+}
+
+TEST_CASE("the papers of all plugins that were built are known, each once") {
+  using Papers = std::vector<std::string>;
+  CHECK(paints().find("paint", "sum")->papers == Papers{"Adder: Sums. 1999"});
+  CHECK(build("7").papers.empty());
+  CHECK(build("{ type: twice, inside: { type: sum, terms: [1] } }").papers ==
+        Papers{"Adder: Sums. 1999", "Doubler: Twice. 2001"});
 }
 
 TEST_CASE("the word `default` stands for what a contract chose, if it chose") {

@@ -64,6 +64,7 @@ PlannedCell plan_cell(const ExperimentConfig& experiment, const ConfigNode& scen
   cell.build = build_key(loaded.resolved, registry);
   cell.key = content_key(
       fmt::format("{} {} {}", content_key(loaded), cell.build, loaded.config.output.exposure));
+  cell.papers = std::move(loaded.papers);
   return cell;
 }
 

@@ -17,6 +17,7 @@ struct PlannedCell {
   float exposure = 0;                 ///< OutputSettings::exposure [stops]
   std::string build;                  ///< build_key() of the code that renders it
   std::string key;                    ///< key of the config's content and of `build`
+  std::vector<std::string> papers;    ///< to be cited for the plugins in use
 };
 
 /// The first seed of references, far from the seeds of runs.

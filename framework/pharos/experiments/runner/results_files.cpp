@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <string_view>
 
@@ -89,6 +90,7 @@ json results_json(const ExperimentResults& results, const Report& report) {
     node["configs"][results.config.scenes[cell.scene].name]
         [results.config.methods[cell.method].name] = cell.text;
   }
+  for (const auto& [method, papers] : papers_by_method(results)) node["papers"][method] = papers;
   node["runs"] = json::array();
   for (const RunRecord& record : results.records) node["runs"].push_back(to_json(record));
   node["summary"] = tables_json(report);
@@ -97,6 +99,18 @@ json results_json(const ExperimentResults& results, const Report& report) {
 }
 
 }  // namespace
+
+std::map<std::string, std::vector<std::string>> papers_by_method(const ExperimentResults& results) {
+  std::map<std::string, std::vector<std::string>> all;
+  for (const PlannedCell& cell : results.plan.cells) {
+    if (cell.papers.empty()) continue;
+    std::vector<std::string>& papers = all[results.config.methods[cell.method].name];
+    for (const std::string& paper : cell.papers) {
+      if (std::find(papers.begin(), papers.end(), paper) == papers.end()) papers.push_back(paper);
+    }
+  }
+  return all;
+}
 
 std::string runs_csv(const ExperimentResults& results) {
   std::string text = "scene,method,seed,samples_per_pixel";

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <map>
+#include <string>
+#include <vector>
+
 #include <pharos/experiments/report/report.h>
 #include <pharos/experiments/runner/experiment.h>
 
@@ -11,6 +15,9 @@ std::string runs_csv(const ExperimentResults& results);
 std::string measures_csv(const ExperimentResults& results);
 /// Returns CSV with one line per checkpoint.
 std::string convergence_csv(const ExperimentResults& results);
+
+/// Returns the papers to cite for each method that has some, over all scenes (see Registry::add).
+std::map<std::string, std::vector<std::string>> papers_by_method(const ExperimentResults& results);
 
 /// Returns the report of the results so far: tables, curves, the first seed's images, pictures of
 /// learned densities and the exact configs.

@@ -87,6 +87,16 @@ std::string reference_note(const Reference& reference) {
   return note;
 }
 
+/// Returns the papers to cite for each method, one a line.
+std::string papers_text(const ExperimentResults& results) {
+  std::string text;
+  for (const auto& [method, papers] : papers_by_method(results)) {
+    text += fmt::format("{}:\n", method);
+    for (const std::string& paper : papers) text += fmt::format("  {}\n", paper);
+  }
+  return text;
+}
+
 ReportImage method_image(const fs::path& file, const std::string& method, const Image& reference) {
   ReportImage image{.label = method, .image = read_image(file), .error_maps = {}};
   for (const Metric metric : {Metric::relative_mse, Metric::hdr_flip}) {
@@ -149,6 +159,9 @@ Report experiment_report(const ExperimentResults& results) {
   }
   report.texts.push_back({"runs.csv", runs_csv(results)});
   report.texts.push_back({"convergence.csv", convergence_csv(results)});
+  if (std::string papers = papers_text(results); !papers.empty()) {
+    report.texts.push_back({"papers to cite", std::move(papers)});
+  }
   for (const PlannedCell& cell : results.plan.cells) {
     report.texts.push_back({fmt::format("{}, {}.yaml", results.config.scenes[cell.scene].name,
                                         results.config.methods[cell.method].name),
