@@ -11,8 +11,10 @@
 namespace pharos::vertex_triplets::testing {
 
 /// Adds paths over a mirror-like floor under a lens. Light reaches a point of the floor from the
-/// mirrored direction of the lens.
-inline void add_mirror_paths(PathLog& log, int count, std::uint64_t seed, float light = 1) {
+/// mirrored direction of the lens. It is never inlined, because copies in different places may
+/// round in different ways.
+[[gnu::noinline]] inline void add_mirror_paths(PathLog& log, int count, std::uint64_t seed,
+                                               float light = 1) {
   RandomStream random(seed);
   for (int i = 0; i < count; ++i) {
     const Vec2 u = random.next_2d(), v = random.next_2d();
