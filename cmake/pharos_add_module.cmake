@@ -9,8 +9,8 @@
 # test-NAME is run by ctest under the label NAME.
 #
 # The test NAME-conformance applies the conformance suites of their contracts to all plugins of the
-# module. Its labels are NAME and conformance. Modules of planted faults say NO_CONFORMANCE to leave
-# this test out.
+# module. Its labels are NAME and conformance, or long-conformance if the module is TEST_ONLY. Modules
+# of planted faults say NO_CONFORMANCE to leave this test out.
 #
 # PRESETS are YAML files that `guiding: NAME` in a config finds. They are copied to the folder
 # `presets` beside the module.
@@ -76,6 +76,10 @@ function(pharos_add_module name)
     add_test(NAME ${name}-conformance
       COMMAND ${CMAKE_COMMAND} -E env PHAROS_MODULE_PATH=${CMAKE_BINARY_DIR}/${folder}
               $<TARGET_FILE:pharos::program> conformance --module ${name})
-    set_tests_properties(${name}-conformance PROPERTIES LABELS "${name};conformance")
+    set(label conformance)
+    if(arg_TEST_ONLY)
+      set(label long-conformance)
+    endif()
+    set_tests_properties(${name}-conformance PROPERTIES LABELS "${name};${label}")
   endif()
 endfunction()
