@@ -7,8 +7,7 @@ PHAROS_MODULE(registry) {
   using namespace pharos::spatial_gaussians;
   constexpr const char* kPaper =
       "S. Lelyakin, V. Schüßler, C. Dachsbacher: Sampling of Anisotropic Spatial Gaussians for "
-      "Path "
-      "Guiding. 2025";
+      "Path Guiding. 2025";
   registry.add<SpatialGaussiansLearner>(
       "spatial_gaussians", "Mixtures of 3D Gaussians over the points from which light arrives",
       {kPaper});

@@ -1,10 +1,13 @@
 // The pages of the documentation hold: their blocks of YAML are valid, their command lines run, and
 // their links lead somewhere.
 
+#include <sstream>
 #include <string>
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
+
+#include <pharos/tests/fixtures.h>
 
 #include "command_lines.h"
 #include "config_blocks.h"
@@ -98,6 +101,21 @@ TEST_CASE("long: the commands of the tutorial take less than ten minutes on two 
   MESSAGE(fmt::format("{} commands of the tutorial took {:.0f} s", check.executed, check.seconds));
   CHECK(check.executed >= 15);
   CHECK(check.seconds < 600);
+}
+
+TEST_CASE("pages: the papers of all plugins are on the page on citing") {
+  std::string page = test::bytes_of(source_tree() / "docs" / "citing.md");
+  std::erase(page, '*');  // titles are in italics
+  const testing::ScratchFolder folder;
+  std::istringstream reference(testing::run_pharos("plugins --markdown", folder.path()).out);
+  const std::string mark = "Paper: ";
+  int papers = 0;
+  for (std::string line; std::getline(reference, line);) {
+    if (!line.starts_with(mark)) continue;
+    ++papers;
+    CHECK_MESSAGE(page.find(line.substr(mark.size())) != std::string::npos, line);
+  }
+  CHECK(papers >= 10);
 }
 
 TEST_CASE("pages: links lead to files and headings") {

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 #include <string_view>
 
@@ -100,14 +99,11 @@ json results_json(const ExperimentResults& results, const Report& report) {
 
 }  // namespace
 
-std::map<std::string, std::vector<std::string>> papers_by_method(const ExperimentResults& results) {
-  std::map<std::string, std::vector<std::string>> all;
+std::map<std::string, std::set<std::string>> papers_by_method(const ExperimentResults& results) {
+  std::map<std::string, std::set<std::string>> all;
   for (const PlannedCell& cell : results.plan.cells) {
     if (cell.papers.empty()) continue;
-    std::vector<std::string>& papers = all[results.config.methods[cell.method].name];
-    for (const std::string& paper : cell.papers) {
-      if (std::find(papers.begin(), papers.end(), paper) == papers.end()) papers.push_back(paper);
-    }
+    all[results.config.methods[cell.method].name].insert(cell.papers.begin(), cell.papers.end());
   }
   return all;
 }

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
-#include <vector>
 
 #include <pharos/experiments/report/report.h>
 #include <pharos/experiments/runner/experiment.h>
@@ -17,7 +17,7 @@ std::string measures_csv(const ExperimentResults& results);
 std::string convergence_csv(const ExperimentResults& results);
 
 /// Returns the papers to cite for each method that has some, over all scenes (see Registry::add).
-std::map<std::string, std::vector<std::string>> papers_by_method(const ExperimentResults& results);
+std::map<std::string, std::set<std::string>> papers_by_method(const ExperimentResults& results);
 
 /// Returns the report of the results so far: tables, curves, the first seed's images, pictures of
 /// learned densities and the exact configs.
