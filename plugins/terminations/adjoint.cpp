@@ -41,16 +41,16 @@ class AdjointRule final : public TerminationRule {
               std::shared_ptr<const LearnedOutcomes> known)
       : settings_(settings), known_(std::move(known)) {}
 
-  float factor(const TerminationQuery& query) const override {
-    if (settings_.spares(query)) return 1;
+  BranchFactors factors(const TerminationQuery& query) const override {
+    if (settings_.spares(query)) return {};
     const float radiance = known_->at(query).radiance;
-    if (!(radiance > 0)) return 1;
+    if (!(radiance > 0)) return {};
     const float throughput = mean(query.throughput) / query.film_weight;
     const float contribution = throughput * radiance / known_->scale_at(query.film);
-    return settings_.clamped(weight_window_factor(contribution, settings_.window));
+    const float factor = settings_.clamped(weight_window_factor(contribution, settings_.window),
+                                           known_->branches_left(query));
+    return {factor, factor};
   }
-  /// Each step has a light sample of its own, as in what was learned.
-  float light_factor(const TerminationQuery&, float factor) const override { return factor; }
 
  private:
   AdjointTermination::Settings settings_;

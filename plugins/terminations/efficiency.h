@@ -22,8 +22,8 @@ class EfficiencyTermination final : public Termination {
   Settings settings_;
 };
 
-/// Returns the factor [1] of a path of throughput `relative` over the radiance of its pixel.
-/// `worth` is the mean cost of paths over their relative squared error [steps].
-float efficiency_factor(float relative, const ExpectedOutcome& expected, float worth);
+/// Returns the best number [1] of steps or light samples whose estimates have the spread `spread`.
+/// `relative` is the throughput of the path over the radiance of its pixel, times sqrt(C_I / V_I).
+float efficiency_factor(float relative, const Spread& spread);
 
 }  // namespace pharos

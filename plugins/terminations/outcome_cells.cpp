@@ -13,11 +13,17 @@ float as_float(double number) {
   return static_cast<float>(std::min(number, double{std::numeric_limits<float>::max()}));
 }
 
-/// Returns the expected values of a mean step.
-ExpectedOutcome expected(const OutcomeSums& mean) {
+/// Returns the spread of estimates with these means.
+Spread spread(const OutcomeMoments& mean) {
   const double variance = std::max(mean.limited_squared - mean.limited * mean.limited, 0.0);
-  return {as_float(mean.radiance), as_float(mean.squared), as_float(variance),
-          as_float(std::max(mean.cost, 1.0))};
+  const double cost = std::max(mean.cost, 1.0);
+  return {as_float(std::sqrt(mean.squared / cost)), as_float(std::sqrt(variance / cost))};
+}
+
+/// Returns the expected values for the means of a step and of a light sample.
+ExpectedOutcome expected(const OutcomeSums& mean) {
+  return {as_float(mean.steps.radiance + mean.lights.radiance), spread(mean.steps),
+          spread(mean.lights)};
 }
 
 /// Returns what was found below each plane and in each cell of the tree, by place and bin.
@@ -35,39 +41,44 @@ std::vector<OutcomeSums> sums_by_place(const OutcomeCells& cells, std::size_t bi
   return sums;
 }
 
-/// Returns the mean of a step. `prior` is the mean without the steps of `sums`, and counts as
-/// `prior_steps` steps.
-OutcomeSums mean_of(const OutcomeSums& sums, OutcomeSums prior, double prior_steps) {
-  if (!(prior_steps + sums.steps > 0)) return prior;
-  prior.scale(prior_steps);
-  prior += sums;
-  prior.scale(1 / prior.steps);
-  return prior;
+/// Returns the means of the sums; zero if there is nothing.
+OutcomeMoments mean_of(OutcomeMoments sums) {
+  if (sums.count > 0) sums.scale(1 / sums.count);
+  return sums;
 }
 
-/// Returns the mean of a step at each place and in each bin. Each starts from the mean of the same
-/// bin at the place above, the uppermost one from the mean of the scene, as if this were the mean
-/// of `prior_steps` further steps. So a small cell expects rare light that only a larger cell has
-/// found.
+/// Returns the means of `sums` together with `prior_count` outcomes of means `prior`.
+OutcomeMoments mean_of(const OutcomeMoments& sums, OutcomeMoments prior, double prior_count) {
+  if (!(prior_count + sums.count > 0)) return prior;
+  prior.scale(prior_count);
+  prior += sums;
+  return mean_of(prior);
+}
+
+/// Returns the means at each place and in each bin. Each starts from the means of the same bin at
+/// the place above, the uppermost one from the means of the scene, as if these were the means of
+/// `prior_count` further steps and light samples. So a small cell expects rare light that only a
+/// larger cell has found.
 std::vector<OutcomeSums> means_by_place(const std::vector<OutcomeSums>& sums,
                                         const std::vector<std::uint32_t>& parents, std::size_t bins,
-                                        double prior_steps) {
+                                        double prior_count) {
   OutcomeSums all;
   for (std::size_t bin = 0; bin < bins; ++bin) all += sums[bin];
-  all.scale(1 / all.steps);
-  std::vector<OutcomeSums> means(sums.size(), all);
+  all = {mean_of(all.steps), mean_of(all.lights)};
+  std::vector<OutcomeSums> means(sums.size());
   for (std::size_t i = 0; i < sums.size(); ++i) {
     const std::size_t place = i / bins, bin = i % bins;
     const OutcomeSums& above = place > 0 ? means[parents[place] * bins + bin] : all;
-    means[i] = mean_of(sums[i], above, prior_steps);
+    means[i] = {mean_of(sums[i].steps, above.steps, prior_count),
+                mean_of(sums[i].lights, above.lights, prior_count)};
   }
   return means;
 }
 
 }  // namespace
 
-OutcomeSums& OutcomeSums::operator+=(const OutcomeSums& other) {
-  steps += other.steps;
+OutcomeMoments& OutcomeMoments::operator+=(const OutcomeMoments& other) {
+  count += other.count;
   radiance += other.radiance;
   squared += other.squared;
   cost += other.cost;
@@ -76,8 +87,8 @@ OutcomeSums& OutcomeSums::operator+=(const OutcomeSums& other) {
   return *this;
 }
 
-void OutcomeSums::scale(double factor) {
-  steps *= factor;
+void OutcomeMoments::scale(double factor) {
+  count *= factor;
   radiance *= factor;
   squared *= factor;
   cost *= factor;
@@ -85,11 +96,22 @@ void OutcomeSums::scale(double factor) {
   limited_squared *= factor;
 }
 
-void OutcomeSums::archive(Archive& archive) {
-  archive(steps, radiance, squared, cost, limited, limited_squared);
-  archive.expect(steps >= 0 && radiance >= 0 && squared >= 0 && cost >= 0 && limited >= 0 &&
+void OutcomeMoments::archive(Archive& archive) {
+  archive(count, radiance, squared, cost, limited, limited_squared);
+  archive.expect(count >= 0 && radiance >= 0 && squared >= 0 && cost >= 0 && limited >= 0 &&
                      limited_squared >= 0,
                  "what was learned of steps");
+}
+
+OutcomeSums& OutcomeSums::operator+=(const OutcomeSums& other) {
+  steps += other.steps;
+  lights += other.lights;
+  return *this;
+}
+
+void OutcomeSums::scale(double factor) {
+  steps.scale(factor);
+  lights.scale(factor);
 }
 
 std::size_t DirectionBins::at(Vec3 direction) const {
@@ -108,11 +130,10 @@ void OutcomeCell::forget(double factor) {
   for (OutcomeSums& bin : bins) bin.scale(factor);
 }
 
-void OutcomeCell::learn(std::span<const StepOutcome> outcomes, const DirectionBins& directions) {
+void OutcomeCell::learn(std::span<const Outcome> outcomes, const DirectionBins& directions) {
   if (outcomes.empty()) return;
   bins.resize(directions.count());
-  for (const StepOutcome& outcome : outcomes)
-    bins[directions.at(outcome.towards_viewer)].add(outcome);
+  for (const Outcome& outcome : outcomes) bins[directions.at(outcome.towards_viewer)].add(outcome);
 }
 
 OutcomeField::OutcomeField(const OutcomeCells& cells, DirectionBins directions, double least_steps)
@@ -124,7 +145,7 @@ OutcomeField::OutcomeField(const OutcomeCells& cells, DirectionBins directions, 
   // look-ups take less time.
   std::vector<bool> matters(parents.size(), false);
   for (std::size_t i = bins; i < sums.size(); ++i) {
-    if (sums[i].steps >= least_steps) matters[parents[i / bins]] = true;
+    if (sums[i].steps.count >= least_steps) matters[parents[i / bins]] = true;
   }
   KdTree::UpperPart used = cells.tree().upper_part(matters);
   const std::vector<OutcomeSums> means = means_by_place(sums, parents, bins, least_steps);
@@ -139,9 +160,10 @@ OutcomeField::OutcomeField(const OutcomeCells& cells, DirectionBins directions, 
 
 void OutcomeField::archive(Archive& archive) {
   archive(tree_, expected_);
+  const auto is_spread = [](Spread s) { return s.squared >= 0 && s.variance >= 0; };
   bool is_sound = expected_.size() == tree_.cell_count() * directions_.count();
   for (const ExpectedOutcome& e : expected_) {
-    is_sound &= e.radiance >= 0 && e.squared >= 0 && e.variance >= 0 && e.cost >= 1;
+    is_sound &= e.radiance >= 0 && is_spread(e.step) && is_spread(e.light);
   }
   archive.expect(is_sound, "what was learned of steps");
 }

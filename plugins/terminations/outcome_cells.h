@@ -8,37 +8,55 @@
 #include <pharos/core/archive.h>
 #include <pharos/guiding/toolkit/kd_tree_cells.h>
 
-#include "step_outcomes.h"
+#include "outcome_reader.h"
 
 namespace pharos {
 
-/// Sums over outcomes, each times the number of steps for which it counts.
-struct OutcomeSums {
-  double steps = 0, radiance = 0, squared = 0, cost = 0;
-  double limited = 0, limited_squared = 0;  ///< of StepOutcome::limited and its square
+/// Sums over outcomes of one kind, each times the number for which it counts.
+struct OutcomeMoments {
+  double count = 0, radiance = 0, squared = 0, cost = 0;
+  double limited = 0, limited_squared = 0;  ///< of Outcome::limited and its square
 
-  void add(const StepOutcome& outcome) {
-    const double count = outcome.steps;
-    steps += count;
-    radiance += count * outcome.radiance;
-    squared += count * outcome.radiance * outcome.radiance;
-    cost += count * outcome.cost;
-    limited += count * outcome.limited;
-    limited_squared += count * outcome.limited * outcome.limited;
+  void add(const Outcome& outcome) {
+    const double n = outcome.count;
+    count += n;
+    radiance += n * outcome.radiance;
+    squared += n * outcome.radiance * outcome.radiance;
+    cost += n * outcome.cost;
+    limited += n * outcome.limited;
+    limited_squared += n * outcome.limited * outcome.limited;
   }
-  OutcomeSums& operator+=(const OutcomeSums& other);
+  OutcomeMoments& operator+=(const OutcomeMoments& other);
   void scale(double factor);
   void archive(Archive& archive);
 };
 
-/// Expected values over the steps from a vertex.
+/// Sums over the outcomes of steps and of light samples.
+struct OutcomeSums {
+  OutcomeMoments steps, lights;
+
+  void add(const Outcome& outcome) { (outcome.of_light ? lights : steps).add(outcome); }
+  OutcomeSums& operator+=(const OutcomeSums& other);
+  void scale(double factor);
+  void archive(Archive& archive) { archive(steps, lights); }
+};
+
+/// The spread of estimates per square root of their cost C, the number of steps and light samples
+/// that each takes. It is what the best number of estimates is in proportion to.
+struct Spread {
+  float squared = 0;  ///< sqrt(E[X^2] / C), for roulette
+  float variance =
+      0;  ///< sqrt(V[X] / C) of the limited estimates (Outcome::limited), for splitting
+
+  void archive(Archive& archive) { archive(squared, variance); }
+};
+
+/// Expected values at a vertex.
 struct ExpectedOutcome {
   float radiance = 0;  ///< outgoing radiance, without what the vertex itself emits
-  float squared = 0;   ///< second moment of the estimates of `radiance`
-  float variance = 0;  ///< of the limited estimates (StepOutcome::limited)
-  float cost = 1;      ///< steps and light samples that a step leads to, itself included
+  Spread step, light;  ///< of the estimates of a step, and of a light sample
 
-  void archive(Archive& archive) { archive(radiance, squared, variance, cost); }
+  void archive(Archive& archive) { archive(radiance, step, light); }
 };
 
 /// Bins of directions: `rows` rows of equal height along z, each of as many bins around z. 4 x 4
@@ -60,24 +78,25 @@ struct OutcomeCell {
 
   bool knows_something() const { return !bins.empty(); }
   void forget(double factor);
-  void learn(std::span<const StepOutcome> outcomes, const DirectionBins& directions);
+  void learn(std::span<const Outcome> outcomes, const DirectionBins& directions);
   void archive(Archive& archive) { archive(bins); }
 };
 
-using OutcomeCells = KdTreeCells<StepOutcome, OutcomeCell>;
+using OutcomeCells = KdTreeCells<Outcome, OutcomeCell>;
 
-/// What steps are expected to find, by position and direction: constant and thread-safe.
+/// What steps and light samples are expected to find, by position and direction: constant and
+/// thread-safe.
 class OutcomeField {
  public:
   /// Knows nothing; for loading.
   explicit OutcomeField(DirectionBins directions) : directions_(directions) {}
   /// Takes the means of what `cells` have found. The mean of the same bin of the next larger cell
-  /// is added to the steps of a bin, as if it came from `least_steps` further steps. This larger
-  /// cell is made of all cells below the plane that has made the cell, and so on up to the whole
-  /// scene.
+  /// is added to the steps of a bin, as if it came from `least_steps` further steps, and likewise
+  /// with light samples. This larger cell is made of all cells below the plane that has made the
+  /// cell, and so on up to the whole scene.
   OutcomeField(const OutcomeCells& cells, DirectionBins directions, double least_steps);
 
-  /// Returns what steps from a point find if the viewer is in this unit direction.
+  /// Returns what is found at a point if the viewer is in this unit direction.
   const ExpectedOutcome& at(Point3 p, Vec3 towards_viewer) const {
     return expected_[tree_.cell_at(p) * directions_.count() + directions_.at(towards_viewer)];
   }

@@ -20,7 +20,7 @@ void OutcomeLearning::absorb(const PathLog& log) {
     const PathView path = log[i];
     if (path.transport == Transport::radiance && !path.vertices.empty()) learn_path(path);
   }
-  if (steps_.size() >= settings_.batch_steps) learn_steps();
+  if (outcomes_.size() >= settings_.batch_steps) learn_outcomes();
 }
 
 void OutcomeLearning::learn_path(const PathView& path) {
@@ -29,7 +29,7 @@ void OutcomeLearning::learn_path(const PathView& path) {
                            ? learned_->pixels.at(path.film) +
                                  std::sqrt(largest_error_) * learned_->scale_at(path.film)
                            : std::numeric_limits<double>::infinity();
-  const PathOutcome found = reader_.read(path, rule_->stage(), limit, steps_);
+  const PathOutcome found = reader_.read(path, rule_->stage(), limit, outcomes_);
   if (!std::isfinite(found.radiance) || !std::isfinite(found.paths) || !(found.paths > 0)) return;
   film_.add(path.film, {found.radiance, found.paths, path.albedo, path.normal});
   if (learned_ == nullptr) return;
@@ -38,14 +38,14 @@ void OutcomeLearning::learn_path(const PathView& path) {
   error_.add(error * error, found.cost);
 }
 
-void OutcomeLearning::learn_steps() {
+void OutcomeLearning::learn_outcomes() {
   const CellDivision division{.divides = cells_.size() < settings_.most_cells,
                               .cell_samples = settings_.cell_steps,
                               .max_depth = static_cast<int>(settings_.cell_depth),
                               .decay = 0.5};  // each half gets half of what the cell has found
   const DirectionBins bins = directions();
-  cells_.learn(steps_, division,
-               [&](OutcomeCell& cell, std::span<const StepOutcome> outcomes, std::size_t) {
+  cells_.learn(outcomes_, division,
+               [&](OutcomeCell& cell, std::span<const Outcome> outcomes, std::size_t) {
                  cell.learn(outcomes, bins);
                });
 }
@@ -56,13 +56,14 @@ OutcomeLearning::Known OutcomeLearning::summary() const {
   return std::make_shared<const LearnedOutcomes>(LearnedOutcomes{
       OutcomeField(cells_, directions(), settings_.least_steps),
       film_.denoised(settings_.denoising), static_cast<float>(settings_.pixel_offset * mean),
-      error_.squared(), error_.cost()});
+      error_.squared(), error_.cost(), settings_.most_branches(uses_)});
 }
 
 void OutcomeLearning::update(const TrainingStage& stage) {
-  learn_steps();
-  learned_ = summary();
+  learn_outcomes();
   is_in_use_ = ++updates_ >= settings_.first_iterations || stage.is_last();
+  if (is_in_use_) ++uses_;
+  learned_ = summary();
   make_rule();
   const bool was_unlimited = largest_error_ == 0;
   if (was_unlimited) largest_error_ = error_.largest();
@@ -78,8 +79,8 @@ void OutcomeLearning::make_rule() {
 }
 
 void OutcomeLearning::archive(Archive& archive) {
-  archive.heading("outcomes of steps", 5);
-  archive(steps_, cells_, film_, error_, updates_, largest_error_);
+  archive.heading("outcomes of steps", 6);
+  archive(outcomes_, cells_, film_, error_, updates_, uses_, largest_error_);
   archive.expect(largest_error_ >= 0, "the errors of paths");
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     const std::size_t bins = cells_[i].bins.size();
@@ -95,10 +96,11 @@ void OutcomeLearning::archive_rule(Archive& archive) {
                                 ? *learned_
                                 : LearnedOutcomes{OutcomeField(directions()), PixelMap(window_)};
   if (is_known) {
-    archive(learned.steps, learned.pixels, learned.pixel_offset, learned.squared_error,
-            learned.path_cost);
+    archive(learned.outcomes, learned.pixels, learned.pixel_offset, learned.squared_error,
+            learned.path_cost, learned.branches);
   }
   if (!archive.loads()) return;
+  archive.expect(learned.branches >= 1, "what was learned of paths");
   archive.expect(!is_known || learned.pixel_offset > 0, "what was learned of pixels");
   archive.expect(learned.squared_error >= 0 && learned.path_cost >= 0, "what was learned of paths");
   learned_ = is_known ? std::make_shared<const LearnedOutcomes>(std::move(learned)) : nullptr;

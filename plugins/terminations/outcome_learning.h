@@ -15,17 +15,20 @@ namespace pharos {
 
 /// What a rule knows: constant and thread-safe.
 struct LearnedOutcomes {
-  OutcomeField steps;
+  OutcomeField outcomes;
   PixelMap pixels;           ///< denoised radiance of each pixel
   float pixel_offset = 0;    ///< added to the radiance of pixels; positive
   double squared_error = 0;  ///< mean of a path, relative to its pixel [1]; 0: unknown
   double path_cost = 0;      ///< mean number of steps and light samples of a path
+  float branches = 1;        ///< number of branches into which a path may split
 
   /// Returns the radiance to which contributions to a film position [pixels] are compared.
   float scale_at(Vec2 film) const { return pixels.at(film) + pixel_offset; }
-  /// Returns what steps from the vertex of a query are expected to find.
+  /// Returns into how many more branches the path of a query may split.
+  float branches_left(const TerminationQuery& query) const { return branches / query.branches; }
+  /// Returns what is expected to be found at the vertex of a query.
   const ExpectedOutcome& at(const TerminationQuery& query) const {
-    return steps.at(query.position, query.towards_previous);
+    return outcomes.at(query.position, query.towards_previous);
   }
 };
 
@@ -47,7 +50,7 @@ class OutcomeLearning final : public TerminationState {
 
  private:
   void learn_path(const PathView& path);
-  void learn_steps();
+  void learn_outcomes();
   /// Returns what is known after an iteration; null if no light was found.
   Known summary() const;
   /// Makes the rule of `learned_`, if it is time to use it.
@@ -58,7 +61,7 @@ class OutcomeLearning final : public TerminationState {
   const PixelRect window_;
   const MakeRule make_;
   OutcomeReader reader_;
-  std::vector<StepOutcome> steps_;  ///< since learn_steps() was last called
+  std::vector<Outcome> outcomes_;  ///< since learn_outcomes() was last called
   OutcomeCells cells_;
   FilmEstimate film_;
   ImageError error_;  ///< of the current iteration, against `learned_`
@@ -66,6 +69,7 @@ class OutcomeLearning final : public TerminationState {
   /// Steps and paths of larger squared errors count as if they had this one [1]; 0: unknown.
   double largest_error_ = 0;
   std::uint32_t updates_ = 0;
+  std::uint32_t uses_ = 0;  ///< number of updates after which rules were in use
   bool is_in_use_ = false;  ///< the first iterations are over
   std::shared_ptr<const TerminationRule> rule_;
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -20,17 +21,20 @@ struct OutcomeSettings {
   explicit OutcomeSettings(std::uint16_t first_vertex) : depth(first_vertex) {}
 
   float least = 0.05f, most = 20;
+  /// EARS has no such bound. It learns in fifteen iterations of equal size. If there are four, the
+  /// last of which is the largest, factors would go from one to their final size at once.
+  float growth = 2;
   std::uint16_t depth;
   std::uint32_t first_iterations = 3;
-  /// EARS divides a cell of an octree by eight if one of its bins has 20,000 steps, and uses a bin
-  /// with 40,000. Here cells are halved, so that they adapt to where paths go. Larger cells
-  /// contribute to what small ones expect (`least_steps`), and rare large contributions are limited
-  /// (`outliers`), so fewer steps suffice: in the classroom, 8000 and 2000 steps had about the same
-  /// gain over path tracing (1.17 and 1.22).
+  /// Light samples count as well. EARS divides a cell of an octree by eight if one of its bins has
+  /// 20,000 steps, and uses a bin with 40,000. Here cells are halved, so that they adapt to where
+  /// paths go. Larger cells contribute to what small ones expect (`least_steps`), and rare large
+  /// contributions are limited (`outliers`), so fewer steps suffice: in the classroom, 8000 and
+  /// 2000 steps had about the same gain over path tracing (1.17 and 1.22).
   std::uint32_t cell_steps = 2000;
   std::uint32_t cell_depth = 24;
   std::uint32_t direction_rows = 4;
-  /// The cells of EARS take 24 MiB at most, these 36 MiB with 16 bins each.
+  /// The cells of EARS take 24 MiB at most, these 72 MiB with 16 bins each.
   std::uint32_t most_cells = 49'152;
   double least_steps = 2000;
   double decay = 1;
@@ -50,8 +54,17 @@ struct OutcomeSettings {
   bool spares(const TerminationQuery& query) const {
     return query.discrete || query.bounce < depth;
   }
-  /// Returns the factor within its bounds; the least one if it is undefined.
-  float clamped(float factor) const { return factor > least ? std::min(factor, most) : least; }
+  /// Returns into how many branches a path may split in the `use`-th iteration that uses what was
+  /// learned, from 1 on.
+  float most_branches(std::uint32_t use) const {
+    constexpr float kUnlimited = 1e6f;
+    return std::min(std::pow(growth, static_cast<float>(use)), kUnlimited);
+  }
+  /// Returns the factor within its bounds, where a path may split into `branches` more; the least
+  /// one if it is undefined.
+  float clamped(float factor, float branches) const {
+    return factor > least ? std::min({factor, most, std::max(branches, 1.0f)}) : least;
+  }
   /// Returns how many outliers each pass() has.
   std::size_t outliers_of_pass() const { return outliers > 0 ? 10 : 0; }
   /// Returns the number of paths among which outliers are found.
@@ -71,6 +84,13 @@ void describe_outcomes(Schema<Settings>& s) {
   s.field("most", &OutcomeSettings::most, "Largest factor: the highest mean number of branches")
       .at_least(1)
       .at_most(TerminationRule::kMostFactor);
+  s.field(
+       "growth", &OutcomeSettings::growth,
+       "In the first iteration that uses what was learned, a path splits into this number of "
+       "branches at most, on average, and into as many times more in each later iteration. What "
+       "steps find and cost depends on the factors at all later vertices, so factors must change "
+       "slowly")
+      .above(1);
   s.field("depth", &OutcomeSettings::depth,
           "Number of the first vertex at which paths may end or split; the first vertex after the "
           "lens is 1");
@@ -79,7 +99,7 @@ void describe_outcomes(Schema<Settings>& s) {
       "Number of the first training iterations, which only learn and end paths as `first` says. "
       "The final image always uses what was learned");
   s.field("cell_steps", &OutcomeSettings::cell_steps,
-          "A cell of space that has received more steps is divided")
+          "A cell of space that has received more steps and light samples is divided")
       .at_least(16);
   s.field("cell_depth", &OutcomeSettings::cell_depth, "Largest number of planes above a cell")
       .at_most(KdTree::kMostLevels);

@@ -305,13 +305,13 @@ TEST_CASE("records of light samples that split: their numbers, weights and copie
 /// vertex is the weight of the film position, and that the rest of the path keeps it.
 class FilmWeights final : public TerminationRule {
  public:
-  float factor(const TerminationQuery& query) const override {
+  BranchFactors factors(const TerminationQuery& query) const override {
     if (query.bounce == 1) {
       weight_ = query.throughput.g;
       different_ += weight_ != 1 ? 1 : 0;
     }
     CHECK(query.film_weight == doctest::Approx(weight_));
-    return 1;
+    return {};
   }
   int different() const { return different_; }
 

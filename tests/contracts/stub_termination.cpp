@@ -14,11 +14,8 @@ class StubRule final : public TerminationRule {
  public:
   StubRule(float factor, float lights, std::uint16_t first, std::uint16_t last)
       : factor_(factor), lights_(lights), first_(first), last_(last) {}
-  float factor(const TerminationQuery& query) const override {
-    return applies_at(query.bounce) ? factor_ : 1;
-  }
-  float light_factor(const TerminationQuery& query, float) const override {
-    return applies_at(query.bounce) ? lights_ : 1;
+  BranchFactors factors(const TerminationQuery& query) const override {
+    return applies_at(query.bounce) ? BranchFactors{factor_, lights_} : BranchFactors{};
   }
 
  private:

@@ -126,6 +126,11 @@ struct FaultyRules : EstimatorRules {
   static float branch_weight(float factor) {
     return planted(PlantedFault::branches_unweighted) ? 1 : EstimatorRules::branch_weight(factor);
   }
+  static VertexStream copy_numbers(const VertexStream& numbers, std::uint32_t copy) {
+    return planted(PlantedFault::branches_share_numbers)
+               ? numbers
+               : EstimatorRules::copy_numbers(numbers, copy);
+  }
   static std::uint64_t branch_seed(std::uint64_t seed, std::uint32_t branch) {
     return planted(PlantedFault::branches_share_numbers)
                ? seed

@@ -7,7 +7,7 @@ namespace pharos {
 
 /// The version of the binary interface. It changes with the binary interface of any contract.
 /// Modules built for another version are refused.
-inline constexpr int kAbiVersion = 23;
+inline constexpr int kAbiVersion = 24;
 
 }  // namespace pharos
 

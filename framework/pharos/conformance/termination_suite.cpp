@@ -111,17 +111,8 @@ std::vector<Question> questions_in(const Scene& scene, std::uint64_t seed) {
   return all;
 }
 
-/// The answer of a rule.
-struct Factors {
-  float steps = 1, lights = 1;
-  friend bool operator==(const Factors&, const Factors&) = default;
-};
-
-Factors answer(const TerminationRule* rule, const TerminationQuery& query) {
-  if (rule == nullptr) return {};
-  const float steps = rule->factor(query);
-  const bool is_early = rule->stage() == TerminationRule::Stage::vertex;
-  return {steps, is_early ? rule->light_factor(query, steps) : 1};
+BranchFactors answer(const TerminationRule* rule, const TerminationQuery& query) {
+  return rule != nullptr ? rule->factors(query) : BranchFactors{};
 }
 
 /// Tests that factors are positive, because light may come from everywhere, and within bounds.
@@ -132,7 +123,7 @@ bool check_range(const TerminationRule* rule, const std::vector<Question>& quest
   const float most = splits ? TerminationRule::kMostFactor : 1;
   bool is_sound = true;
   for (const Question& question : questions) {
-    const Factors found = answer(rule, question.query);
+    const BranchFactors found = answer(rule, question.query);
     for (const float factor : {found.steps, found.lights}) {
       const bool holds = std::isfinite(factor) && factor > 0 && factor <= most;
       is_sound &= holds;

@@ -60,10 +60,22 @@ class VertexStream {
   /// Returns the number of the path's stream. After after_choice(), guide_choice is another one.
   float get_1d(Purpose purpose, std::uint16_t branch = 0) const {
     if (purpose == Purpose::guide_choice && branch == 0 && rest_ >= 0) return rest_;
-    return stream_->get_1d({purpose, bounce_, shifted(branch)});
+    const float u = stream_->get_1d({purpose, bounce_, shifted(branch)});
+    return copy_ == 0 ? u : on_circle(u, kGoldenRatio);
   }
   Vec2 get_2d(Purpose purpose, std::uint16_t branch = 0) const {
-    return stream_->get_2d({purpose, bounce_, shifted(branch)});
+    const Vec2 u = stream_->get_2d({purpose, bounce_, shifted(branch)});
+    return copy_ == 0 ? u : Vec2{on_circle(u.x, kPlasticRatio), on_circle(u.y, kPlasticSquare)};
+  }
+  /// Returns the numbers of copy `index` of the current vertex, where a path splits. Copy 0 has the
+  /// numbers of this stream. Those of all copies together are evenly spread: they are moved on the
+  /// circle or on the torus by a sequence of low discrepancy, multiples of the golden ratio in one
+  /// dimension, and in two dimensions those of Roberts (2018, "The Unreasonable Effectiveness of
+  /// Quasirandom Sequences").
+  VertexStream copy(std::uint32_t index) const {
+    VertexStream stream = *this;
+    stream.copy_ = index;
+    return stream;
   }
   /// Returns the numbers of candidate `index` for the next step, below kMostCandidates. Candidate 0
   /// has the numbers of this stream.
@@ -83,6 +95,17 @@ class VertexStream {
   }
 
  private:
+  /// Fractions of a turn, in units of 2^-32. A 32-bit product wraps around like the circle.
+  static constexpr std::uint32_t kGoldenRatio = 2654435769u;    ///< (sqrt(5) - 1) / 2
+  static constexpr std::uint32_t kPlasticRatio = 3242174889u;   ///< 1 / 1.3247..., x^3 = x + 1
+  static constexpr std::uint32_t kPlasticSquare = 2447445414u;  ///< its square
+
+  /// Moves a number of [0, 1) by `copy_` times `step` on the circle.
+  float on_circle(float u, std::uint32_t step) const {
+    // The upper 24 bits are exact as a float.
+    const float moved = u + static_cast<float>((copy_ * step) >> 8) * 0x1p-24f;
+    return moved < 1 ? moved : moved - 1;
+  }
   /// Branches count modulo 2^16.
   std::uint16_t shifted(std::uint16_t branch) const {
     return static_cast<std::uint16_t>(first_branch_ + branch);
@@ -91,7 +114,8 @@ class VertexStream {
   const SampleStream* stream_;
   std::uint16_t bounce_;
   std::uint16_t first_branch_ = 0;
-  float rest_ = -1;  ///< negative: none
+  std::uint32_t copy_ = 0;  ///< see copy()
+  float rest_ = -1;         ///< negative: none
 };
 
 /// An estimate of radiance at a film position. Its expected value is the expected value of the

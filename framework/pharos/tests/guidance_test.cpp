@@ -1,5 +1,7 @@
 // How one number chooses between unguided sampling and the guides, among them, and within a guide.
+#include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -106,6 +108,35 @@ TEST_CASE("streams: the number of an earlier choice replaces guide_choice alone"
   CHECK(stream.get_1d(Purpose::guide_distance) == SameNumbers::kNumber);
   CHECK(stream.get_1d(Purpose::bsdf_choice) == SameNumbers::kNumber);
   CHECK(VertexStream(path, 1).get_1d(Purpose::guide_choice) == SameNumbers::kNumber);
+}
+
+TEST_CASE("streams: the numbers of copies are evenly spread together") {
+  const SameNumbers numbers;
+  const SampleStream path(numbers, {});
+  const VertexStream stream(path, 1);
+  CHECK(stream.copy(0).get_1d(Purpose::bsdf_choice) == SameNumbers::kNumber);
+  CHECK(stream.copy(0).get_2d(Purpose::bsdf_direction) == stream.get_2d(Purpose::bsdf_direction));
+  for (const std::uint32_t count : {2u, 5u, 13u, 100u}) {
+    std::vector<float> places;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const float u = stream.copy(i).get_1d(Purpose::bsdf_choice);
+      CHECK((u >= 0 && u < 1));
+      places.push_back(u);
+    }
+    std::sort(places.begin(), places.end());
+    float widest = 1 + places.front() - places.back();
+    for (std::uint32_t i = 1; i < count; ++i) {
+      widest = std::max(widest, places[i] - places[i - 1]);
+    }
+    CHECK(widest < 1.7f / static_cast<float>(count));
+  }
+  std::array<int, 16> cells{};
+  for (std::uint32_t i = 0; i < 64; ++i) {
+    const Vec2 u = stream.copy(i).get_2d(Purpose::bsdf_direction);
+    CHECK((u.x >= 0 && u.x < 1 && u.y >= 0 && u.y < 1));
+    ++cells[static_cast<std::size_t>(4 * u.y) * 4 + static_cast<std::size_t>(4 * u.x)];
+  }
+  for (const int points : cells) CHECK(std::abs(points - 4) <= 2);
 }
 
 TEST_CASE("guidance: without guides nothing decides for them") {

@@ -22,7 +22,7 @@ namespace {
 class TinyRule final : public TerminationRule {
  public:
   explicit TinyRule(float factor) : factor_(factor) {}
-  float factor(const TerminationQuery&) const override { return factor_; }
+  BranchFactors factors(const TerminationQuery&) const override { return {factor_}; }
 
  private:
   float factor_;
@@ -116,7 +116,7 @@ TEST_CASE("render learning: other processes get the rule, without what it was le
   CHECK(frozen().size() == size);
   load_bytes(frozen(), [&](Archive& archive) { other.archive_frozen(archive); });
   REQUIRE(other.rule() != nullptr);
-  CHECK(other.rule()->factor({}) == 2);
+  CHECK(other.rule()->factors({}).steps == 2);
 }
 
 }  // namespace pharos

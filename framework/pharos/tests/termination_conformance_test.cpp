@@ -22,15 +22,21 @@ class FaultyRule final : public TerminationRule {
  public:
   explicit FaultyRule(double paths) : paths_(static_cast<float>(paths)) {}
 
-  float factor(const TerminationQuery&) const override {
-    if (Settings::planted == RuleFault::negative) return -1;
-    if (Settings::planted == RuleFault::undefined) return std::numeric_limits<float>::quiet_NaN();
-    if (Settings::planted == RuleFault::huge) return 1e9f;
-    if (Settings::planted == RuleFault::moods) return asked_++ % 2 == 0 ? 1 : 1.01f;
-    return 1 + 1e-6f * paths_;
-  }
-  float light_factor(const TerminationQuery&, float) const override {
-    return Settings::planted == RuleFault::huge_lights ? kInfinity : 1;
+  BranchFactors factors(const TerminationQuery&) const override {
+    switch (Settings::planted) {
+      case RuleFault::negative:
+        return {-1};
+      case RuleFault::undefined:
+        return {std::numeric_limits<float>::quiet_NaN()};
+      case RuleFault::huge:
+        return {1e9f};
+      case RuleFault::huge_lights:
+        return {1, kInfinity};
+      case RuleFault::moods:
+        return {asked_++ % 2 == 0 ? 1 : 1.01f};
+      default:
+        return {1 + 1e-6f * paths_};
+    }
   }
 
  private:

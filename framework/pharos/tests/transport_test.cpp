@@ -46,7 +46,7 @@ using Flight = Walk::InFlight;
 /// The same factor at every vertex.
 struct Factor final : TerminationRule {
   explicit Factor(float f) : value(f) {}
-  float factor(const TerminationQuery&) const override { return value; }
+  BranchFactors factors(const TerminationQuery&) const override { return {value}; }
   float value;
 };
 

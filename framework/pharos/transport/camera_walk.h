@@ -25,7 +25,6 @@ struct LightDraw {
   std::uint16_t branch = 0;  ///< as LightSelector::choose() takes it
   std::uint16_t copy = 0;    ///< lights are sampled several times where light samples split
   float weight = 1;          ///< 1 over the expected number of copies
-  std::uint16_t number = 0;  ///< key of its random numbers
 };
 
 /// The result of one path from the sensor.
@@ -144,13 +143,13 @@ class CameraWalk {
     }
   }
 
-  /// Takes a light sample at the current vertex, with the random numbers `u` in [0,1)^2.
+  /// Takes a light sample at the current vertex. `numbers` choose the light, and `u` in [0,1)^2 the
+  /// position on it.
   void sample_light(InFlight& flight, const LocalScattering& scattering, const Guidance& guidance,
-                    LightDraw draw, Vec2 u) const {
+                    LightDraw draw, const VertexStream& numbers, Vec2 u) const {
     const Path& path = flight.path;
-    const float u_choice = shared_.lights.needs_number()
-                               ? path.numbers().get_1d(Purpose::light_choice, draw.number)
-                               : 0;
+    const float u_choice =
+        shared_.lights.needs_number() ? numbers.get_1d(Purpose::light_choice, draw.branch) : 0;
     const int index = shared_.lights.choose(draw.branch, u_choice);
     const Light& emitter = *scene_.lights()[static_cast<std::size_t>(index)];
     LightSample light = emitter.sample(path.here().position(), u);
@@ -174,12 +173,13 @@ class CameraWalk {
     void leaves(Path& path, const LocalScattering& scattering, const Guidance& guidance) const {
       if (!walk.samples_lights(scattering)) return;
       const std::uint16_t branches = walk.shared_.lights.branches();
-      walk.kernel_.recorder().lights(path, branching.lights * branches);
+      walk.kernel_.recorder().lights(path, branching.lights, branches);
       LightDraw draw{.weight = branching.light_weight};
       for (; draw.copy < branching.lights; ++draw.copy) {
-        for (draw.branch = 0; draw.branch < branches; ++draw.branch, ++draw.number) {
-          walk.sample_light(flight, scattering, guidance, draw,
-                            path.numbers().get_2d(Purpose::light_position, draw.number));
+        const VertexStream numbers = Rules::copy_numbers(path.numbers(), draw.copy);
+        for (draw.branch = 0; draw.branch < branches; ++draw.branch) {
+          walk.sample_light(flight, scattering, guidance, draw, numbers,
+                            numbers.get_2d(Purpose::light_position, draw.branch));
         }
       }
     }
@@ -191,7 +191,7 @@ class CameraWalk {
     Branching branches(const Path& path, const LocalScattering& scattering) {
       const std::uint32_t most_new = waiting != nullptr ? waiting->left() : 0;
       branching = walk.termination_.branching(path, flight.found.film, scattering, most_new,
-                                              walk.shared_.lights.most_copies());
+                                              kMostLightCopies);
       Features& features = flight.found.features;
       if (path.bounce <= features.splitting.size()) {
         features.splitting[path.bounce - 1].add(1 / branching.weight);

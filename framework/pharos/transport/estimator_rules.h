@@ -49,8 +49,14 @@ struct EstimatorRules {
   /// of each light sample where it takes `factor` light samples on average.
   static float branch_weight(float factor) { return 1 / factor; }
 
-  /// Returns the seed of the random numbers of a branch. The path from which it has split has the
-  /// seed `seed`.
+  /// Returns the random numbers of copy `copy` at a vertex that several steps or several light
+  /// samples leave. Copy 0 has `numbers`.
+  static VertexStream copy_numbers(const VertexStream& numbers, std::uint32_t copy) {
+    return numbers.copy(copy);
+  }
+
+  /// Returns the seed of the random numbers of a branch, from its next vertex on. The path from
+  /// which it has split has the seed `seed`.
   static std::uint64_t branch_seed(std::uint64_t seed, std::uint32_t branch) {
     return hash_combine(seed, branch);
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 
 #include <pharos/core/arena.h>
@@ -76,8 +77,8 @@ class TransportKernel {
   ///
   /// If there may be more than one step, it has two more functions:
   ///
-  ///     // Returns a copy of the path, with other random numbers, which the kernel takes to its
-  ///     // next vertex. There it waits for settle().
+  ///     // Returns a copy of the path, with other random numbers from its next vertex on. The
+  ///     // kernel takes it there, where it waits for settle().
   ///     Path& add_branch(const Path&)
   ///     // Called if the branch that was added last has ended.
   ///     void drop_branch()
@@ -116,40 +117,44 @@ class TransportKernel {
   template <class Counterparts>
   bool advance(Path& path, const ScatterStep& step, const Guidance& guidance,
                Counterparts& counterparts) const {
-    if (!travel(path, step, guidance, counterparts)) return false;
+    if (!travel(path, step, guidance, path.numbers(), counterparts)) return false;
     describe_arrival(path);
     return !is_black(path.throughput);
   }
 
  private:
   /// Takes `branching.count` steps from the current vertex of a path. All of them share the
-  /// guidance. The path itself takes the last step, because the others need its state. Paths with
-  /// counterparts take one step at most.
+  /// guidance, and their random numbers are evenly spread together. The path itself takes the last
+  /// step, because the others need its state. Paths with counterparts take one step at most.
   template <class Visitor, class Counterparts>
   bool split(Path& path, const LocalScattering& scattering, const Guidance& guidance,
              Branching branching, Visitor& visitor, Counterparts& counterparts) const {
     recorder_.weigh(path, branching.count > 0 ? branching.weight : 0);
+    path.branches *= std::max(1 / branching.weight, 1.0f);
     if constexpr (requires { visitor.add_branch(path); }) {
       NoCounterparts none;
       for (std::uint32_t i = 1; i < branching.count; ++i) {
         Path& branch = visitor.add_branch(path);
         recorder_.split(path, branch);
         ScatterStep step;
-        const bool goes = draw(branch, scattering, guidance, branching.weight, step) &&
-                          travel(branch, step, guidance, none) && !is_black(branch.throughput);
+        const VertexStream numbers = Rules::copy_numbers(path.numbers(), i);
+        const bool goes = draw(numbers, scattering, guidance, branching.weight, step) &&
+                          travel(branch, step, guidance, numbers, none) &&
+                          !is_black(branch.throughput);
         if (!goes) visitor.drop_branch();
       }
     }
     ScatterStep step;
-    return branching.count > 0 && draw(path, scattering, guidance, branching.weight, step) &&
+    return branching.count > 0 &&
+           draw(path.numbers(), scattering, guidance, branching.weight, step) &&
            advance(path, step, guidance, counterparts);
   }
 
   /// Draws a step that stands for `weight` of the steps from the vertex. Returns false for a valid
   /// sample of value zero.
-  static bool draw(const Path& path, const LocalScattering& scattering, const Guidance& guidance,
-                   float weight, ScatterStep& step) {
-    if (!sample_step(scattering, guidance, path.numbers(), step)) return false;
+  static bool draw(const VertexStream& numbers, const LocalScattering& scattering,
+                   const Guidance& guidance, float weight, ScatterStep& step) {
+    if (!sample_step(scattering, guidance, numbers, step)) return false;
     step.continuation = weight;
     return true;
   }
@@ -158,14 +163,13 @@ class TransportKernel {
   /// false if the step ends nowhere.
   template <class Counterparts>
   bool travel(Path& path, const ScatterStep& step, const Guidance& guidance,
-              Counterparts& counterparts) const {
+              const VertexStream& numbers, Counterparts& counterparts) const {
     const PathVertex& from = path.here();
     PathVertex& to = path.vertices[1 - path.at];
     const Ray ray{from.origin_towards(step.direction), step.direction};
     Segment segment;
-    const bool arrives =
-        tracer_.trace(ray, from.medium_towards(scene_, step.direction), step,
-                      path.throughput * step.value, path.numbers(), segment, to.surface);
+    const bool arrives = tracer_.trace(ray, from.medium_towards(scene_, step.direction), step,
+                                       path.throughput * step.value, numbers, segment, to.surface);
     if (!arrives || !step.accepts(segment.kind, to.position())) return false;
     to.kind = segment.kind;
     to.medium = segment.medium;

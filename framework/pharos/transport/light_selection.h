@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string_view>
@@ -31,9 +30,6 @@ class LightSelector {
 
   /// Returns the number of light samples to take at each vertex.
   std::uint16_t branches() const { return branches_; }
-  /// Returns how often lights can be sampled at a vertex. Each light sample has random numbers of
-  /// its own, whose key has 16 bits.
-  std::uint32_t most_copies() const { return 0xffff / std::max<std::uint32_t>(branches_, 1); }
   /// Returns whether choose() uses its random number, that is, whether there is more than one light
   /// to choose from.
   bool needs_number() const { return cumulative_.size() > 1; }

@@ -38,6 +38,7 @@ struct Path {
   float first_throughput = 1;   ///< largest component after the first step, for Russian roulette
   float film_weight = 1;        ///< part of the throughput; see TerminationQuery
   float solid_angle_scale = 1;  ///< undoes the compression of radiance by refraction so far
+  float branches = 1;           ///< as TerminationQuery::branches
 
   PathMemories memories{};  ///< what guides remember along the path
   /// The previous and the current vertex as guides see them. Not maintained if there is neither a

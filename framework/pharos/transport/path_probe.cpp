@@ -102,8 +102,8 @@ class PathProbe final : public IntegrandProbe {
     walk.visit_vertex(flight, bounce,
                       [&](const LocalScattering& scattering, const Guidance& guidance) {
                         for (std::size_t i = 0; i < points.size(); ++i) {
-                          walk.sample_light(flight, scattering, guidance,
-                                            {.branch = branch, .number = branch}, points[i]);
+                          walk.sample_light(flight, scattering, guidance, {.branch = branch},
+                                            flight.path.numbers(), points[i]);
                           values[i] = recorder.take();
                         }
                       });

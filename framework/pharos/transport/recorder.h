@@ -50,8 +50,9 @@ struct SilentRecorder {
   void weigh(const Path&, float /*continuation*/) {}
   /// Reports that `branch`, a copy of `trunk`, takes a step of its own from the current vertex.
   void split(const Path& /*trunk*/, Path& /*branch*/) {}
-  /// Reports that `count` light samples are taken at the current vertex.
-  void lights(const Path&, std::uint32_t /*count*/) {}
+  /// Reports that lights are sampled `copies` times at the current vertex, each time with a light
+  /// sample in each of `branches` branches.
+  void lights(const Path&, std::uint32_t /*copies*/, std::uint32_t /*branches*/) {}
   /// Reports a connection from the current vertex. `value` is its f/p, without throughput.
   void connect(const Path&, const Connection&, PathWeight, Rgb /*value*/) {}
   /// Reports the step from the current vertex, once the next vertex is known.
@@ -124,8 +125,10 @@ class LogRecorder {
     twin.continuation = first.continuation;
     twin.branch = branch.branch;
   }
-  void lights(const Path& path, std::uint32_t count) {
-    if (is_on_) log_.vertex(path.record).light_samples = count;
+  void lights(const Path& path, std::uint32_t copies, std::uint32_t branches) {
+    if (!is_on_) return;
+    log_.vertex(path.record).light_samples = copies * branches;
+    log_.vertex(path.record).light_copies = copies;
   }
   void connect(const Path& path, const Connection& end, PathWeight weight, Rgb value) {
     if (!is_on_) return;

@@ -30,14 +30,20 @@ class TerminationChoice {
     // The limit is a whole number, so drawn numbers do not exceed it either. Branches of a discrete
     // event would coincide.
     const float limit = query.discrete ? 1 : 1 + static_cast<float>(most_new);
-    const float factor = std::min(of_vertex_->factor(query), limit);
-    const float light_factor =
-        std::min(of_vertex_->light_factor(query, factor), static_cast<float>(most_lights));
-    if (factor == 1 && light_factor == 1) return {};
-    // Equal factors give equal numbers, so that each step has a light sample.
-    const float u = path.numbers().get_1d(Purpose::roulette, 1);
-    return {whole_number(factor, u), Rules::branch_weight(factor), whole_number(light_factor, u),
-            Rules::branch_weight(light_factor)};
+    const BranchFactors asked = of_vertex_->factors(query);
+    const bool are_equal = asked.lights == asked.steps;
+    const float steps = std::min(asked.steps, limit);
+    const float lights =
+        std::min(are_equal ? steps : asked.lights, static_cast<float>(most_lights));
+    if (steps == 1 && lights == 1) return {};
+    // Equal factors give equal numbers, so that each step has a light sample. Different ones are
+    // drawn independently, so that roulette does not take away steps and light samples together.
+    constexpr std::uint16_t kSteps = 1, kLights = 2;  // branches of Purpose::roulette
+    const auto number = [&](float expected, std::uint16_t branch) {
+      return whole_number(expected, path.numbers().get_1d(Purpose::roulette, branch));
+    };
+    return {number(steps, kSteps), Rules::branch_weight(steps),
+            number(lights, are_equal ? kSteps : kLights), Rules::branch_weight(lights)};
   }
 
   /// Plays Russian roulette after a step was drawn. Returns false if the path ends;
@@ -48,7 +54,7 @@ class TerminationChoice {
         step.event == Event::smooth_transmit || step.event == Event::discrete_transmit;
     // Refraction does not change the throughput of paths from lights.
     if (refracts && path.transport == Transport::radiance) note_refraction(path, scattering);
-    const float survival = of_step_->factor(query_at(path, film, scattering));
+    const float survival = of_step_->factors(query_at(path, film, scattering)).steps;
     if (survival >= 1) return true;
     const bool ends = path.numbers().get_1d(Purpose::roulette) >= survival;
     step.continuation = ends ? 0 : Rules::survivor_weight(survival);
@@ -71,6 +77,7 @@ class TerminationChoice {
             .throughput = path.throughput,
             .first_throughput = path.first_throughput,
             .film_weight = path.film_weight,
+            .branches = path.branches,
             .solid_angle_scale = path.solid_angle_scale};
   }
 

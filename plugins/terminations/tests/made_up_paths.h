@@ -39,6 +39,21 @@ inline void add_path(PathLog& log, float found, std::uint32_t branches, float co
   }
 }
 
+/// Adds light samples at a vertex of the last path: `copies` of weight `continuation`. Copy i finds
+/// the radiance i times `found`, as far as the vertex reflects it.
+inline void add_light_samples(PathLog& log, std::uint32_t vertex, std::uint32_t copies,
+                              float continuation, float found) {
+  log.vertex(vertex).light_samples = log.vertex(vertex).light_copies = copies;
+  // Light samples that have found nothing are not recorded.
+  for (std::uint32_t copy = 1; copy < copies; ++copy) {
+    log.add(
+        RecordedLightSample{.vertex = vertex,
+                            .copy = static_cast<std::uint16_t>(copy),
+                            .continuation = continuation,
+                            .contribution = Rgb(continuation * found * static_cast<float>(copy))});
+  }
+}
+
 /// Adds a path that roulette has ended at the wall.
 inline void add_ended_path(PathLog& log) {
   log.begin_path({0.5f, 0.5f}, Transport::radiance);

@@ -13,7 +13,7 @@ namespace {
 /// Steps on both sides of the plane x = 0, which find 1 on the left and 3 on the right if the
 /// viewer is above, and nothing otherwise.
 OutcomeCells two_sides(const DirectionBins& bins, std::size_t count) {
-  std::vector<StepOutcome> steps;
+  std::vector<Outcome> steps;
   RandomStream random(1);
   for (std::size_t i = 0; i < count; ++i) {
     const float x = 2 * random.next_1d() - 1;
@@ -22,10 +22,9 @@ OutcomeCells two_sides(const DirectionBins& bins, std::size_t count) {
     steps.push_back({{x, 0.01f * x, 0}, viewer, radiance, radiance, x < 0 ? 2.0f : 5.0f});
   }
   OutcomeCells cells;
-  cells.learn(steps, {.cell_samples = static_cast<std::uint32_t>(3 * count / 4)},
-              [&](OutcomeCell& cell, std::span<const StepOutcome> own, std::size_t) {
-                cell.learn(own, bins);
-              });
+  cells.learn(
+      steps, {.cell_samples = static_cast<std::uint32_t>(3 * count / 4)},
+      [&](OutcomeCell& cell, std::span<const Outcome> own, std::size_t) { cell.learn(own, bins); });
   return cells;
 }
 
@@ -59,10 +58,9 @@ TEST_CASE("outcome cells: expected values by position and direction") {
   const ExpectedOutcome right = field.at({0.9f, 0, 0}, {0.1f, 0.1f, 0.99f});
   CHECK(left.radiance == doctest::Approx(1).epsilon(0.03));
   CHECK(right.radiance == doctest::Approx(3).epsilon(0.03));
-  CHECK(right.squared == doctest::Approx(9).epsilon(0.03));
-  CHECK(right.variance < 0.1f);
-  CHECK(left.cost == doctest::Approx(2).epsilon(0.03));
-  CHECK(right.cost == doctest::Approx(5).epsilon(0.03));
+  CHECK(left.step.squared == doctest::Approx(std::sqrt(1 / 2.0)).epsilon(0.03));
+  CHECK(right.step.squared == doctest::Approx(std::sqrt(9 / 5.0)).epsilon(0.03));
+  CHECK(right.step.variance < 0.15f);
   CHECK(field.at({0.9f, 0, 0}, {0, 0, -1}).radiance < 0.1f);
 }
 
@@ -86,44 +84,62 @@ TEST_CASE("outcome cells: the same bin of the larger cell counts as a number of 
 TEST_CASE("outcome cells: limits of estimates change the variance, but not the second moment") {
   const DirectionBins bins(1);
   OutcomeCells cells;
-  std::vector<StepOutcome> steps{{{}, {0, 0, 1}, 1, 1, 2}, {{}, {0, 0, 1}, 9, 3, 2}};
-  cells.learn(steps, {}, [&](OutcomeCell& cell, std::span<const StepOutcome> own, std::size_t) {
+  std::vector<Outcome> steps{{{}, {0, 0, 1}, 1, 1, 2}, {{}, {0, 0, 1}, 9, 3, 2}};
+  cells.learn(steps, {}, [&](OutcomeCell& cell, std::span<const Outcome> own, std::size_t) {
     cell.learn(own, bins);
   });
   const ExpectedOutcome found = OutcomeField(cells, bins, 1).at({}, {0, 0, 1});
   CHECK(found.radiance == doctest::Approx(5));
-  CHECK(found.squared == doctest::Approx((1 + 81) / 2.0));
-  CHECK(found.variance == doctest::Approx(1));
+  CHECK(found.step.squared == doctest::Approx(std::sqrt((1 + 81) / 2.0 / 2)));
+  CHECK(found.step.variance == doctest::Approx(std::sqrt(1 / 2.0)));
+}
+
+TEST_CASE("outcome cells: light samples have expected values of their own") {
+  const DirectionBins bins(1);
+  OutcomeCells cells;
+  std::vector<Outcome> outcomes{{{}, {0, 0, 1}, 1, 1, 8}, {{}, {0, 0, 1}, 3, 3, 8}};
+  for (const float found : {0.0f, 0.0f, 6.0f}) {
+    outcomes.push_back({{}, {0, 0, 1}, found, found, 2, 1, true});
+  }
+  cells.learn(outcomes, {}, [&](OutcomeCell& cell, std::span<const Outcome> own, std::size_t) {
+    cell.learn(own, bins);
+  });
+  const ExpectedOutcome found = OutcomeField(cells, bins, 1).at({}, {0, 0, 1});
+  CHECK(found.radiance == doctest::Approx(2 + 2));
+  CHECK(found.step.squared == doctest::Approx(std::sqrt(5 / 8.0)));
+  CHECK(found.step.variance == doctest::Approx(std::sqrt(1 / 8.0)));
+  CHECK(found.light.squared == doctest::Approx(std::sqrt(12 / 2.0)));
+  CHECK(found.light.variance == doctest::Approx(std::sqrt(8 / 2.0)));
 }
 
 TEST_CASE("outcome cells: an outcome counts for its number of steps") {
   const DirectionBins bins(1);
   OutcomeCells cells;
-  std::vector<StepOutcome> steps{{{}, {0, 0, 1}, 1, 1, 2, 3}, {{}, {0, 0, 1}, 5, 5, 6, 1}};
-  cells.learn(steps, {}, [&](OutcomeCell& cell, std::span<const StepOutcome> own, std::size_t) {
+  std::vector<Outcome> steps{{{}, {0, 0, 1}, 1, 1, 2, 3}, {{}, {0, 0, 1}, 5, 5, 6, 1}};
+  cells.learn(steps, {}, [&](OutcomeCell& cell, std::span<const Outcome> own, std::size_t) {
     cell.learn(own, bins);
   });
   const ExpectedOutcome found = OutcomeField(cells, bins, 4).at({}, {0, 0, 1});
   CHECK(found.radiance == doctest::Approx((3 * 1 + 5) / 4.0));
-  CHECK(found.squared == doctest::Approx((3 * 1 + 25) / 4.0));
-  CHECK(found.cost == doctest::Approx((3 * 2 + 6) / 4.0));
+  const double squared = (3 * 1 + 25) / 4.0, cost = (3 * 2 + 6) / 4.0;
+  CHECK(found.step.squared == doctest::Approx(std::sqrt(squared / cost)));
 }
 
 TEST_CASE("outcome cells: moments that no float can hold are the largest float") {
   const DirectionBins bins(1);
   OutcomeCells cells;
-  std::vector<StepOutcome> steps(100, {{}, {0, 0, 1}, 1e30f, 1e30f, 2});
-  cells.learn(steps, {}, [&](OutcomeCell& cell, std::span<const StepOutcome> own, std::size_t) {
+  std::vector<Outcome> steps(100, {{}, {0, 0, 1}, 1e30f, 1e30f, 2});
+  cells.learn(steps, {}, [&](OutcomeCell& cell, std::span<const Outcome> own, std::size_t) {
     cell.learn(own, bins);
   });
-  CHECK(std::isfinite(OutcomeField(cells, bins, 10).at({}, {0, 0, 1}).squared));
+  CHECK(std::isfinite(OutcomeField(cells, bins, 10).at({}, {0, 0, 1}).step.squared));
 }
 
 TEST_CASE("outcome cells: where no step was recorded, the mean of the scene counts") {
   const DirectionBins bins(2);
   OutcomeCells cells;
-  std::vector<StepOutcome> steps(100, {{}, {0.1f, 0.1f, 0.99f}, 6, 6, 2});
-  cells.learn(steps, {}, [&](OutcomeCell& cell, std::span<const StepOutcome> own, std::size_t) {
+  std::vector<Outcome> steps(100, {{}, {0.1f, 0.1f, 0.99f}, 6, 6, 2});
+  cells.learn(steps, {}, [&](OutcomeCell& cell, std::span<const Outcome> own, std::size_t) {
     cell.learn(own, bins);
   });
   CHECK(OutcomeField(cells, bins, 10).at({}, {0.1f, 0.1f, -0.99f}).radiance == 6);

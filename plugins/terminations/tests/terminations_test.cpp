@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include <doctest/doctest.h>
 
@@ -52,13 +54,13 @@ TEST_CASE("none: there is no rule") {
 TEST_CASE("throughput: survival as the throughput says, from the first vertex of roulette on") {
   const auto rule = ThroughputTermination({.depth = 3, .limit = 0.9f}).begin(kContext)->rule();
   CHECK(rule->stage() == TerminationRule::Stage::step);
-  CHECK(rule->factor(at_wall(0.25f, 2)) == 1);
-  CHECK(rule->factor(at_wall(0.25f, 3)) == 0.25f);
-  CHECK(rule->factor(at_wall(2, 3)) == 0.9f);
+  CHECK(rule->factors(at_wall(0.25f, 2)).steps == 1);
+  CHECK(rule->factors(at_wall(0.25f, 3)).steps == 0.25f);
+  CHECK(rule->factors(at_wall(2, 3)).steps == 0.9f);
   TerminationQuery refracted = at_wall(0.25f);
   refracted.first_throughput = 0.5f;
   refracted.solid_angle_scale = 1.5f;
-  CHECK(rule->factor(refracted) == doctest::Approx(0.75));
+  CHECK(rule->factors(refracted).steps == doctest::Approx(0.75));
 }
 
 TEST_CASE("adjoint: contributions outside the window are moved to its edge") {
@@ -76,12 +78,10 @@ TEST_CASE("adjoint: contributions outside the window are moved to its edge") {
 }
 
 TEST_CASE("efficiency: the factor in closed form") {
-  const ExpectedOutcome found{.squared = 25, .variance = 16, .cost = 4};
-  // q_r = T/I 5 / 2 sqrt(worth), q_s = T/I 4 / 2 sqrt(worth)
-  CHECK(efficiency_factor(0.1f, found, 1) == doctest::Approx(0.25));
-  CHECK(efficiency_factor(0.45f, found, 1) == 1);
-  CHECK(efficiency_factor(2, found, 1) == doctest::Approx(4));
-  CHECK(efficiency_factor(2, found, 0.25f) == doctest::Approx(2));
+  const Spread found{.squared = 2.5f, .variance = 2};
+  CHECK(efficiency_factor(0.1f, found) == doctest::Approx(0.25));
+  CHECK(efficiency_factor(0.45f, found) == 1);
+  CHECK(efficiency_factor(2, found) == doctest::Approx(4));
 }
 
 TEST_CASE("learned terminations begin with roulette by throughput and then use what they know") {
@@ -98,18 +98,18 @@ TEST_CASE("learned terminations begin with roulette by throughput and then use w
        std::array<const Termination*, 2>{&by_adjoint, &by_efficiency}) {
     const auto first = termination->begin(kContext)->rule();
     CHECK(first->stage() == TerminationRule::Stage::step);
-    CHECK(first->factor(at_wall(0.25f)) == 0.25f);
+    CHECK(first->factors(at_wall(0.25f)).steps == 0.25f);
     const auto later = taught(*termination)->rule();
     CHECK(later->stage() == TerminationRule::Stage::vertex);
-    CHECK(later->factor(at_wall(1e-6f)) == adjoint.least);
-    CHECK(later->factor(at_wall(1e6f)) == adjoint.most);
-    CHECK(later->factor(at_wall(0.1f)) < 1);
-    CHECK(later->factor(at_wall(10)) > 1);
+    CHECK(later->factors(at_wall(1e-6f)).steps == adjoint.least);
+    CHECK(later->factors(at_wall(1e6f)).steps == adjoint.growth);
+    CHECK(later->factors(at_wall(0.1f)).steps < 1);
+    CHECK(later->factors(at_wall(10)).steps > 1);
   }
   // A step finds the pixel's radiance on average: the middle of the window.
-  CHECK(taught(by_adjoint)->rule()->factor(at_wall(1)) == 1);
+  CHECK(taught(by_adjoint)->rule()->factors(at_wall(1)).steps == 1);
   const float low = 2 / (1 + adjoint.window);
-  CHECK(taught(by_adjoint)->rule()->factor(at_wall(0.1f)) == doctest::Approx(0.1f / low));
+  CHECK(taught(by_adjoint)->rule()->factors(at_wall(0.1f)).steps == doctest::Approx(0.1f / low));
 }
 
 TEST_CASE("learned terminations: the first roulette favors refracted steps, which is made up for") {
@@ -126,7 +126,7 @@ TEST_CASE("learned terminations: the first roulette favors refracted steps, whic
   state->absorb(log);
   state->update({.left = 0});
   const float low = 2 / (1 + settings.window);
-  CHECK(state->rule()->factor(at_wall(0.1f)) == doctest::Approx(0.1f / low));
+  CHECK(state->rule()->factors(at_wall(0.1f)).steps == doctest::Approx(0.1f / low));
 }
 
 TEST_CASE("efficiency: the path itself is the fixed point of a single step") {
@@ -134,7 +134,7 @@ TEST_CASE("efficiency: the path itself is the fixed point of a single step") {
   EfficiencyTermination::Settings settings;
   settings.outliers = 0;
   settings.pixel_offset = 1e-6;
-  const float factor = taught(EfficiencyTermination(settings))->rule()->factor(at_wall(1));
+  const float factor = taught(EfficiencyTermination(settings))->rule()->factors(at_wall(1)).steps;
   CHECK(factor == doctest::Approx(std::sqrt(2)).epsilon(0.05));
 }
 
@@ -154,7 +154,7 @@ TEST_CASE("efficiency: a path that finds much more than others changes no factor
       state->absorb(log);
       state->update({.left = left});
     }
-    return state->rule()->factor(at_wall(1));
+    return state->rule()->factors(at_wall(1)).steps;
   };
   CHECK(factor_with(1e4f, 0.01) == doctest::Approx(factor_with(3, 0.01)).epsilon(0.1));
   // Without a limit, it changes the error of the image and so all factors.
@@ -178,7 +178,8 @@ TEST_CASE("learned terminations: guides of the camera do not change the factors 
       for (const float throughput : {0.1f, 1.0f, 4.0f}) {
         TerminationQuery query = at_wall(throughput * weight);
         query.film_weight = weight;
-        CHECK(guided->factor(query) == doctest::Approx(even->factor(at_wall(throughput))));
+        CHECK(guided->factors(query).steps ==
+              doctest::Approx(even->factors(at_wall(throughput)).steps));
       }
     }
   }
@@ -188,7 +189,7 @@ TEST_CASE("adjoint: where the camera is guided, rare pixels do not split more th
   const auto rule = taught(AdjointTermination({}))->rule();
   TerminationQuery rare = at_wall(30);
   rare.film_weight = 30;
-  CHECK(rule->factor(rare) == rule->factor(at_wall(1)));
+  CHECK(rule->factors(rare).steps == rule->factors(at_wall(1)).steps);
 }
 
 TEST_CASE("learned terminations: mirrors and the first vertices are left alone") {
@@ -197,11 +198,11 @@ TEST_CASE("learned terminations: mirrors and the first vertices are left alone")
   for (const float throughput : {1e-3f, 1e3f}) {
     TerminationQuery query = at_wall(throughput);
     query.discrete = true;
-    CHECK(taught(by_adjoint)->rule()->factor(query) == 1);
-    CHECK(taught(by_efficiency)->rule()->factor(query) == 1);
-    CHECK(taught(by_adjoint)->rule()->factor(at_wall(throughput, 1)) == 1);
-    CHECK(taught(by_adjoint)->rule()->factor(at_wall(throughput, 2)) != 1);
-    CHECK(taught(by_efficiency)->rule()->factor(at_wall(throughput, 1)) != 1);
+    CHECK(taught(by_adjoint)->rule()->factors(query).steps == 1);
+    CHECK(taught(by_efficiency)->rule()->factors(query).steps == 1);
+    CHECK(taught(by_adjoint)->rule()->factors(at_wall(throughput, 1)).steps == 1);
+    CHECK(taught(by_adjoint)->rule()->factors(at_wall(throughput, 2)).steps != 1);
+    CHECK(taught(by_efficiency)->rule()->factors(at_wall(throughput, 1)).steps != 1);
   }
 }
 
@@ -212,8 +213,8 @@ TEST_CASE("learned terminations: paths of undefined or infinite throughput have 
        std::array<const Termination*, 2>{&by_adjoint, &by_efficiency}) {
     const auto rule = taught(*termination)->rule();
     for (const float throughput : {NAN, INFINITY}) {
-      CHECK(rule->factor(at_wall(throughput)) >= 0.05f);
-      CHECK(rule->factor(at_wall(throughput)) <= 20);
+      CHECK(rule->factors(at_wall(throughput)).steps >= 0.05f);
+      CHECK(rule->factors(at_wall(throughput)).steps <= 20);
     }
   }
 }
@@ -240,14 +241,61 @@ TEST_CASE("learned terminations: the number of cells has a limit") {
   CHECK(size_with(4) < size_with(1000));
 }
 
-TEST_CASE("light samples split with the steps where this was learned, and otherwise not at all") {
-  const ThroughputTermination throughput({.depth = 1, .limit = 0.5f});
-  CHECK(throughput.begin(kContext)->rule()->light_factor(at_wall(1), 0.3f) == 1);
-  const AdjointTermination by_adjoint({});
-  const EfficiencyTermination by_efficiency({});
-  for (const float factor : {0.3f, 1.0f, 7.0f}) {
-    CHECK(taught(by_adjoint)->rule()->light_factor(at_wall(1), factor) == factor);
-    CHECK(taught(by_efficiency)->rule()->light_factor(at_wall(1), factor) == factor);
+TEST_CASE("adjoint: light samples split and end with the steps") {
+  const auto rule = taught(AdjointTermination({}))->rule();
+  for (const float throughput : {0.01f, 0.1f, 1.0f, 10.0f}) {
+    const BranchFactors found = rule->factors(at_wall(throughput));
+    CHECK(found.lights == found.steps);
+  }
+}
+
+TEST_CASE("efficiency: light samples have the factor that their own spread asks for") {
+  EfficiencyTermination::Settings settings;
+  settings.outliers = 0;
+  settings.pixel_offset = 1e-6;
+  settings.growth = 100;
+  const auto lights_with = [&](float found) {
+    auto state = EfficiencyTermination(settings).begin(kContext);
+    for (const std::uint32_t left : {2u, 1u, 0u}) {
+      PathLog log;
+      for (int i = 0; i < 400; ++i) {
+        test::add_path(log, i % 4 == 0 ? 8 : 0, 1, 1);
+        test::add_light_samples(log, 1, 2, 0.5f, found);
+      }
+      state->absorb(log);
+      state->update({.left = left});
+    }
+    return state->rule()->factors(at_wall(1)).lights;
+  };
+  CHECK(lights_with(0) == settings.least);
+  CHECK(lights_with(0.2f) < 1);
+  CHECK(lights_with(20) > 1);
+}
+
+TEST_CASE(
+    "learned terminations: the number of branches of a path grows from iteration to iteration") {
+  EfficiencyTermination::Settings settings;
+  settings.first_iterations = 2;
+  settings.growth = 3;
+  settings.most = 20;
+  settings.outliers = 0;
+  auto state = EfficiencyTermination(settings).begin(kContext);
+  std::vector<float> found;
+  for (std::uint32_t i = 0; i < 6; ++i) {
+    PathLog log;
+    for (int k = 0; k < 400; ++k) test::add_path(log, k % 4 == 0 ? 8 : 0, 1, 1);
+    state->absorb(log);
+    state->update({.iteration = i, .left = 5 - i});
+    found.push_back(state->rule()->factors(at_wall(1e6f)).steps);
+  }
+  CHECK(found[0] < 1);  // roulette by throughput
+  CHECK(std::vector(found.begin() + 1, found.end()) == std::vector<float>{3, 9, 20, 20, 20});
+  TerminationQuery query = at_wall(1e6f);
+  for (const float branches : {20.0f, 80.0f, 1000.0f}) {
+    query.branches = branches;
+    // 3^5 branches in all
+    CHECK(state->rule()->factors(query).steps ==
+          doctest::Approx(std::clamp(243 / branches, 1.0f, 20.0f)));
   }
 }
 
@@ -296,8 +344,8 @@ TEST_CASE("learned terminations: the saved rule is small and has the same factor
   load_bytes(rule, [&](Archive& archive) { loaded->archive_rule(archive); });
   REQUIRE(loaded->rule()->stage() == TerminationRule::Stage::vertex);
   for (const float throughput : {0.3f, 1.0f, 3.0f}) {
-    CHECK(loaded->rule()->factor(at_wall(throughput)) ==
-          state->rule()->factor(at_wall(throughput)));
+    CHECK(loaded->rule()->factors(at_wall(throughput)).steps ==
+          state->rule()->factors(at_wall(throughput)).steps);
   }
 }
 
@@ -312,14 +360,14 @@ TEST_CASE("learned terminations: a saved state goes on as the state does") {
   auto loaded = termination.begin(kContext);
   load(saved, *loaded);
   for (const float throughput : {0.3f, 1.0f, 3.0f}) {
-    CHECK(loaded->rule()->factor(at_wall(throughput)) ==
-          state->rule()->factor(at_wall(throughput)));
+    CHECK(loaded->rule()->factors(at_wall(throughput)).steps ==
+          state->rule()->factors(at_wall(throughput)).steps);
   }
   state->update({});
   loaded->update({});
   for (const float throughput : {0.3f, 1.0f, 3.0f}) {
-    CHECK(loaded->rule()->factor(at_wall(throughput)) ==
-          state->rule()->factor(at_wall(throughput)));
+    CHECK(loaded->rule()->factors(at_wall(throughput)).steps ==
+          state->rule()->factors(at_wall(throughput)).steps);
   }
 }
 

@@ -29,20 +29,30 @@ struct TerminationQuery {
   /// [1]. It is part of the throughput, and differs from 1 only if guides of the camera choose film
   /// positions.
   float film_weight = 1;
+  /// Expected number of branches into which the path has split so far: the product of all factors
+  /// above 1 [1].
+  float branches = 1;
   /// Product of the factors by which refraction has compressed solid angles so far, inverted. Times
   /// this number, the throughput shows how much light was lost on the way [1]. It is 1 for rules of
   /// the stage `vertex`.
   float solid_angle_scale = 1;
 };
 
-/// Decides where paths end and where they split, frozen for one iteration: constant and
-/// thread-safe.
-///
-/// The decision at a vertex is a factor q, the expected number of steps that are taken from there.
+/// The expected numbers q of steps that a path takes from a vertex, and of light samples there [1].
 /// Each of them is weighted by 1 / q, so the image is unbiased for any q > 0:
 ///
-/// - q < 1: Russian roulette. One step is taken with probability q.
-/// - q > 1: stochastic splitting. floor(q) or floor(q) + 1 steps are taken, q on average.
+/// - q < 1: Russian roulette. There is one with probability q.
+/// - q > 1: stochastic splitting. There are floor(q) or floor(q) + 1, q on average.
+///
+/// If both factors are equal, there is a light sample for each step. Otherwise the numbers are
+/// drawn independently of each other.
+struct BranchFactors {
+  float steps = 1, lights = 1;
+  friend bool operator==(const BranchFactors&, const BranchFactors&) = default;
+};
+
+/// Decides where paths end and where they split, frozen for one iteration: constant and
+/// thread-safe.
 class TerminationRule {
  public:
   virtual ~TerminationRule() = default;
@@ -50,27 +60,18 @@ class TerminationRule {
   /// The time at which a rule is asked.
   enum class Stage {
     vertex,  ///< before steps are drawn. Only then can a path split
-    step     ///< after the step was drawn. Factors are at most 1
+    step     ///< after the step was drawn. The factor of steps is at most 1, the other is not used
   };
   virtual Stage stage() const { return Stage::vertex; }
 
   /// The largest factor that a rule may return. Each branch that waits takes memory.
   static constexpr float kMostFactor = 1000;
 
-  /// Returns the factor q, from 0 to kMostFactor [1]. A factor of 0 ends the path, so it is right
-  /// only if the rest of the path has no value. At mirrors and the like, and where the integrator
-  /// cannot split, factors above 1 count as 1.
-  virtual float factor(const TerminationQuery& query) const = 0;
-
-  /// Returns the factor of the light samples at the vertex, from 0 to kMostFactor [1]: the expected
-  /// number of times that lights are sampled there, each weighted by one over this factor. `factor`
-  /// is the factor of the steps, as returned by factor() and limited by the integrator. If both are
-  /// equal, lights are sampled once for each step. A factor of 0 is right only if light samples
-  /// have no value, because the weights of light that steps hit count on them. Rules of the stage
-  /// `step` are not asked.
-  virtual float light_factor(const TerminationQuery& /*query*/, float /*factor*/) const {
-    return 1;
-  }
+  /// Returns the factors at a vertex, each from 0 to kMostFactor. 0 is right only if what it rules
+  /// out has no value: the rest of the path, or light samples, on which the weights of light that
+  /// steps hit count. At mirrors and the like, and where the integrator cannot split, factors of
+  /// steps above 1 count as 1.
+  virtual BranchFactors factors(const TerminationQuery& query) const = 0;
 };
 
 /// The state of a termination during one render. Threads use it in the same way as LearningState.

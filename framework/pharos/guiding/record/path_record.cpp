@@ -84,7 +84,7 @@ void PathLog::clear() {
 }
 
 void PathLog::archive(Archive& archive) {
-  archive.heading("path_log", 4);
+  archive.heading("path_log", 5);
   archive.block(paths_);
   archive.block(vertices_);
   archive.block(light_samples_);
@@ -108,7 +108,8 @@ void PathLog::archive(Archive& archive) {
       };
       expect(is_sound(v.guidable) && (v.parent == kNoVertex || v.parent < k) && follows(v.next) &&
              follows(v.twin) && v.first_technique <= techniques_.size() &&
-             v.technique_count <= techniques_.size() - v.first_technique);
+             v.technique_count <= techniques_.size() - v.first_technique &&
+             v.light_copies <= kMostLightCopies);
     }
     for (std::uint64_t k = head.first_light_sample; k < light_end; ++k) {
       expect(is_sound(light_samples_[k].discrete) && light_samples_[k].vertex < count);

@@ -25,6 +25,9 @@ struct Technique {
   float density = 0;
 };
 
+/// Lights are sampled at most this often at a vertex, so that each copy has a number of 16 bits.
+inline constexpr std::uint32_t kMostLightCopies = 0xffff;
+
 /// A vertex of a recorded path, together with the step that leaves it. If a path branches at a
 /// vertex, the vertex is recorded once for each step from there, each time with the same parent.
 struct RecordedVertex {
@@ -54,6 +57,9 @@ struct RecordedVertex {
   /// Number of light samples that were taken here, those that found nothing included. 0 in later
   /// records of the same vertex.
   std::uint32_t light_samples = 0;
+  /// How often lights were sampled here. Each time, there may be a light sample of every light. 0
+  /// in later records of the same vertex.
+  std::uint32_t light_copies = 0;
   std::uint32_t mixing_key = kNoMixing;  ///< the key that MixingShares::at() returned here
   Rgb transmittance{1};  ///< transmittance of the medium along the step [1]; part of local_weight
   /// The medium's factor in all densities of the step: the density [1/m] of stopping at the next
@@ -76,8 +82,7 @@ struct RecordedLightSample {
   VertexKind kind = VertexKind::surface;  ///< of the point on the light or lens
   Event event = Event::none;              ///< event of the connection at the vertex
   bool discrete = false;                  ///< the light has no extent, so no step can hit it
-  /// Number of the copy, if light samples split at the vertex. Where steps split as well, copy i
-  /// goes with the record i of the vertex.
+  /// Number of the copy, below RecordedVertex::light_copies: lights may be sampled several times.
   std::uint16_t copy = 0;
   /// The factor that compensates for splitting and roulette of light samples: 1 over their expected
   /// number of copies. It is part of `contribution`.

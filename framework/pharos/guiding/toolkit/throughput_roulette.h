@@ -22,11 +22,11 @@ class ThroughputRoulette final : public TerminationRule {
 
   /// The step may refract, and refraction changes the probability.
   Stage stage() const override { return Stage::step; }
-  float factor(const TerminationQuery& query) const override {
-    if (query.bounce < depth_) return 1;
+  BranchFactors factors(const TerminationQuery& query) const override {
+    if (query.bounce < depth_) return {};
     const float value =
         max_component(query.throughput) * query.solid_angle_scale / query.first_throughput;
-    return std::min(limit_, value);
+    return {.steps = std::min(limit_, value)};
   }
 
  private:
