@@ -41,12 +41,13 @@ struct OutcomeSums {
   void archive(Archive& archive) { archive(steps, lights); }
 };
 
-/// The spread of estimates per square root of their cost C, the number of steps and light samples
-/// that each takes. It is what the best number of estimates is in proportion to.
+/// The spread of estimates X, each of which takes C steps and light samples. The best number of
+/// estimates is in proportion to it.
 struct Spread {
-  float squared = 0;  ///< sqrt(E[X^2] / C), for roulette
-  float variance =
-      0;  ///< sqrt(V[X] / C) of the limited estimates (Outcome::limited), for splitting
+  /// sqrt(E[X^2] / C), for roulette [radiance per square root of a step].
+  float squared = 0;
+  /// sqrt(V[X] / C) of the limited estimates (Outcome::limited), for splitting [the same].
+  float variance = 0;
 
   void archive(Archive& archive) { archive(squared, variance); }
 };
@@ -84,7 +85,7 @@ struct OutcomeCell {
 
 using OutcomeCells = KdTreeCells<Outcome, OutcomeCell>;
 
-/// What steps and light samples are expected to find, by position and direction: constant and
+/// Expected values by the position of a vertex and the direction towards the viewer: constant and
 /// thread-safe.
 class OutcomeField {
  public:
@@ -96,7 +97,7 @@ class OutcomeField {
   /// cell, and so on up to the whole scene.
   OutcomeField(const OutcomeCells& cells, DirectionBins directions, double least_steps);
 
-  /// Returns what is found at a point if the viewer is in this unit direction.
+  /// Returns the expected values at a vertex. `towards_viewer` is a unit vector.
   const ExpectedOutcome& at(Point3 p, Vec3 towards_viewer) const {
     return expected_[tree_.cell_at(p) * directions_.count() + directions_.at(towards_viewer)];
   }

@@ -56,7 +56,7 @@ OutcomeLearning::Known OutcomeLearning::summary() const {
   return std::make_shared<const LearnedOutcomes>(LearnedOutcomes{
       OutcomeField(cells_, directions(), settings_.least_steps),
       film_.denoised(settings_.denoising), static_cast<float>(settings_.pixel_offset * mean),
-      error_.squared(), error_.cost(), settings_.most_branches(uses_)});
+      error_.squared(), error_.cost(), settings_.branches_in(uses_)});
 }
 
 void OutcomeLearning::update(const TrainingStage& stage) {

@@ -16,7 +16,7 @@ bool has_drawn(const RecordedVertex& vertex) {
   return vertex.continuation > 0 && (vertex.event != Event::none || vertex.guidable);
 }
 
-/// Returns what was found at a vertex. `limit` is that of contributions to the pixel.
+/// Returns an outcome at a vertex. `limit` is the largest contribution to the pixel that counts.
 Outcome outcome_at(const PathView& path, const RecordedVertex& vertex, double radiance,
                    double limit) {
   return {.origin = vertex.position,
@@ -32,10 +32,10 @@ void OutcomeReader::read_lights(const PathView& path, std::uint32_t vertex, doub
                                 std::size_t& sample, std::vector<Outcome>& outcomes) {
   const RecordedVertex& here = path.vertices[vertex];
   found_by_copy_.assign(here.light_copies, 0);
-  for (; sample < path.light_samples.size() && path.light_samples[sample].vertex <= vertex;
-       ++sample) {
+  for (; sample < path.light_samples.size(); ++sample) {
     const RecordedLightSample& found = path.light_samples[sample];
-    if (found.vertex < vertex || found.copy >= here.light_copies) continue;
+    if (found.vertex != vertex) break;
+    if (found.copy >= here.light_copies) continue;
     found_by_copy_[found.copy] += mean(found.contribution) / found.continuation;
   }
   if (here.parent == kNoVertex || !here.guidable) return;

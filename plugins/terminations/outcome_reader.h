@@ -9,9 +9,9 @@
 
 namespace pharos {
 
-/// What one step from a vertex has found, or one light sample there, as if it had been the only
-/// one. A light sample is all that one call of next event estimation takes, which may be a sample
-/// of each light.
+/// What one step from a vertex has found, or what one light sample at the vertex has found. It is
+/// weighted as if it had been the only one. If all lights are sampled together, this counts as one
+/// light sample here.
 struct Outcome {
   Point3 origin;        ///< of the vertex
   Vec3 towards_viewer;  ///< unit, from the vertex along the path back to the sensor
@@ -51,8 +51,8 @@ class OutcomeReader {
  public:
   /// Reads a path from the sensor. Appends the outcomes of the steps after the first one, and of
   /// the light samples, to `outcomes`. Vertices whose events are all discrete are left out, because
-  /// paths are left alone there (TerminationQuery::discrete). `stage` is that of the rule by which
-  /// the path has ended or split. A limited estimate adds at most `limit` to the mean of the
+  /// paths are left alone there (TerminationQuery::discrete). `stage` is the stage of the rule by
+  /// which the path has ended or split. A limited estimate adds at most `limit` to the mean of the
   /// channels of its pixel.
   PathOutcome read(const PathView& path, TerminationRule::Stage stage, double limit,
                    std::vector<Outcome>& outcomes);

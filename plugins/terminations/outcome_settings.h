@@ -21,8 +21,9 @@ struct OutcomeSettings {
   explicit OutcomeSettings(std::uint16_t first_vertex) : depth(first_vertex) {}
 
   float least = 0.05f, most = 20;
-  /// EARS has no such bound. It learns in fifteen iterations of equal size. If there are four, the
-  /// last of which is the largest, factors would go from one to their final size at once.
+  /// EARS has no such limit, but it learns in fifteen iterations of equal size. With a geometric
+  /// schedule there may be four. Only the last one and the final image then use what was learned,
+  /// and without a limit its factors have their final size at once.
   float growth = 2;
   std::uint16_t depth;
   std::uint32_t first_iterations = 3;
@@ -56,7 +57,7 @@ struct OutcomeSettings {
   }
   /// Returns into how many branches a path may split in the `use`-th iteration that uses what was
   /// learned, from 1 on.
-  float most_branches(std::uint32_t use) const {
+  float branches_in(std::uint32_t use) const {
     constexpr float kUnlimited = 1e6f;
     return std::min(std::pow(growth, static_cast<float>(use)), kUnlimited);
   }

@@ -67,11 +67,11 @@ class VertexStream {
     const Vec2 u = stream_->get_2d({purpose, bounce_, shifted(branch)});
     return copy_ == 0 ? u : Vec2{on_circle(u.x, kPlasticRatio), on_circle(u.y, kPlasticSquare)};
   }
-  /// Returns the numbers of copy `index` of the current vertex, where a path splits. Copy 0 has the
-  /// numbers of this stream. Those of all copies together are evenly spread: they are moved on the
-  /// circle or on the torus by a sequence of low discrepancy, multiples of the golden ratio in one
-  /// dimension, and in two dimensions those of Roberts (2018, "The Unreasonable Effectiveness of
-  /// Quasirandom Sequences").
+  /// Returns the numbers of step or light sample `index` where a vertex has several. Copy 0 has the
+  /// numbers of this stream. Each other copy adds a point of a low-discrepancy sequence, modulo 1,
+  /// so the copies of each number are evenly spread. The sequence consists of the multiples of the
+  /// golden ratio in one dimension. In two dimensions it is the sequence R2 of Roberts (2018, "The
+  /// Unreasonable Effectiveness of Quasirandom Sequences").
   VertexStream copy(std::uint32_t index) const {
     VertexStream stream = *this;
     stream.copy_ = index;
