@@ -49,8 +49,8 @@ struct EstimatorRules {
   /// of each light sample where it takes `factor` light samples on average.
   static float branch_weight(float factor) { return 1 / factor; }
 
-  /// Returns the random numbers of step or light sample `copy` where a vertex has several. Copy 0 has
-  /// `numbers`.
+  /// Returns the random numbers of step or light sample `copy` where a vertex has several. Copy 0
+  /// has `numbers`.
   static VertexStream copy_numbers(const VertexStream& numbers, std::uint32_t copy) {
     return numbers.copy(copy);
   }
